@@ -1,0 +1,55 @@
+"""Draw the pictures of README.md anew: ``python .readme/make.py``."""
+
+import shutil
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+import graphcam as gc
+from graphcam.comparison.bench.report import QUICK
+from graphcam.main_job import write
+from graphcam.main_job.bench import bench
+
+HERE = Path(__file__).parent
+WIDTHS = {"coursework": 1800, "arm": 1200, "flat": 1200}
+"""The built-in tasks that are shown, and how wide [pixels]."""
+COLOURS = 32
+"""Lines in few colours on white: a palette keeps the pictures small."""
+
+
+def player_picture(page_file: Path) -> Image.Image:
+    """The step player in a browser: a step, and the mechanism as it turns."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1180, "height": 760}, reduced_motion="reduce")
+        page.goto(f"{page_file.as_uri()}#16")
+        shots = [page.screenshot()]
+        page.keyboard.press("m")
+        page.locator("#phi").fill("40")
+        page.locator("#phi").blur()
+        shots.append(page.screenshot())
+        browser.close()
+    both = Image.new("RGB", (2 * 1180 + 20, 760), "#8a94a0")
+    for k, shot in enumerate(shots):
+        both.paste(Image.open(BytesIO(shot)).convert("RGB"), (1200 * k, 0))
+    return both
+
+
+for name, width in WIDTHS.items():
+    with TemporaryDirectory() as folder:
+        files = write(gc.solve(gc.builtin_task(name)), folder)
+        with Image.open(Path(folder, str(files["png"]))) as sheet:
+            size = (width, round(width * sheet.height / sheet.width))
+            picture = sheet.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        if name == "coursework":
+            player = player_picture(Path(folder, str(files["player"])))
+            player.quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "player.png", optimize=True)
+    picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(HERE / f"{name}.png", optimize=True)
+
+with TemporaryDirectory() as folder:
+    bench(QUICK, folder)
+    with Image.open(Path(folder, "bench-time.png")) as figure:
+        figure.convert("RGB").quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "bench-time.png", optimize=True)

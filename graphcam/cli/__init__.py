@@ -1,0 +1,53 @@
+"""The command line: one module for each command."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+import graphcam
+from graphcam.cli.bench import bench
+from graphcam.cli.exercise import exercise
+from graphcam.cli.init import init
+from graphcam.cli.notebook import notebook
+from graphcam.cli.solve import solve
+from graphcam.cli.sweep import sweep
+
+app = typer.Typer(
+    name="graphcam", add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich"
+)
+
+
+def main() -> None:
+    """Run the command line."""
+    app(prog_name="graphcam")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"graphcam {graphcam.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Design a cam as on the drawing board: drawn step by step and to scale, and compared with exact values.
+
+    [bold]Examples[/bold]
+
+    graphcam solve   (the built-in coursework task, into graphcam-out)
+
+    graphcam init cam.toml   (a commented task file to change)
+
+    graphcam solve cam.toml --out cam
+    """
+
+
+for command in (solve, notebook, bench, sweep, init):
+    app.command()(command)
+app.add_typer(exercise)

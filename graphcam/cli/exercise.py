@@ -1,0 +1,137 @@
+"""``graphcam exercise``: the commands about exercises."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from graphcam.cli.exercise_export import export
+from graphcam.cli.exercise_grade import grade
+from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
+
+if TYPE_CHECKING:
+    from graphcam.exercises.simulate import Simulation
+
+exercise = typer.Typer(
+    name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
+)
+
+SECRET = b"simulation"
+"""Of the simulated course."""
+Name = Annotated[str, typer.Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
+
+
+@exercise.command("list")
+def list_exercises() -> None:
+    """List the exercises that come with graphcam."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from graphcam.exercises.exercise_file import find_exercise, library
+
+    table = Table("name", "title")
+    for column in ("answers", "marks", "mistakes told"):
+        table.add_column(column, justify="right")
+    with one_message():
+        for name in library():
+            found = find_exercise(name)
+            counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
+            table.add_row(name, found.title, *map(str, counts))
+    Console().print(table)
+
+
+@exercise.command()
+def simulate(
+    name: Name,
+    variants: Annotated[int, typer.Option(min=1, metavar="N", help="Variants that are drawn.")] = 5,
+    hands: Annotated[int, typer.Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON alone.")] = False,
+    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the JSON into a new file.")] = None,
+) -> None:
+    """Let simulated students do an exercise: careful ones, and some with every catalogued mistake.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise simulate pressure-angle
+
+    graphcam exercise simulate whole-cam --variants 20 --json
+    """
+    from graphcam.exercises.exercise_file import find_exercise
+    from graphcam.exercises.simulate import simulate as run
+    from graphcam.files import write_new
+
+    progress = progress_lines(quiet=as_json)
+    with one_message():
+        found = run(find_exercise(name), SECRET, variants, hands, lambda k, n: progress(f"variant {k} of {n}"))
+        text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
+        if out:
+            write_new(out, text + "\n")
+    if as_json:
+        typer.echo(text)
+    else:
+        _print_matrix(found)
+
+
+def _print_matrix(found: Simulation) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("mistake made", "named", title=f"{found.exercise}: what was named")
+    for column in ("hand-ins", "full marks", "named rightly"):
+        table.add_column(column, justify="right")
+    for name, row in found.rows.items():
+        most = sorted(row.named.items(), key=lambda pair: -pair[1])
+        named = ", ".join(f"{other} {count}" for other, count in most)
+        table.add_row(name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}")
+    console = Console()
+    console.print(table)
+    for what, value in (
+        (f"careful students who lose any point, of {found.careful}", f"{found.false_rejections:.2%}"),
+        ("careful students remarked on as too exact", str(found.too_exact)),
+        ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
+        ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
+        ("draws a variant", f"{found.draws:.1f}"),
+        ("hand-ins marked a second on one core", f"{found.marked_per_second:.0f}"),
+    ):
+        console.print(f"{what}: {value}")
+
+
+@exercise.command()
+def make(
+    name: Name,
+    roster: Annotated[
+        Path, typer.Option("--roster", metavar="CSV", help="The students: their ids in a column 'id', or the first.")
+    ],
+    secret_file: Annotated[
+        Path, typer.Option("--secret-file", metavar="F", help="The course's secret, any bytes, kept by you.")
+    ],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the papers.")] = (
+        DEFAULT_FOLDER / "exercise"
+    ),
+    language: Annotated[
+        str, typer.Option("--language", metavar="en|ru", help="Of the task files and of the feedback.")
+    ] = "en",
+    workers: Annotated[int, typer.Option("--workers", min=1, metavar="N", help="Processes that draw.")] = 1,
+) -> None:
+    """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise make pressure-angle --roster roster.csv --secret-file secret --out week-5
+    """
+    from graphcam.exercises.make import make as run
+
+    say = progress_lines(quiet=False)
+    with one_message():
+        count = run(
+            name, roster, secret_file, out, language=language, workers=workers,
+            step=lambda k, n: say(f"student {k} of {n}"),
+        )  # fmt: skip
+    typer.echo(f"{out}: {count} students, their papers in 'students', yours in 'teacher'")
+
+
+for command in (grade, export):
+    exercise.command()(command)

@@ -1,0 +1,47 @@
+"""``graphcam exercise export``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_bar
+from graphcam.exercises.exports.formats import Format
+
+DEFAULT_EXPORT = DEFAULT_FOLDER / "export"
+
+
+def export(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="An exercise, or the path of its file.")],
+    target: Annotated[Format, typer.Option("--format", help="The system that it is for.")],
+    count: Annotated[int, typer.Option("--count", min=1, max=1000, metavar="N", help="How many variants.")] = 1,
+    roster: Annotated[
+        Path | None, typer.Option("--roster", metavar="CSV", help="A variant for each of these students instead.")
+    ] = None,
+    secret_file: Annotated[
+        Path | None,
+        typer.Option("--secret-file", metavar="F", help="The course's secret; without it a new one is made."),
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="A new folder for the export.")] = DEFAULT_EXPORT,
+) -> None:
+    """Export variants of an exercise for Moodle, nbgrader or Gradescope.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise export whole-cam --format moodle --count 20 --out moodle
+
+    graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
+    """
+    from graphcam.exercises.course_folder import read_secret
+    from graphcam.exercises.exports.export import export as write
+    from graphcam.exercises.roster import read_roster
+
+    with one_message(), progress_bar("variants") as step:
+        secret = read_secret(secret_file) if secret_file else None
+        students = [f"variant-{k:0{len(str(count))}d}" for k in range(1, count + 1)]
+        if roster:
+            students = [student.id for student in read_roster(roster)]
+        write(name, target, students, out, secret, step)
+    typer.echo(f"{len(students)} variants of {name} for {target} in {out}")

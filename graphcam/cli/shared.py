@@ -1,0 +1,45 @@
+"""What the commands share: how they end on wrong input, and how they say what they are doing."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+
+from graphcam.errors import GraphcamError
+
+WRONG_INPUT = 2
+"""Exit status when the input is wrong."""
+DEFAULT_FOLDER = Path("graphcam-out")
+"""Where the files go if nothing is said."""
+
+
+@contextmanager
+def one_message() -> Generator[None]:
+    """Wrong input ends with one message and status 2."""
+    try:
+        yield
+    except (GraphcamError, OSError) as error:
+        typer.echo(f"graphcam: {error}", err=True)
+        raise typer.Exit(WRONG_INPUT) from None
+
+
+def progress_lines(*, quiet: bool) -> Callable[[str], None]:
+    """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
+    silent = quiet and not sys.stderr.isatty()
+    return lambda line: None if silent else typer.echo(f"{line} ...", err=True)
+
+
+@contextmanager
+def progress_bar(what: str) -> Generator[Callable[[int, int], None]]:
+    """A bar on standard error for somebody who sits before it; it hears how many of how many are done."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        bar = progress.add_task(what, total=None)
+        yield lambda done, total: progress.update(bar, completed=done, total=total)

@@ -1,0 +1,188 @@
+"""What a user would take instead: sampled integration, general optimisers, polygon buffers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import Dwell, Motion
+
+Lines = tuple[Floats, Floats]
+"""Normals (m, 2) and heights (m,) of half-planes: what keeps normals @ x >= heights is permitted."""
+TIGHT = 1e-15
+"""The tolerance that the optimiser is asked for."""
+
+
+def optional(name: str) -> Any | None:
+    """A module that may not be installed; None where it is not.
+
+    >>> optional("no_such_module") is None
+    True
+    """
+    try:
+        return import_module(name)
+    except ImportError:
+        return None
+
+
+# --- acceleration to displacement ------------------------------------------------------------------------------------
+
+
+def samples(motion: Motion, n: int) -> list[tuple[Floats, Floats]]:
+    """Every moving phase at the ends of n equal parts: cam angles [rad] and accelerations."""
+    u = np.linspace(0, 1, n + 1)
+    moving = [k for k, phase in enumerate(motion.phases) if not isinstance(phase, Dwell)]
+    return [(motion.angle_at(k, u), motion.at(k, u)[2]) for k in moving]
+
+
+def trapezoid(phi: Floats, a: Floats) -> Floats:
+    """Twice scipy's cumulative_trapezoid: s less its value at the start."""
+    from scipy.integrate import cumulative_trapezoid
+
+    return cumulative_trapezoid(cumulative_trapezoid(a, phi, initial=0), phi, initial=0)
+
+
+def simpson(phi: Floats, a: Floats) -> Floats:
+    """Twice scipy's cumulative_simpson."""
+    from scipy.integrate import cumulative_simpson
+
+    return cumulative_simpson(cumulative_simpson(a, x=phi, initial=0), x=phi, initial=0)
+
+
+def spline(phi: Floats, a: Floats) -> Floats:
+    """The second antiderivative of scipy's CubicSpline."""
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(phi, a).antiderivative(2)(phi)
+
+
+INTEGRATORS: Mapping[str, Callable[[Floats, Floats], Floats]] = {
+    "cumulative_trapezoid": trapezoid, "cumulative_simpson": simpson, "CubicSpline": spline,
+}  # fmt: skip
+
+
+def integrated_error(motion: Motion, n: int, method: Callable[[Floats, Floats], Floats]) -> float:
+    """The greatest error of s over all phases, relative to the lift."""
+    errors: list[float] = []
+    for k, (phi, a) in zip((0, 2), samples(motion, n), strict=True):
+        exact = motion.at(k, np.linspace(0, 1, n + 1))[0]
+        errors.append(float(np.abs(exact[0] + method(phi, a) - exact).max()) / motion.lift)
+    return max(errors)
+
+
+# --- least radius ----------------------------------------------------------------------------------------------------
+
+
+def translating_lines(motion: Motion, limit: float, n: int) -> Lines:
+    """The half-planes for (e', s0) of n stations in each of rise and return, and of the rest."""
+    u, slope = np.linspace(0, 1, n), math.tan(limit)
+    (s, v, _, _), (s_back, v_back, _, _) = motion.at(0, u), motion.at(2, u)
+    sides = np.repeat([1.0, -1.0, -1.0], [n, n, 1])
+    heights = np.concatenate([v - slope * s, np.abs(v_back) - slope * s_back, [0.0]])
+    return np.stack([sides, np.full(sides.size, slope)], axis=1), heights
+
+
+def arm_lines(motion: Motion, limit: float, arm: float, n: int) -> Lines:
+    """The half-planes for the cam centre, seen from the low trace point, of n stations of the rise; the arm is level.
+
+    Both sides of the limit count at every station; the cam turns counter-clockwise.
+    """
+    s, v, _, _ = motion.at(0, np.linspace(0, 1, n))
+    sides = np.array([[1.0], [-1.0]])
+    angles = sides * limit - s
+    normals = np.stack([sides * np.cos(angles), sides * np.sin(angles)], axis=-1)
+    heights = sides * arm * (v * math.cos(limit) - 2 * np.sin(s / 2) * np.sin(sides * limit - s / 2))
+    return normals.reshape(-1, 2), heights.ravel()
+
+
+def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
+    """The distance from the origin to the permitted region, by scipy's SLSQP with exact derivatives."""
+    from scipy.optimize import minimize
+
+    normals, heights = lines
+    size = math.hypot(*start)
+
+    def square(x: Floats) -> float:
+        """Of the distance from the origin."""
+        return float(x @ x)
+
+    def slope(x: Floats) -> Floats:
+        """The derivative of that square."""
+        return 2 * x
+
+    def room(x: Floats) -> Floats:
+        """How far inside every line."""
+        return normals @ x - heights / size
+
+    def room_slope(_: Floats) -> Floats:
+        """The derivative of that room."""
+        return normals
+
+    kept = {"type": "ineq", "fun": room, "jac": room_slope}
+    found = minimize(
+        square, np.array(start) / size, jac=slope, method="SLSQP", constraints=[kept],
+        options={"ftol": TIGHT, "maxiter": 200},
+    )  # fmt: skip
+    return size * float(np.hypot(*found.x))
+
+
+def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float, float]) -> float:
+    """The translating follower's least radius as one would first write it: SLSQP on (s0, e') and the pressure angles.
+
+    The angles at n stations of rise and return and at the rest keep the limit; SLSQP takes its derivatives by
+    differences.
+    """
+    from scipy.optimize import minimize
+
+    u = np.linspace(0, 1, n)
+    s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
+
+    size = math.hypot(*start)
+
+    def room(x: Floats) -> Floats:
+        """What the limit leaves at every station."""
+        alpha = np.arctan2(v - size * x[1], size * x[0] + s)
+        return np.concatenate([limit - alpha, limit + alpha])
+
+    def radius(x: Floats) -> float:
+        """The prime radius, in units of the start's."""
+        return float(np.hypot(x[0], x[1]))
+
+    found = minimize(
+        radius, np.array(start) / size, method="SLSQP", constraints=[{"type": "ineq", "fun": room}],
+        options={"ftol": TIGHT, "maxiter": 200},
+    )  # fmt: skip
+    return size * radius(found.x)
+
+
+def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
+    """The same by scipy's HalfspaceIntersection, boxed in, from a point inside the region."""
+    from scipy.spatial import ConvexHull, HalfspaceIntersection
+
+    normals, heights = lines
+    box = 4 * math.hypot(*inside)
+    walls = np.array([[1.0, 0, -box], [-1, 0, -box], [0, 1, -box], [0, -1, -box]])
+    region = HalfspaceIntersection(
+        np.vstack([np.column_stack([-normals, heights]), walls]), np.array(inside, dtype=np.float64)
+    )
+    corners = region.intersections
+    ends = corners[ConvexHull(corners).simplices]
+    start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
+    share = np.clip(-np.sum(start * along, axis=1) / np.sum(along * along, axis=1), 0, 1)
+    nearest = start + share[:, None] * along
+    return float(np.hypot(nearest[:, 0], nearest[:, 1]).min())
+
+
+# --- the roller's envelope -------------------------------------------------------------------------------------------
+
+
+def buffered(pitch: Floats, roller_radius: float) -> Floats:
+    """(k, 2) the corners of shapely's polygon of the pitch points, moved inwards by the roller radius [mm]."""
+    shapely: Any = import_module("shapely")
+    inner = shapely.Polygon(pitch).buffer(-roller_radius)
+    return np.asarray(inner.exterior.coords)[:-1]

@@ -1,0 +1,65 @@
+"""A sweep beside a loop over the cams, and how far the two are apart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.comparison.bench.timing import Timer
+from graphcam.mechanism.batch.designs import Designs
+from graphcam.mechanism.batch.quantities import QUANTITIES
+from graphcam.mechanism.batch.sweep import sweep
+
+STATIONS = 181
+"""Stations of one design, whose sines and cosines are the unit."""
+SWEPT = 1024
+"""Designs of one measurement, which is short enough to be left alone by other work once in a while."""
+LOOPED = 8
+"""Designs of the loop, in which every cam takes as long as the other."""
+LAWS = ("3-4-5", "cycloidal", "modified-trapezoidal")
+
+
+@dataclass(frozen=True)
+class SweepTime:
+    """One law's sweep: seconds a design, of it and of the loop, of 181 pairs; the greatest relative difference."""
+
+    law: str
+    seconds: float
+    looped: float
+    pairs: float
+    error: float
+
+
+def designs(law: str, n: int) -> Designs:
+    """Translating followers with random sizes, always the same.
+
+    >>> len(designs("3-4-5", 10))
+    10
+    """
+    random = np.random.default_rng(1)
+    return Designs(
+        lift=random.uniform(10, 40, n), rise_angle=random.uniform(1, 2.5, n), return_angle=random.uniform(1, 2, n),
+        dwell_angle=random.uniform(0, 1.2, n), prime_radius=random.uniform(40, 80, n),
+        offset=random.uniform(-20, 20, n), rise_law=law, return_law=law,
+    )  # fmt: skip
+
+
+def sweep_times(timer: Timer) -> list[SweepTime]:
+    """All quantities of a chunk of designs, by the law of rise and return."""
+    pairs = timer.pairs(STATIONS * LOOPED) / LOOPED
+    times: list[SweepTime] = []
+    for law in LAWS:
+        many = designs(law, SWEPT)
+        seconds = timer.seconds(lambda many=many: sweep(many)) / SWEPT
+        looped = timer.seconds(lambda many=many: [many.cam(k).extremes() for k in range(LOOPED)]) / LOOPED
+        times.append(SweepTime(law, seconds, looped, pairs, _error(many)))
+    return times
+
+
+def _error(many: Designs) -> float:
+    some = many.part(slice(0, LOOPED))
+    found = sweep(some, QUANTITIES[:3])
+    cams = [some.cam(k).extremes() for k in range(LOOPED)]
+    exact = [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in cams]
+    return float(np.abs(np.array([found[name] for name in QUANTITIES[:3]]).T / np.array(exact) - 1).max())

@@ -1,0 +1,51 @@
+"""Times as ratios: the unit is one sine plus one cosine, measured in the same run, so it holds on every machine."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+SHORTEST = 1e-4
+"""A run of less than this [s] is repeated within one measurement, so that the clock's own steps do not count."""
+
+
+@dataclass(frozen=True)
+class Timer:
+    """Measures work for about ``budget`` seconds each, and at least ``least_runs`` times."""
+
+    budget: float = 0.05
+    least_runs: int = 3
+
+    def seconds(self, work: Callable[[], object]) -> float:
+        """The least time of one run: what is longer was disturbed.
+
+        >>> Timer(0.0).seconds(lambda: None) > 0
+        True
+        """
+        repeats, best, spent, runs = 1, math.inf, 0.0, 0
+        while runs < self.least_runs or spent < self.budget:
+            taken = _run(work, repeats)
+            best = min(best, taken / repeats)
+            if taken < SHORTEST:
+                repeats *= 4
+                continue
+            spent += taken
+            runs += 1
+        return best
+
+    def pairs(self, n: int) -> float:
+        """The time [s] of n sines and n cosines: one SC(n)."""
+        x = np.linspace(0, 2 * np.pi, n, endpoint=False)
+        out = np.empty(n)
+        return self.seconds(lambda: (np.sin(x, out), np.cos(x, out)))
+
+
+def _run(work: Callable[[], object], repeats: int) -> float:
+    start = time.perf_counter()
+    for _ in range(repeats):
+        work()
+    return time.perf_counter() - start

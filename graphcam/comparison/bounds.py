@@ -1,0 +1,129 @@
+"""How far a drawn value may be off: by the number of parts, and by the hand.
+
+The number of parts: the same construction is drawn again with every part divided in two, three and five, and a value
+may be off by two and a half times the greatest change.  An error that falls as 1/n^p changes by at least (1 - 5^-p)
+of itself, so that covers it for every p from 1 on; several redrawings catch values whose error does not fall evenly,
+such as maxima.
+
+The hand: the same construction is drawn by many hands with the same pencil, and a value may be off by their bias and
+three standard deviations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.laws import Floats
+
+FINER = (2, 3, 5)
+"""Into how many parts every part is divided for the redrawings."""
+CHANGE_TO_ERROR = 2.5
+"""The bound is this many times the greatest change by a redrawing."""
+DEVIATIONS = 3.0
+"""A hand is granted so many standard deviations."""
+HANDS = 400
+"""How many hands draw for the scatter; its own relative error is 1/sqrt(2 HANDS), about 4 %."""
+ARITHMETIC = 1e-9
+"""What rounding of the arithmetic may move on the paper [mm]."""
+Rank = Callable[[Floats], Floats]
+"""Which of several candidates is taken: the one of highest rank."""
+
+
+class Redrawable(Protocol):
+    """Constructions by name that can be drawn again."""
+
+    @property
+    def pencil(self) -> Pencil:
+        """The hand that drew."""
+        ...
+
+    @property
+    def spans(self) -> tuple[slice, ...]:
+        """The stations of each phase among all stations."""
+        ...
+
+    def __getitem__(self, name: str, /) -> Construction: ...
+
+    def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> Redrawable:
+        """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Bounds:
+    """The bounds of the readings of one drawing, with its own pencil, at the sizes that were adopted."""
+
+    drawn: Redrawable
+
+    @cached_property
+    def perfect(self) -> Redrawable:
+        """The drawing by a hand without error."""
+        return self.drawn.redrawn()
+
+    @cached_property
+    def finer(self) -> list[Redrawable]:
+        """The redrawings with more parts, of the same cam."""
+        return [self.drawn.redrawn(refine=k) for k in FINER]
+
+    @cached_property
+    def hands(self) -> Redrawable | None:
+        """The drawing by many hands; None for a perfect pencil."""
+        pencil = self.drawn.pencil
+        if pencil.perfect:
+            return None
+        return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HANDS))
+
+    def of(self, construction: str, reading: str) -> float:
+        """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
+        return float(self._of(construction, reading)) / self._per_mm(construction, reading)
+
+    def of_choice(self, construction: str, reading: str, candidates: str, rank: Rank) -> float:
+        """The same for a reading that is the candidate of highest rank among several, read as ``candidates`` (..., k).
+
+        Where two candidates are closer than they may be off, the exact one may be the other.  A candidate that is
+        infinite is none.  NaN where a candidate cannot be read, or shows up in a finer redrawing only: how far it would
+        be off is unknown, and so is whether it is the one.
+        """
+        chosen = float(self.perfect[construction].value(reading))
+        values: Floats = np.atleast_1d(self.perfect[construction].value(candidates))
+        off = self._of(construction, candidates)
+        there = ~(np.isinf(values) & (off == 0))
+        values, off = values[there], off[there]
+        if not values.size or not np.isfinite([values, off]).all():
+            return float("nan")
+        possible = rank(values) + off >= np.max(rank(values) - off)
+        return float(np.max((np.abs(values - chosen) + off)[possible])) / self._per_mm(construction, reading)
+
+    def at_stations(self, construction: str, reading: str) -> Floats:
+        """How far a reading at each station may be off, (m,) in machine units."""
+        return self._of(construction, reading, stations=True)
+
+    def _per_mm(self, construction: str, reading: str) -> float:
+        return float(np.ravel(self.drawn[construction].readings[reading].scale)[0])
+
+    def _of(self, construction: str, reading: str, *, stations: bool = False) -> Floats:
+        """The bound in machine units, shaped like one drawing's reading; NaN where nothing finer is readable."""
+        here: Floats = np.asarray(self.perfect[construction].value(reading))
+        changes: list[Floats] = []
+        for k, drawing in zip(FINER, self.finer, strict=True):
+            finer = drawing[construction].value(reading)
+            if stations:  # a phase's stations stand k apart among its finer ones
+                finer = np.concatenate([finer[span][::k] for span in drawing.spans])
+            # Infinite in both is no change.
+            changes.append(np.abs(np.subtract(finer, here, out=np.zeros_like(here), where=finer != here)))
+        # fmax, because too fine parts may leave a reading unreadable: then the other redrawings speak.
+        change = CHANGE_TO_ERROR * np.fmax.reduce(changes)
+        bound = change + np.where(np.isinf(here), 0.0, ARITHMETIC * self._per_mm(construction, reading))
+        return bound if self.hands is None else bound + self._by_hand(self.hands, construction, reading, here)
+
+    @staticmethod
+    def _by_hand(hands: Redrawable, construction: str, reading: str, here: Floats) -> Floats:
+        values = np.ma.masked_invalid(hands[construction].readings[reading].value)  # unreadable for that hand
+        return np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATIONS * values.std(axis=0), np.nan)

@@ -1,0 +1,180 @@
+"""The acceleration diagram, drawn in a scale that is not yet known.
+
+The greatest ordinate of the first rise is chosen.  The lift of a phase goes as y F^2/C, so for the displacement to come
+back to the axis every other ordinate must be y = y1 (C h/F^2)/(C1 h1/F1^2).  Which acceleration a millimetre means is
+known only after two integrations, when the known lift fixes the scale.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from graphcam.constructions.axes import numbers, phase_ends, phase_title, phi_axes
+from graphcam.constructions.law_names import law_name
+from graphcam.constructions.views import ACCELERATION
+from graphcam.drafting.euclid import UP, divided
+from graphcam.drafting.ink import Construction, Dimension, Dots, Line, Points, Role, Segments, Step, reading, say
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import FULL_TURN, Motion, Moving
+from graphcam.given.stations import Stations
+from graphcam.words import Caption, joined, sequence
+
+
+def acceleration_diagram(
+    motion: Motion, stations: Stations, ordinate: float, mu_phi: Scale, unit: str, pencil: Pencil
+) -> Construction:
+    """Lay off the cam angle, choose the ordinate of the first rise, compute the others, plot the middle ordinates.
+
+    motion, stations : the phases and how they are divided
+    ordinate : greatest ordinate of the first rise [mm of paper]
+    mu_phi : scale of the cam angle [rad/mm]
+    unit : of the lift
+
+    Readings, all in mm of paper: ``greatest`` ordinate of each moving phase, ordinates at the ``stations`` (``before``:
+    on the near side of a jump) and at the ``middles`` of the parts, and the ``base``, the length of the axis.
+    Points: the stations on the ``axis``.
+    """
+    phases = moving_phases(motion, stations)
+    steepness = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
+    first_rise = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+    greatest = ordinate * steepness / steepness[first_rise]
+
+    # On the paper the phases are laid off, and each of their stretches is divided into equal parts.
+    axis = np.empty(stations.u.size)
+    for stretch in stations.stretches:
+        start, end = stations.phi[[stretch.start, stretch.stop - 1]] / mu_phi.per_mm + 0j
+        axis[stretch] = divided(start, end, stretch.stop - stretch.start - 1).real
+    u = stations.u
+    middle = (u[stations.left] + u[stations.left + 1]) / 2
+    at_stations = [y * _shape(p, u[s]) for p, y, s in zip(phases, greatest, stations.phases, strict=True)]
+    before = [y * _shape(p, u[s], "left") for p, y, s in zip(phases, greatest, stations.phases, strict=True)]
+    at_middles = [y * _shape(p, middle[s]) for p, y, s in zip(phases, greatest, stations.parts, strict=True)]
+    return Construction(
+        "acceleration",
+        {
+            "motion": motion, "stations": stations, "ordinate": ordinate, "mu_phi": mu_phi, "unit": unit,
+            "pencil": pencil,
+        },
+        {
+            "greatest": reading(pencil.sheets(greatest), 1.0, "mm of paper"),
+            "stations": reading(pencil.sheets(np.concatenate(at_stations)), 1.0, "mm of paper"),
+            "before": reading(pencil.sheets(np.concatenate(before)), 1.0, "mm of paper"),
+            "middles": reading(pencil.sheets(np.concatenate(at_middles)), 1.0, "mm of paper"),
+            "base": reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad"),
+        },
+        {"axis": pencil.sheets(axis + 0j)},
+        _draw,
+    )  # fmt: skip
+
+
+def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:
+    """The rises and returns that the stations divide, in order."""
+    phases = [motion.phases[k] for k in stations.phase[stations.last]]
+    return [phase for phase in phases if isinstance(phase, Moving)]
+
+
+def equal_parts(stations: Stations) -> Caption:
+    """Which parts are equal to one another."""
+    if stations.stretches == stations.pieces:
+        return say("equal between jumps of the acceleration")
+    return say("equal between jumps and corners of the acceleration")
+
+
+def _shape(phase: Moving, u: Floats, side: Side = "right") -> Floats:
+    """The given ordinates of a law as fractions of its greatest; a return begins downwards."""
+    return phase.direction * phase.normalised(u, side=side)[2] / phase.normalised.peak_acceleration
+
+
+def _draw(diagram: Construction) -> list[Step]:
+    motion, stations, mu_phi = (diagram.givens[name] for name in ("motion", "stations", "mu_phi"))
+    phases, greatest = moving_phases(motion, stations), diagram.first("greatest")
+    x = diagram.first("axis").real
+    middle_x, middle_y = (x[stations.left] + x[stations.left + 1]) / 2, diagram.first("middles")
+    curves = [
+        _curve(p, y, x[s.start], x[s.stop - 1]) for p, y, s in zip(phases, greatest, stations.phases, strict=True)
+    ]
+    heights = np.concatenate([line.imag for line in curves])
+    ends = phase_ends(motion, mu_phi)
+    axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
+    middles = (
+        Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),
+        Dots(middle_x + UP * middle_y, Role.CONSTRUCTION),
+        Segments(x - UP, x + UP, Role.SCALE),
+        *numbers(x + 0j, stations, -UP),
+    )
+    chosen = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+    return [
+        Step(
+            say("Axis of the cam angle"),
+            say(
+                "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
+                "The phases end at {ends} mm.",
+                length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm,
+                ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]),
+            ),
+            ACCELERATION,
+            axes,
+            given=axes,
+            reads=("base",),
+        ),
+        Step(
+            say("Ordinates of the phases"),
+            say(
+                "The greatest ordinate of the first rise is chosen, {ordinate:.1f} mm, in a scale that is not yet "
+                "known. So that the displacement comes back to the axis, the others follow from y = "
+                "y₁·(C·h/φ²)/(C₁·h₁/φ₁²): {greatest} mm.",
+                ordinate=greatest[chosen], greatest=sequence([say("{y:.1f}", y=y) for y in greatest]),
+            ),
+            ACCELERATION,
+            tuple(_ordinate(line, y) for line, y in zip(curves, greatest, strict=True)),
+            reads=("greatest",),
+        ),
+        Step(
+            say("Acceleration by the law"),
+            say(
+                "In each moving phase the acceleration is plotted by its law: {laws}.",
+                laws=sequence([
+                    say("{phase} {law}", phase=phase_title(motion, k), law=law_name(motion.phases[k].normalised))
+                    for k in stations.phase[stations.last].tolist()
+                ]),
+            ),
+            ACCELERATION,
+            tuple(Line(line, Role.RESULT) for line in curves),
+        ),
+        Step(
+            say("Middle ordinates"),
+            say(
+                "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle "
+                "of each part; the third of them measures {third:.1f} mm.",
+                parts=joined([f"{s.stop - s.start}" for s in stations.parts]), equal=equal_parts(stations),
+                third=middle_y[min(2, middle_y.size - 1)],
+            ),
+            ACCELERATION,
+            middles,
+            given=middles,
+            reads=("middles",),
+        ),
+    ]  # fmt: skip
+
+
+def _curve(phase: Moving, greatest: float, start: float, end: float) -> Points:
+    """The law over its phase on the paper, from the axis and back to it, upright where the acceleration jumps."""
+    cuts = (0.0, *phase.normalised.jumps, 1.0)
+    ordinates: list[Points] = []
+    for first, last in pairwise(cuts):
+        u = np.linspace(first, last, 97)
+        height = phase.normalised(u)[2]
+        height[-1] = phase.normalised(u[-1], side="left")[2]
+        scaled = greatest * phase.direction * height / phase.normalised.peak_acceleration
+        ordinates.append(start + (end - start) * u + UP * scaled)
+    return np.concatenate([[start + 0j], *ordinates, [end + 0j]])
+
+
+def _ordinate(line: Points, greatest: float) -> Dimension:
+    """The dimension of a phase's greatest ordinate, beside the curve."""
+    top = line[int(np.argmax(np.abs(line.imag)))]
+    return Dimension(complex(top.real), complex(top), say("{y:.1f}", y=greatest), aside=-4.0 if top.imag > 0 else 4.0)

@@ -1,0 +1,97 @@
+"""The constructions of a cam of three arcs one after another, each fed by the readings of those before it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from graphcam.constructions.arc_diagrams import arc_diagrams
+from graphcam.constructions.arc_roller import ArcStations, arc_roller, divide_arcs
+from graphcam.constructions.arcs import three_arcs
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.given.three_arcs import ThreeArcs
+
+NAMES = ("three_arcs", "arc_roller", "arc_diagrams")
+
+
+@dataclass(frozen=True)
+class ArcBoard:
+    """The task, and the draughtsman's choices.
+
+    dwell : angle [rad] for which the outer circle holds the follower up
+    roller_radius : mm
+    divisions : equal parts of each arc
+    mu_phi : rad/mm
+    room : width and height of paper that the cam may take [mm]
+    """
+
+    given: ThreeArcs
+    dwell: float
+    roller_radius: float
+    divisions: int
+    mu_phi: Scale
+    room: tuple[float, float]
+
+    @property
+    def mu_l(self) -> Scale:
+        """The largest standard scale at which the cam and the roller, and C2 if it is given, fit into their room."""
+        outer = math.hypot(*self.given.D) + 2 * self.roller_radius
+        below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))
+        return standard_scale(outer + below, min(self.room))
+
+
+@dataclass(frozen=True, eq=False)
+class ArcChain(Mapping[str, Construction]):
+    """All constructions of one cam of three arcs by name, in the order in which they are drawn.
+
+    pencil : the hand that draws
+    """
+
+    board: ArcBoard
+    pencil: Pencil = field(default_factory=Pencil)
+
+    def __getitem__(self, name: str) -> Construction:
+        if name not in NAMES:
+            raise KeyError(name)
+        return getattr(self, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+    def __len__(self) -> int:
+        return len(NAMES)
+
+    @cached_property
+    def stations(self) -> ArcStations:
+        """The parts of the arcs."""
+        return divide_arcs(self.board.divisions)
+
+    @cached_property
+    def three_arcs(self) -> Construction:
+        """Centres and points of touching."""
+        board = self.board
+        return three_arcs(board.given, board.dwell, board.mu_l, self.pencil)
+
+    @cached_property
+    def arc_roller(self) -> Construction:
+        """Lift, velocity and acceleration at the stations."""
+        return arc_roller(self.three_arcs, self.board.roller_radius, self.stations, self.pencil)
+
+    @cached_property
+    def arc_diagrams(self) -> Construction:
+        """The same over the cam angle, and the greatest values."""
+        return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil)
+
+    @property
+    def spans(self) -> tuple[slice, ...]:
+        """The stations of each arc among all stations."""
+        return self.stations.spans
+
+    def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> ArcChain:
+        """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
+        board = replace(self.board, divisions=refine * self.board.divisions)
+        return replace(self, board=board, pencil=pencil or Pencil())

@@ -1,0 +1,290 @@
+"""A roller on a cam of arcs: lift, velocity and acceleration at stations, with ruler and compass and without an error.
+
+The roller's centre B keeps to an arc grown by the roller's radius, so the follower moves as the piston of a crank drive
+whose crank is O C, from the cam centre to the arc's centre, and whose rod is C B.  The rod meets the perpendicular to
+the follower's line through O in K, and OK is the velocity ds/dphi, as in every velocity plan.  CN = CK^2/CB on the rod,
+by the theorem of the height in a right triangle, is the rod's normal acceleration; the perpendicular to the rod in N
+meets the follower's line in M, and MO is the acceleration d^2s/dphi^2 (after Klein, who found N by two circles).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.arcs import mirrored, outline, run
+from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, turned, unit
+from graphcam.drafting.ink import (
+    Circle,
+    Construction,
+    Dots,
+    Label,
+    Line,
+    Points,
+    Role,
+    Segments,
+    Step,
+    View,
+    Words,
+    reading,
+    say,
+)  # fmt: skip
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import ratio_text, standard_scale
+from graphcam.given.laws import Floats
+from graphcam.words import joined
+
+ROLLER = View("roller", say("The roller on the arcs"), across="roller x", up="roller y")
+PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
+CENTRE = np.zeros((), dtype=complex)
+ARCS = ("AG", "GF", "FD")
+"""The arcs of the rise, in order."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArcStations:
+    """The ends of equal parts of the three arcs of a rise, both ends of each arc included.
+
+    arc : (m,) which arc;  u : (m,) fraction of its angle;  spans : slice of the stations of each arc
+    """
+
+    arc: NDArray[np.intp]
+    u: Floats
+    spans: tuple[slice, ...]
+
+    @property
+    def names(self) -> list[str]:
+        """0, 1, 2 ... through the rise; where two arcs meet, the first one's end and the second one's start are one."""
+        return [str(k - arc) for k, arc in enumerate(self.arc.tolist())]
+
+
+def divide_arcs(parts: int) -> ArcStations:
+    """Each arc divided into so many equal parts.
+
+    >>> divide_arcs(2).names
+    ['0', '1', '2', '2', '3', '4', '4', '5', '6']
+    """
+    count = parts + 1
+    spans = tuple(slice(k * count, (k + 1) * count) for k in range(3))
+    return ArcStations(np.repeat(np.arange(3), count), np.tile(np.arange(count) / parts, 3), spans)
+
+
+def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, pencil: Pencil) -> Construction:
+    """Put the roller on the arcs at every station of the rise, and find s, v and a there.
+
+    arcs : from :func:`~graphcam.constructions.arcs.three_arcs`
+    roller_radius : mm
+
+    Readings: ``s``, ``v``, ``a`` [mm, per radian] and ``alpha`` [rad] at the stations, ``phi`` there [rad], ``x`` and
+    ``y`` of the roller's centre [mm]; the cam angles ``edges`` (..., 4) [rad] where the arcs begin and the last one
+    ends, and alone ``rise``, ``phi_G`` and ``phi_F``; the ``lift``, the ``prime_radius``, the ``roller_radius`` and
+    the least radius of curvature ``rho`` of the roller's path [mm]; the accelerations on both sides of the joints,
+    ``a_A``, ``a_G_before``, ``a_G_after``, ``a_F_before``, ``a_F_after`` and ``a_D``.
+    Points: ``B``, ``C`` the centre of its arc, ``K``, ``right`` the corner of the right angle, ``beyond`` where it cuts
+    off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
+    """
+    hand, count = pencil.hand("arc_roller"), stations.u.size
+    mu_l = arcs.givens["mu_l"].per_mm
+    touch, centres = _stacked(arcs, "AGFD"), _stacked(arcs, ("C2", "C2", "C3", "C1"))
+    # The roller's centre lies on the line of centres through each joint.
+    trace = touch + unit(touch - centres) * (roller_radius / mu_l + hand.dividers(4))
+    sigma = -np.sign(cross(touch[..., 0], touch[..., 3]))[..., None]
+    edges = sigma * np.angle(trace[..., :1] * np.conj(trace))
+    edges[..., 1:] += hand.protractor(3)
+    arc, u = stations.arc, stations.u
+    phi = edges[..., arc] + (edges[..., arc + 1] - edges[..., arc]) * u
+    ray = turned(unit(trace[..., :1]), -sigma * phi + hand.protractor(count))
+    # Each arc passes through the joint at which it begins, the last one ends on the outer circle.
+    c = _stacked(arcs, ("C2", "C3", "C1"))[..., arc]
+    b = along_to_circle(CENTRE, ray, c, np.abs(trace[..., [0, 1, 3]][..., arc] - c)) + hand.point(count)
+    s = np.abs(b) - np.abs(trace[..., :1]) + hand.dividers(count)
+    k = meet(b, c - b, CENTRE, UP * ray)
+    rod = unit(b - c)
+    right = c + UP * rod * (np.abs(k - c) + hand.dividers(count))
+    beyond = meet(right, UP * (b - right), b, rod)
+    n = c + rod * (np.abs(beyond - c) + hand.dividers(count))
+    m = meet(n, UP * rod, CENTRE, ray)
+    v = dot(k, -1j * sigma * ray) + hand.dividers(count)
+    a = -dot(m, ray) + hand.dividers(count)
+    alpha = sigma * np.angle(rod * np.conj(ray)) + hand.protractor(count)
+    joints = {"a_A": (0, 0), "a_G_before": (0, -1), "a_G_after": (1, 0), "a_F_before": (1, -1), "a_F_after": (2, 0),
+              "a_D": (2, -1)}  # fmt: skip
+    of_arc = [hand.read(a[..., span]) for span in stations.spans]
+    readings = {
+        "s": reading(hand.read(s), mu_l, "mm"),
+        "v": reading(hand.read(v), mu_l, "mm/rad"),
+        "a": reading(hand.read(a), mu_l, "mm/rad²"),
+        "alpha": reading(alpha, 1.0, "rad"),
+        "phi": reading(phi, 1.0, "rad"),
+        "x": reading(hand.read(b.real), mu_l, "mm"),
+        "y": reading(hand.read(b.imag), mu_l, "mm"),
+        "edges": reading(edges, 1.0, "rad"),
+        "lift": reading(hand.read(s[..., -1]), mu_l, "mm"),
+        "prime_radius": reading(hand.read(np.abs(trace[..., 0])), mu_l, "mm"),
+        "roller_radius": reading(hand.read(np.abs(trace - touch)[..., 3]), mu_l, "mm"),
+        "rho": reading(hand.read(np.minimum(np.abs(trace[..., 3] - c[..., -1]), np.abs(trace[..., 0]))), mu_l, "mm"),
+        **{name: reading(edges[..., k], 1.0, "rad") for k, name in enumerate(("phi_G", "phi_F", "rise"), 1)},
+        **{name: reading(of_arc[arc][..., end], mu_l, "mm/rad²") for name, (arc, end) in joints.items()},
+    }
+    points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace, "ray": ray}
+    givens = {"arcs": arcs, "roller_radius": roller_radius, "stations": stations, "pencil": pencil}
+    return Construction("arc_roller", givens, readings, points, _draw)
+
+
+def _stacked(arcs: Construction, names: Iterable[str]) -> Points:
+    """Points side by side, (..., k)."""
+    return np.stack([arcs.points[name] for name in names], axis=-1)
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+SHOWN = 2, 0.5
+"""The plan is drawn for the station in the middle of the arc FD."""
+PLAN_SIZE = 190.0
+"""The plan is drawn at the largest standard scale at which it is not larger [mm]."""
+BEYOND = 7.0
+"""How far the rays run on beyond the roller's centre [mm]."""
+
+
+def _draw(rolled: Construction) -> list[Step]:
+    if np.isnan(rolled.first("trace")).any():
+        said = say(
+            "Without a readable centre of every arc, {missing}, the roller has no path.",
+            missing=_missing(rolled),
+        )
+        return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
+    arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
+    mu_l, roller = arcs.givens["mu_l"], rolled.givens["roller_radius"]
+    b, ray, trace = (rolled.first(name) for name in ("B", "ray", "trace"))
+    edges = np.degrees(rolled.first("edges"))
+    reach = float(np.abs(trace[-1])) + BEYOND
+    follows = say("The roller's centre") if roller else say("The knife edge")
+    middle = [span.start + stations.u.size // 6 for span in stations.spans]
+    rollers = [Circle(complex(at), roller / mu_l.per_mm, Role.CONSTRUCTION) for at in b[middle]] if roller else []
+    return [
+        Step(
+            say("The arcs of the roller's centre"),
+            say(
+                "{follows} keeps to arcs about the same centres, with radii greater by r = {roller:g} mm; they meet on "
+                "the lines of centres. The cam angles, measured at O from OA, are {g:.3f}° at G, {f:.3f}° at F and "
+                "{d:.3f}° at D, where the rise ends.",
+                follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3],
+            ),
+            ROLLER,
+            (
+                *outline(arcs, 0.0, Role.RESULT),
+                *(outline(arcs, roller / mu_l.per_mm, Role.CURVE) if roller else ()),
+                Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS),
+                *(
+                    Label(complex(arcs.first(name)), name, towards=-complex(at))
+                    for name, at in zip("AGFD", trace, strict=True)
+                ),
+                Dots(np.array([0j])),
+                Label(0j, "O", towards=-1 - 1j),
+            ),
+            reads=("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho"),
+        ),
+        Step(
+            say("Stations"),
+            say(
+                "The angle of each arc is divided into {parts} equal parts, and a ray is drawn from O for each; it "
+                "meets the arc in the roller's centre B. What B is farther from O than at A is the displacement, "
+                "{lift:.2f} mm of paper at the end; the return is the mirror image.",
+                parts=len(stations.u) // 3 - 1, lift=float(rolled.first("lift")),
+            ),
+            ROLLER,
+            (
+                Segments(0 * ray, reach * ray, Role.CONSTRUCTION),
+                Dots(b, Role.CONSTRUCTION),
+                Dots(mirrored(arcs, b), Role.CONSTRUCTION),
+                *rollers,
+                *(
+                    Label(complex(at) * reach, name, towards=complex(at), small=True)
+                    for name, at in dict(zip(stations.names, ray, strict=True)).items()
+                ),
+            ),
+            reads=("lift", "s", "alpha", "x", "y"),
+        ),
+        *_plan(rolled),
+    ]  # fmt: skip
+
+
+def _missing(rolled: Construction) -> Words:
+    arcs = rolled.givens["arcs"]
+    return joined([name for name in ("C1", "C2", "C3") if np.isnan(arcs.first(name))])
+
+
+def _plan(rolled: Construction) -> list[Step]:
+    """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
+    arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
+    on, share = SHOWN
+    at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
+    mu_l, sigma = arcs.givens["mu_l"], run(arcs)
+    upright = UP / rolled.first("ray")[at]
+    names = ("B", "C", "K", "right", "beyond", "N", "M")
+    points = {name: complex(rolled.first(name)[at] * upright) * mu_l.per_mm for name in names}
+    if np.isnan(list(points.values())).any():
+        said = say(
+            "At station {name} a line cannot be read: it crosses another at less than a degree.",
+            name=stations.names[at],
+        )
+        return [Step(say("Velocity and acceleration"), said, PLAN, ())]
+    everything = [0j, *points.values()]
+    size = max(max(side) - min(side) for side in ([z.real for z in everything], [z.imag for z in everything]))
+    scale = standard_scale(size, PLAN_SIZE)
+    p = {name: point / scale.per_mm for name, point in points.items()}
+    v, a = (float(rolled.value(name)[at]) for name in "va")
+    centre = ("C2", "C3", "C1")[on]
+    axis = np.array([min(0.0, p["M"].imag, p["C"].imag) - BEYOND, p["B"].imag + BEYOND]) * UP
+    side = -sigma * 1.0
+    return [
+        Step(
+            say("Velocity at station {name}", name=stations.names[at]),
+            say(
+                "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets "
+                "the perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, "
+                "v = {v:.3f} mm/rad.",
+                name=stations.names[at], arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm),
+                paper=abs(p["K"]), v=v,
+            ),
+            PLAN,
+            (
+                Line(axis, Role.AXIS),
+                Line(np.array([p["B"], p["C"]]), Role.CURVE),
+                Line(np.array([0j, p["K"]]), Role.RESULT),
+                Line(np.array([p["B"], p["K"]]), Role.CURVE),
+                Dots(np.array([0j, p["B"], p["C"], p["K"]])),
+                Label(0j, "O", towards=-side - 1j),
+                Label(p["B"], "B", towards=side + 0j),
+                Label(p["C"], centre, towards=-side - 1j),
+                Label(p["K"], "K", towards=side + 0j),
+            ),
+        ),
+        Step(
+            say("Acceleration at station {name}", name=stations.names[at]),
+            say(
+                "{centre}K is erected on the rod in {centre}, and at its end a right angle to B: it cuts off "
+                "{centre}N′ = {centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular "
+                "to the rod in N meets the follower's line in M, and OM = {paper:.2f} mm is the acceleration, "
+                "a = {a:.3f} mm/rad²; {sense}",
+                name=stations.names[at], centre=centre, paper=abs(p["M"]), a=a,
+                sense=say("it is directed away from the cam centre: M lies beyond O.") if a > 0
+                else say("it is directed towards the cam centre: M lies on the side of B."),
+            ),
+            PLAN,
+            (
+                Line(np.array([p["C"], p["right"], p["B"]]), Role.CONSTRUCTION),
+                Line(np.array([p["right"], p["beyond"], p["C"]]), Role.CONSTRUCTION),
+                Line(np.array([p["N"], p["M"]]), Role.CONSTRUCTION),
+                Line(np.array([0j, p["M"]]), Role.RESULT),
+                Dots(np.array([p["right"], p["beyond"], p["N"], p["M"]])),
+                Label(p["beyond"], "N′", towards=-side + 0j),
+                Label(p["N"], "N", towards=side + 0j),
+                Label(p["M"], "M", towards=-side + 0j),
+            ),
+            reads=("v", "a", "a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D"),
+        ),
+    ]  # fmt: skip

@@ -1,0 +1,129 @@
+"""The pressure angle of an oscillating follower, from the velocity plan and at every arm position.
+
+v2 = l omega ds/dphi is square to the arm, so the plan v2 = v1 + v21 (follower, cam, follower on cam) turned by 90
+degrees has v2 along the arm: l v is laid off from B along the arm to D, outward when cam and arm turn in opposite
+senses on the rise, towards the pivot when in the same sense.  The angle of D A with the arm's normal is the pressure
+angle.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphcam.constructions.arm_minimum_radius import ARM_ON_PAPER, arm_positions
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
+from graphcam.constructions.views import PLAN, at_scale
+from graphcam.drafting.euclid import UP, circles_meet, unit
+from graphcam.drafting.ink import Construction, Dots, Label, Line, Role, Step, reading, say
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import ratio_text, standard_scale
+from graphcam.given.follower import Rotation, sense
+
+
+def arm_pressure_angle(
+    integrated: Construction, rotation: Rotation, prime_radius: float, arm: float, distance: float, pencil: Pencil
+) -> Construction:
+    """Measure the pressure angle at every station.
+
+    integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
+    prime_radius, arm, distance : of the cam centre A from the start of the lift and from the pivot [mm]
+
+    Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
+    start of the lift [rad].
+    """
+    hand, mu_l = pencil.hand("pressure_angle"), standard_scale(arm, ARM_ON_PAPER)
+    sigma, count = sense(rotation), integrated.givens["stations"].u.size
+    positions = arm_positions(integrated, arm, mu_l, hand)
+    # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
+    start = np.asarray(-arm / mu_l.per_mm + 0j)
+    centre = circles_meet(np.asarray(0j), distance / mu_l.per_mm, start, prime_radius / mu_l.per_mm)
+    tips = positions.tips(sigma)
+    seen = (centre - tips) / unit(positions.ends)  # along the arm outwards, and square to it
+    alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
+    psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
+    return Construction(
+        "pressure_angle",
+        {
+            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm,
+            "distance": distance, "mu_l": mu_l, "pencil": pencil,
+        },
+        {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},
+        {"ends": positions.ends, "tips": tips, "centre": pencil.sheets(centre)},
+        _draw,
+    )  # fmt: skip
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+PLAN_ARM = 70.0
+"""The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
+
+
+def _draw(measured: Construction) -> list[Step]:
+    k, sigma, arm = shown_station(measured), sense(measured.givens["rotation"]), measured.givens["arm"]
+    scale = standard_scale(arm, PLAN_ARM)
+    plan = at_scale(PLAN, scale)
+    shrink = measured.givens["mu_l"].per_mm / scale.per_mm
+    alpha = float(measured.first("alpha")[k])
+    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
+    name = station_names(measured.givens["integrated"].givens["stations"])[k]
+    # Turned so that the line of centres is level, with the cam centre at the origin.
+    a = complex(measured.first("centre"))
+    b, d, c = (
+        (place - a) * -abs(a) / a * shrink for place in (measured.first("ends")[k], measured.first("tips")[k], 0j)
+    )
+    b, d, c = complex(b), complex(d), complex(c)
+    v = (d - b) * sigma  # l v along the arm, outwards
+    normal = UP * (b - c) / abs(b - c)  # square to the arm, towards the cam
+    across, along = sigma * UP * b, -UP * v
+    pole = complex(c.real + abs(across) * 0.6 + 12.0, 0.0)
+    return [
+        Step(
+            say("Velocity plan at station {name}", name=name),
+            say(
+                "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the "
+                "follower has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with "
+                "{closing:.1f} mm.",
+                across=abs(across), along=abs(along), closing=abs(along - across),
+            ),
+            plan,
+            velocity_plan(pole, across, along),
+        ),
+        Step(
+            say("The segment along the arm"),
+            say(
+                "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at "
+                "{ratio} the segment l·ds/dφ = {length:.2f} mm.",
+                paper=abs(v), ratio=ratio_text(scale.per_mm), length=abs(v) * scale.per_mm,
+                side=say("away from the pivot") if abs(d - c) >= abs(b - c) else say("towards the pivot"),
+            ),
+            plan,
+            (
+                Line(np.array([0j, c]), Role.AXIS),
+                Line(np.array([c, b]), Role.CURVE),
+                Line(np.array([b, d]), Role.RESULT),
+                Line(np.array([0j, b]), Role.CONSTRUCTION),
+                Dots(np.array([0j, b, c, d])),
+                Label(0j, "A", towards=-1 - 1j),
+                Label(b, "B", towards=1 + 1j),
+                Label(c, "C", towards=1 - 1j),
+                Label(d, "D", towards=-1 + 1j),
+            ),
+        ),
+        Step(
+            say("The pressure angle"),
+            say(
+                "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and "
+                "the transmission angle {transmission:.2f}°. Both are measured in every position of the arm.",
+                name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)),
+            ),
+            plan,
+            (
+                Line(np.array([d, 0j]), Role.LIMIT),
+                Line(np.array([d, d + 0.7 * abs(d) * normal]), Role.CONSTRUCTION),
+                angle_at(d, np.angle(normal), np.angle(-d), 0.6 * abs(d), shown),
+            ),
+            reads=("psi0", "alpha", "transmission"),
+        ),
+    ]  # fmt: skip

@@ -1,0 +1,177 @@
+"""What every diagram over the cam angle has: its axes, the phases' limits and the stations' names."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphcam.drafting.euclid import UP
+from graphcam.drafting.ink import Arrow, Caption, Label, Mark, Points, Role, Segments, say
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import Rotation
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.stations import Stations
+from graphcam.words import say_in
+
+OVERHANG = 8.0
+"""How far an axis runs on beyond what is drawn [mm]."""
+NUMBER_ROOM = 4.5
+"""Stations are named that stand at least so far apart [mm of paper]."""
+EVERY = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
+"""Every how many stations may be named."""
+SAME_LEVEL = 1e-6
+"""Levels that differ by less than this part of the lift are one."""
+SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def turning(rotation: Rotation) -> Caption:
+    """A sense of rotation in words.
+
+    >>> str(turning("cw"))
+    'clockwise'
+    """
+    return say("clockwise") if rotation == "cw" else say("counter-clockwise")
+
+
+def station_names(stations: Stations) -> list[str]:
+    """The stations' names: 0, 1, 2 ... in the first moving phase, 0′, 1′ ... in the second, and so on.
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Rise, Return
+    >>> from graphcam.given.stations import divide
+    >>> station_names(divide(Motion([Rise(30, pi), Return(30, pi)]), 2))
+    ['0', '1', '2', '0′', '1′', '2′']
+    """
+    return [f"{k}" + "′" * phase for phase, span in enumerate(stations.phases) for k in range(span.stop - span.start)]
+
+
+SYMBOLS = {
+    "rise": say_in("angle of a rise", "φ{number.index}"),
+    "return": say_in("angle of a return", "φ{number.index}"),
+    "upper dwell": say_in("angle of the dwell at the top", "φ{number.index}"),
+    "lower dwell": say_in("angle of the dwell at the bottom", "φ{number.index}"),
+    "dwell": say_in("angle of a dwell between", "φ{number.index}"),
+}
+PHASES = {
+    "rise": say("rise {symbol}"),
+    "return": say("return {symbol}"),
+    "upper dwell": say_in("at the top", "dwell {symbol}"),
+    "lower dwell": say_in("at the bottom", "dwell {symbol}"),
+    "dwell": say_in("between", "dwell {symbol}"),
+}
+"""Names of phases and symbols of their angles, by kind and, of a dwell, by where it rests."""
+
+
+@dataclass(frozen=True)
+class PhaseNumber:
+    """How a phase is counted, as subscripts: among all phases, and among those of its kind if there are several."""
+
+    index: str
+    again: str
+
+
+def phase_symbol(motion: Motion, k: int) -> Caption:
+    """The symbol of the angle of phase ``k``; schools name it by its number or by its kind.
+
+    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> str(phase_symbol(Motion([Rise(30, 2.0), Dwell(1.0), Return(30, 2.0), Dwell(FULL_TURN - 5.0)]), 3))
+    'φ₄'
+    """
+    kinds = [_kind(motion, i) for i in range(len(motion.phases))]
+    again = f"{kinds[: k + 1].count(kinds[k])}" if kinds.count(kinds[k]) > 1 else ""
+    number = PhaseNumber(f"{k + 1}".translate(SUBSCRIPTS), again.translate(SUBSCRIPTS))
+    return replace(SYMBOLS[kinds[k]], values={"number": number})
+
+
+def phase_title(motion: Motion, k: int) -> Caption:
+    """The name of phase ``k`` with its symbol: "rise φ₁"."""
+    return replace(PHASES[_kind(motion, k)], values={"symbol": phase_symbol(motion, k)})
+
+
+def phase_angle(motion: Motion, k: int) -> Caption:
+    """The symbol and the angle of phase ``k``: "φ₁ = 80°"."""
+    return say("{symbol} = {angle}", symbol=phase_symbol(motion, k), angle=degrees(motion.phases[k].angle))
+
+
+def _kind(motion: Motion, k: int) -> str:
+    """The kind of phase ``k``, of a dwell with where it rests."""
+    kind, level = motion.phases[k].kind, motion.levels[k]
+    if kind != "dwell":
+        return kind
+    if math.isclose(level, max(motion.levels), abs_tol=SAME_LEVEL * motion.lift):
+        return "upper dwell"
+    return "lower dwell" if math.isclose(level, min(motion.levels), abs_tol=SAME_LEVEL * motion.lift) else kind
+
+
+def phase_ends(motion: Motion, mu_phi: Scale) -> Floats:
+    """Where the phases begin on the axis of the cam angle, and where the turn ends [mm of paper]."""
+    return np.append(motion.starts, FULL_TURN) / mu_phi.per_mm
+
+
+def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tuple[Mark, ...]:
+    """The two axes of a diagram that reaches over ``heights`` [mm of paper], and thin lines where the phases end."""
+    ends = phase_ends(motion, mu_phi)
+    low, high = min(0.0, float(np.nanmin(heights))), max(0.0, float(np.nanmax(heights)))
+    top = high + OVERHANG
+    return (
+        Arrow(0j, ends[-1] + OVERHANG + 0j, Role.SCALE),
+        Arrow(low * UP, top * UP, Role.SCALE),
+        Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
+        Label(ends[-1] + OVERHANG + 0j, "φ", towards=1 - 1j),
+        Label(top * UP, symbol, towards=-1 + 0j),
+    )
+
+
+def degree_ticks(mu_phi: Scale, every: int = 30) -> tuple[Mark, ...]:
+    """Short strokes with numbers along the axis of the cam angle, one every so many degrees."""
+    degrees = np.arange(every, 361, every)
+    x = np.radians(degrees) / mu_phi.per_mm
+    strokes = Segments(x + 0j, x - 1.5 * UP, Role.SCALE)
+    return (strokes, *(Label(complex(at), f"{n}°", towards=-UP, small=True) for at, n in zip(x, degrees, strict=True)))
+
+
+def numbered(points: Points, stations: Stations) -> list[int]:
+    """Which stations are named: of each moving phase both ends, and between them every k-th, so that the names find
+    room beside their points.
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Rise, Return
+    >>> from graphcam.given.stations import divide
+    >>> halves = divide(Motion([Rise(30, pi), Return(30, pi)]), 5)
+    >>> numbered(np.arange(12) + 0j, halves), numbered(10.0 * np.arange(12) + 0j, halves)[:6]
+    ([0, 5, 6, 11], [0, 1, 2, 3, 4, 5])
+    """
+    found: list[int] = []
+    for span in stations.phases:
+        parts = span.stop - span.start - 1
+        between = np.abs(np.diff(points[span]))
+        # A covered touch point is none.
+        spacing = float(np.nanmedian(between)) if np.isfinite(between).any() else 0.0
+        every = next((k for k in EVERY if k * spacing >= NUMBER_ROOM), parts)
+        # The last one before the end would stand too near to it.
+        found += [span.start + k for k in range(0, parts, every) if k == 0 or parts - k >= every]
+        found.append(span.start + parts)
+    return found
+
+
+def numbers(points: Points, stations: Stations, towards: complex) -> tuple[Mark, ...]:
+    """The stations' names beside their points."""
+    names = station_names(stations)
+    return tuple(Label(complex(points[k]), names[k], towards, small=True) for k in numbered(points, stations))
+
+
+def levels(heights: Floats) -> Floats:
+    """Different heights among many [mm of paper]: lines that would fall on one another are drawn once."""
+    return np.unique(np.round(heights, 3))
+
+
+def degrees(angle: float) -> Caption:
+    """An angle in radians as text in degrees, without needless zeros.
+
+    >>> str(degrees(math.pi / 3))
+    '60°'
+    """
+    return say("{angle:.6g}°", angle=math.degrees(angle))

@@ -1,0 +1,317 @@
+"""The constructions one after another, each fed by the readings of those before it.
+
+A construction is drawn when it is first asked for, and with it only what it depends on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from graphcam.constructions.acceleration import acceleration_diagram
+from graphcam.constructions.adoption import ROUNDING_SLACK, lies_in, multiple, nearest_multiple, steps_up
+from graphcam.constructions.angle_diagram import angle_diagram
+from graphcam.constructions.board import Board
+from graphcam.constructions.differentiation import measured_differentiation
+from graphcam.constructions.integration import integration
+from graphcam.constructions.roller import roller_radius, working_profile
+from graphcam.constructions.scheme import scheme
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.measured import MeasuredMotion
+
+PHASE_ANGLES = 48.0
+"""What the phase angles and their texts need on both sides of the profile together [mm of paper]."""
+FURTHER = 5
+"""So many multiples of the rounding from the least radius on are tried: a round one is not worth a much larger cam."""
+FINER = (1.0, 0.1, 0.01, 0.001)
+"""The parts of the rounding that a size is a multiple of, where the region has no room for a rounder one."""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """The sizes that are built [mm]; ``place`` is the follower's offset or centre distance."""
+
+    prime_radius: float
+    place: float
+    roller_radius: float
+
+
+@dataclass(frozen=True, eq=False)
+class Chain(Mapping[str, Construction]):
+    """All constructions of one cam by name, in the order in which they are drawn.
+
+    What the task leaves open is decided as in a design office: proposed by the drawing and adopted as a round number.
+    A decision is not a matter of a trembling hand, so it is taken from the drawing done with a perfect pencil.
+
+    board : the task and the choices
+    pencil : the hand that draws
+    decided : sizes that were decided before, in place of the proposals
+    done : constructions that lie on the board already, by name, and are not drawn again
+    """
+
+    board: Board
+    pencil: Pencil = field(default_factory=Pencil)
+    decided: Sizes | None = None
+    done: Mapping[str, Construction] = field(default_factory=dict[str, Construction])
+
+    def __post_init__(self) -> None:
+        # Where a cached property keeps what it has drawn.
+        self.__dict__.update(self.done)
+
+    def __getitem__(self, name: str) -> Construction:
+        if name not in self._names:
+            raise KeyError(name)
+        return getattr(self, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        names = self.board.follower.constructions
+        return (*names, "differentiation") if isinstance(self.board.motion, MeasuredMotion) else names
+
+    @cached_property
+    def acceleration(self) -> Construction:
+        """The acceleration diagram."""
+        board = self.board
+        given = board.motion, board.stations, board.ordinate, board.mu_phi, board.follower.unit
+        return acceleration_diagram(*given, self.pencil)
+
+    @cached_property
+    def integration(self) -> Construction:
+        """Velocity and displacement by two graphical integrations."""
+        return integration(self.acceleration, self.board.poles, self.pencil)
+
+    @cached_property
+    def differentiation(self) -> Construction:
+        """Velocity and acceleration of a measured motion by graphical differentiation, at the scales of the others.
+
+        It stands beside the chain, which starts from the acceleration of the fitted motion as from that of a law: the
+        errors of a hand, which differentiation enlarges, would else go on into the profile.
+        """
+        board = self.board
+        first, second = board.poles  # of the integrations, which differentiation turns round
+        parts = board.divisions * len(board.motion.phases) * board.refine
+        # Readings scale with the drawn lift, so the scale is that of a hand without error: one for all samples.
+        mu_s = Scale(float(self.perfect.integration.readings["s"].scale), board.follower.unit)
+        return measured_differentiation(board.motion, parts, board.mu_phi, mu_s, (second, first), self.pencil)
+
+    @cached_property
+    def minimum_radius(self) -> Construction:
+        """The least prime radius, and where the follower stands."""
+        return self._least_radius(self.board.follower.place)
+
+    @cached_property
+    def pressure_angle(self) -> Construction:
+        """The pressure angle at every station of the adopted cam."""
+        follower, rotation = self.board.follower, self.board.rotation
+        return follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
+
+    @cached_property
+    def angle_diagram(self) -> Construction:
+        """The pressure angle over the cam angle."""
+        return angle_diagram(self.pressure_angle, self.board.mu_phi, self.pencil)
+
+    @cached_property
+    def inversion(self) -> Construction:
+        """The pitch curve of the adopted cam."""
+        follower, rotation, scale = self.board.follower, self.board.rotation, self.profile_scale
+        return follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
+
+    @cached_property
+    def curvature(self) -> Construction:
+        """The least radius of curvature of the pitch curve."""
+        return self.board.follower.curvature(self, self.pencil)
+
+    @cached_property
+    def roller(self) -> Construction:
+        """What the rule proposes for the roller."""
+        return roller_radius(self.curvature, self.board.roller_rule, self.board.roller_radius, self.pencil)
+
+    @cached_property
+    def working_profile(self) -> Construction:
+        """The profile that the roller runs on."""
+        return working_profile(self.inversion, self.roller_radius, self.pencil)
+
+    @cached_property
+    def scheme(self) -> Construction:
+        """The mechanism at the start of the turn."""
+        return scheme(self.working_profile, self.board.follower)
+
+    # --- decisions ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def perfect(self) -> Chain:
+        """The same drawing by a hand without error."""
+        perfect = self.pencil.perfect and self.pencil.samples is None
+        return self if perfect and not self.done else replace(self, pencil=Pencil(), done={})
+
+    def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> Chain:
+        """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
+        board = self.board if refine == 1 else replace(self.board, refine=refine * self.board.refine)
+        return replace(self, board=board, pencil=pencil or Pencil(), decided=self.sizes, done={})
+
+    def going_on_from(self, construction: Construction) -> Chain:
+        """The chain in which this construction takes the place of the one of its name: what comes later follows it.
+
+        The adopted sizes stay as they were: decisions are those of a hand without error.
+        """
+        later = self._names[self._names.index(construction.name) :] if construction.name in self._names else ()
+        # What was drawn before stays; what comes later, or was not drawn yet, is drawn when it is asked for.
+        kept = {name: drawn for name, drawn in self.__dict__.items() if isinstance(drawn, Construction)}
+        done = {name: drawn for name, drawn in kept.items() if name not in later} | {construction.name: construction}
+        return replace(self, done=done)
+
+    @property
+    def spans(self) -> tuple[slice, ...]:
+        """The stations of each moving phase among all stations."""
+        return self.board.stations.phases
+
+    @property
+    def rounding(self) -> float:
+        """Sizes are adopted in multiples of this [mm]."""
+        if self.board.rounding is not None:
+            return self.board.rounding
+        size = self.board.prime_radius or self._proposal("prime_radius")
+        return min(1.0, 10.0 ** math.floor(math.log10(size / 10)))
+
+    @cached_property
+    def place(self) -> float:
+        """The adopted offset or centre distance: as given, else a round number near the one found."""
+        return self.decided.place if self.decided else self._adopted[1]
+
+    @cached_property
+    def prime_radius(self) -> float:
+        """The adopted prime radius: as given, else the next round number above the least one at the adopted place."""
+        return self.decided.prime_radius if self.decided else self._adopted[0]
+
+    @property
+    def rounded(self) -> bool:
+        """Whether the prime radius and the place are multiples of the rounding, where the task leaves them open."""
+        board = self.board
+        open_ = [self.prime_radius] if board.prime_radius is None else []
+        open_ += [self.place] if board.follower.place is None else []
+        return all(math.isclose(size, round(size / self.rounding) * self.rounding, rel_tol=1e-9) for size in open_)
+
+    @cached_property
+    def _adopted(self) -> tuple[float, float]:
+        """Prime radius and place: round numbers that go with one another on the region, where it has any."""
+        radius, place = self.board.prime_radius, self.board.follower.place
+        if radius is not None and place is not None:
+            return radius, place
+        if place is None:
+            place = self._rounded_place()
+        if radius is None:
+            radius = self._rounded_radius(place)
+        together = lies_in(self._places(radius), place, self.rounding)
+        return (radius, place) if together else self._next_together() or (radius, place)
+
+    def _rounded_place(self) -> float:
+        """The round number nearest to the place found that some radius goes with."""
+        found = self._proposal(self.board.follower.place_name) / self.rounding
+        nearest = round(found)
+        # The region of an arm may end at the distance found: then the circle about the pivot just inside misses it.
+        beyond = nearest + (1 if found > nearest else -1)
+        rounded = [multiple(count, self.rounding) for count in (nearest, beyond)]
+        return next((place for place in rounded if self.perfect._permits(place)), rounded[0])
+
+    def _rounded_radius(self, place: float) -> float:
+        """The next round number above the least radius at a place."""
+        given = self.board.follower.place is not None
+        least = self.perfect.minimum_radius if given else self.perfect._least_radius(place)
+        radius = multiple(steps_up(self._readable(least, "prime_radius"), self.rounding), self.rounding)
+        # Without the rest line a large offset leaves no least radius but the offset itself, which no cam can have.
+        stretched = self.board.follower.must_exceed(place) / self.rounding
+        return max(radius, multiple(math.floor(stretched + ROUNDING_SLACK) + 1, self.rounding))
+
+    def _next_together(self) -> tuple[float, float] | None:
+        """The next larger round radius that a round place goes with, or else less round ones; None if none is left.
+
+        The places that an arm may have at one radius, and the radii at one distance, may lie closer to one another than
+        the rounding.
+        """
+        given = self.board.prime_radius, self.board.follower.place
+        for step in (self.rounding * part for part in FINER):
+            first = steps_up(self._proposal("prime_radius"), step)
+            radii = [multiple(first + k, step) for k in range(FURTHER)] if given[0] is None else [given[0]]
+            for radius in radii:
+                places = self._places(radius)
+                if given[1] is None:
+                    place = nearest_multiple(places, self._proposal(self.board.follower.place_name), step)
+                else:
+                    place = given[1] if lies_in(places, given[1], step) else None
+                if place is not None:
+                    return radius, place
+        return None
+
+    def _places(self, radius: float) -> Floats:
+        return self.board.follower.places(self.perfect.minimum_radius, radius)
+
+    @cached_property
+    def roller_radius(self) -> float:
+        """The adopted roller radius: as given, else the next round number below what the rule proposes."""
+        if self.decided:
+            return self.decided.roller_radius
+        if self.board.roller_radius is not None:
+            return self.board.roller_radius
+        proposed = float(self.perfect.roller.readings["roller_radius"].value)
+        if not proposed > 0:
+            raise DesignError("roller radius by the rule", f"{proposed:.4g} mm", "greater than 0 mm",
+                              "give follower.roller_radius or another rule")  # fmt: skip
+        # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
+        return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
+
+    @property
+    def sizes(self) -> Sizes:
+        """All adopted sizes."""
+        return Sizes(self.prime_radius, self.place, self.roller_radius)
+
+    @cached_property
+    def profile_scale(self) -> Scale:
+        """The largest standard scale at which the pitch curve, with its rollers or the phase angles, fits its room."""
+        r0, board = self.prime_radius, self.board
+        rollers = board.roller_radius
+        if rollers is None:
+            rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)
+        room, lift = min(board.profile_room), board.motion.lift
+        reach = board.follower.reach(r0, self.place, lift, max(rollers, 0.0))
+        # The arcs of the phase angles about the curve do not grow with the scale.
+        inner = room - min(PHASE_ANGLES, room / 4)
+        within = board.follower.reach(r0, self.place, lift, 0.0)
+        return max(standard_scale(2 * reach, room), standard_scale(2 * within, inner), key=lambda scale: scale.per_mm)
+
+    def _least_radius(self, place: float | None) -> Construction:
+        board = self.board
+        return board.follower.least_radius(self.integration, board.rotation, board.limits, place, self.pencil)
+
+    def _permits(self, place: float) -> bool:
+        return not math.isnan(self._least_radius(place).value("prime_radius"))
+
+    def _proposal(self, name: str) -> float:
+        return self._readable(self.perfect.minimum_radius, name)
+
+    def _readable(self, region: Construction, name: str) -> float:
+        """The machine value of a reading that a decision rests on."""
+        value = float(region.readings[name].value)
+        if math.isnan(value):
+            follower, given = self.board.follower, self.board.prime_radius
+            missing = [f"follower.{follower.place_name}"] if follower.place is None else []
+            missing += ["cam.prime_radius"] if given is None else []
+            raise DesignError(
+                "least prime radius", "unreadable", "a place within all limits, where lines cross at a degree or more",
+                f"give {' and '.join(missing)}, or permit greater pressure angles",
+            )  # fmt: skip
+        if name == "prime_radius" and not value > 0:
+            raise DesignError("least prime radius", f"{value:g} mm", "greater than 0 mm",
+                              "any radius keeps the limits: give cam.prime_radius, or stricter limits")  # fmt: skip
+        return value

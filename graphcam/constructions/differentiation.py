@@ -1,0 +1,356 @@
+"""Graphical differentiation, twice: displacement to velocity to acceleration, by chords or by tangents.
+
+It turns the integration round.  A ray through the pole parallel to a chord, or to a tangent, cuts the vertical axis at
+the height y = H dy/dx: the ordinate of the derivative.  By chords it belongs to the middle of the interval, where it is
+right to second order; by tangents to the station itself.  The scales follow as mu_v = mu_s/(mu_phi H1) and
+mu_a = mu_v/(mu_phi H2).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from graphcam.constructions.axes import OVERHANG, SUBSCRIPTS, levels
+from graphcam.drafting.curve import faired, farthest
+from graphcam.drafting.euclid import UP, divided
+from graphcam.drafting.ink import (
+    Arrow,
+    Caption,
+    Construction,
+    Dimension,
+    Dots,
+    Label,
+    Line,
+    Mark,
+    Points,
+    Role,
+    Segments,
+    Step,
+    View,
+    reading,
+    say,
+)
+from graphcam.drafting.pencil import Hand, Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.drafting.units import unit
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.words import say_many, sequence
+
+By = Literal["chords", "tangents"]
+FEWEST = 4
+"""Stations: with fewer no acceleration has a neighbour."""
+TANGENT = 12.0
+"""Half the length of a drawn tangent [mm of paper]."""
+
+VIEWS = {
+    "s": View("measured displacement", say("Measured displacement s"), across="measured phi", up="measured s"),
+    "v": View("measured velocity", say("Velocity v by differentiation"), across="measured phi", up="measured v"),
+    "a": View(
+        "measured acceleration", say("Acceleration a by differentiation"), across="measured phi", up="measured a"
+    ),
+}
+"""The drawings, by what they show."""
+
+
+def measured_differentiation(
+    motion: Motion, parts: int, mu_phi: Scale, mu_s: Scale, poles: tuple[float, float], pencil: Pencil
+) -> Construction:
+    """Differentiate the drawn curve of a measured motion over its turn, in equal parts, by chords.
+
+    parts : of the turn;  the others as in :func:`differentiation`
+    """
+    turn = FULL_TURN / mu_phi.per_mm
+    x = divided(0j, turn + 0j, parts).real[:-1]
+    s = motion(x * mu_phi.per_mm)[0] / mu_s.per_mm
+    return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn)
+
+
+def differentiation(
+    x: Floats,
+    s: Floats,
+    mu_phi: Scale,
+    mu_s: Scale,
+    poles: tuple[float, float],
+    pencil: Pencil,
+    *,
+    turn: float | None = None,
+    by: By = "chords",
+) -> Construction:
+    """Differentiate a drawn displacement twice.
+
+    x, s : (n,) stations on the axis of the cam angle, growing, and ordinates there [mm of paper]
+    mu_phi, mu_s : scales of the axes [rad/mm; mm/mm or, of an arm, rad/mm]
+    poles : H1 (displacement to velocity) and H2 (velocity to acceleration) [mm of paper]
+    turn : length of one revolution [mm of paper] of a cyclic diagram, which goes on after the last station with the
+        first; None for a diagram that ends there
+    by : "chords", or "tangents" with a mirror ruler; the intervals may be unequal
+
+    Readings: ``v`` and ``a``, and the cam angles they belong to, ``v_at`` and ``a_at``; ``rise`` and ``run`` of every
+    chord or tangent of s [mm of paper]; ``max_v`` and ``max_a``, the greatest ordinates up or down.
+
+    Raises
+    ------
+    DesignError : there are fewer than four stations, they do not grow, or pass the end of the turn
+
+    >>> x = np.arange(0.0, 60.0, 10.0)
+    >>> drawn = differentiation(x, x**2 / 100, Scale(0.02, "rad"), Scale(0.5, "mm"), (50.0, 50.0), Pencil())
+    >>> drawn.readings["v"].paper.round(9).tolist(), drawn.readings["v"].scale
+    ([5.0, 15.0, 25.0, 35.0, 45.0], 0.5)
+    >>> drawn.readings["v_at"].paper.tolist()
+    [5.0, 15.0, 25.0, 35.0, 45.0]
+    """
+    x, s = np.asarray(x, dtype=np.float64), np.asarray(s, dtype=np.float64)
+    _check(x, s, turn)
+    hand = pencil.hand("differentiation")
+    derive = _chords if by == "chords" else _tangents
+    plotted = pencil.sheets(s) + hand.line(s.size)
+    first = derive(x, plotted, poles[0], turn, hand)
+    second = derive(first.x, first.y, poles[1], turn, hand)
+    mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
+    mu_a = mu_v / (mu_phi.per_mm * poles[1])
+    lift_unit = mu_s.unit
+    return Construction(
+        "differentiation",
+        {
+            "x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": lift_unit,
+            "pencil": pencil,
+        },
+        {
+            "rise": reading(hand.read(first.slope * first.run), mu_s.per_mm, lift_unit),
+            "run": reading(pencil.sheets(first.run), mu_phi.per_mm, "rad"),
+            "v": reading(hand.read(first.y), mu_v, f"{lift_unit}/rad"),
+            "v_at": reading(pencil.sheets(first.x), mu_phi.per_mm, "rad"),
+            "a": reading(hand.read(second.y), mu_a, f"{lift_unit}/rad²"),
+            "a_at": reading(pencil.sheets(second.x), mu_phi.per_mm, "rad"),
+            "max_v": reading(hand.read(_greatest(first, turn)), mu_v, f"{lift_unit}/rad"),
+            "max_a": reading(hand.read(_greatest(second, turn)), mu_a, f"{lift_unit}/rad²"),
+        },
+        {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y},
+        _draw,
+    )  # fmt: skip
+
+
+def _check(x: Floats, s: Floats, turn: float | None) -> None:
+    if x.ndim != 1 or x.shape != s.shape or x.size < FEWEST:
+        raise DesignError("stations of the displacement", x.size, f"{FEWEST} or more, each with its ordinate")
+    if not np.all(np.diff(x) > 0):
+        raise DesignError("stations of the displacement", "not in order", "growing along the axis", "sort them")
+    if turn is not None and not x[-1] - x[0] < turn:
+        raise DesignError(
+            "stations of the displacement", f"over {x[-1] - x[0]:g} mm", f"within one turn of {turn:g} mm",
+            "leave out the last one where it is the first one again",
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Derivative:
+    """Places (m,) [mm], ordinates ([samples,] m) [mm], and the slopes they came from, over their runs (m,) [mm]."""
+
+    x: Floats
+    y: Floats
+    slope: Floats
+    run: Floats
+
+
+def _chords(x: Floats, y: Floats, pole: float, turn: float | None, hand: Hand) -> _Derivative:
+    """The derivative in the middle of each interval; of a cyclic diagram in that from the last place to the first."""
+    if turn is not None:
+        x, y = np.append(x, x[0] + turn), np.concatenate([y, y[..., :1]], axis=-1)
+    run = np.diff(x)
+    slope = np.diff(y, axis=-1) / run
+    return _Derivative(x[:-1] + run / 2, pole * slope + hand.line(run.size), slope, run)
+
+
+def _tangents(x: Floats, y: Floats, pole: float, turn: float | None, hand: Hand) -> _Derivative:
+    """The derivative at each place: of the curve faired through it and its neighbours.
+
+    A mirror is set across the curve and turned until the curve runs into its image without a corner: it stands on the
+    normal.  The hand errs in that angle.
+    """
+    count = x.size
+    if turn is not None:
+        x = np.concatenate([x[-1:] - turn, x, x[:1] + turn])
+        y = np.concatenate([y[..., -1:], y, y[..., :1]], axis=-1)
+    run = np.diff(x)
+    chord = np.diff(y, axis=-1) / run
+    # The parabola through three points has the slope of either chord in its middle, and between them it is straight.
+    bend = np.diff(chord, axis=-1) / (run[:-1] + run[1:])
+    inside = chord[..., :-1] + bend * run[:-1]
+    if turn is None:
+        start = chord[..., :1] - bend[..., :1] * run[0]
+        end = chord[..., -1:] + bend[..., -1:] * run[-1]
+        inside = np.concatenate([start, inside, end], axis=-1)
+    else:
+        x = x[1:-1]
+    slope = np.tan(np.arctan(inside) + hand.protractor(count))
+    return _Derivative(x, pole * slope + hand.line(count), slope, np.full(count, pole))
+
+
+def _greatest(derivative: _Derivative, turn: float | None) -> Floats:
+    """The greatest ordinate up or down, where the faired curve turns; of a cyclic diagram over its ends too."""
+    cyclic = turn is not None
+    return np.maximum(_highest(derivative.y, cyclic=cyclic), _highest(-derivative.y, cyclic=cyclic))
+
+
+def _highest(y: Floats, *, cyclic: bool) -> Floats:
+    if cyclic:
+        # Begun at the lowest ordinate, so that the highest one has neighbours on both sides.
+        order = (np.argmin(y, axis=-1)[..., None] + np.arange(y.shape[-1])) % y.shape[-1]
+        y = np.take_along_axis(y, order, -1)
+    return farthest(UP * y, UP).imag
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+_TRACED: dict[By, tuple[Caption, Caption]] = {
+    "chords": (
+        say("Chords of {source}"),
+        say("The ends of neighbouring ordinates of {source} are joined by chords, {count} of them."),
+    ),
+    "tangents": (
+        say("Tangents to {source}"),
+        say(
+            "At each of the {count} stations a mirror is set across the curve of {source} and turned until the curve "
+            "runs into its image without a corner: it stands on the normal, and the tangent is drawn across it."
+        ),
+    ),
+}
+_RAYS: dict[By, Caption] = {
+    "chords": say(
+        "The pole P{index} lies H{index} = {pole:.1f} mm to the left on the axis. Through it a ray is drawn parallel "
+        "to each of the chords; what it cuts off on the vertical axis is the ordinate of {target} in the middle of its "
+        "interval."
+    ),
+    "tangents": say(
+        "The pole P{index} lies H{index} = {pole:.1f} mm to the left on the axis. Through it a ray is drawn parallel "
+        "to each of the tangents; what it cuts off on the vertical axis is the ordinate of {target} at its station."
+    ),
+}
+
+
+def _draw(c: Construction) -> list[Step]:
+    return [_draw_source(c), *_draw_pass(c, "s", "v", 1), *_draw_pass(c, "v", "a", 2), _draw_scales(c)]
+
+
+def _draw_source(c: Construction) -> Step:
+    s = c.first("s")
+    plotted = (*_axes(c, s, "s"), Dots(s), Segments(s.real + 0j, s, Role.CONSTRUCTION))
+    said = say_many(
+        "The displacement is plotted at {count} station.", "The displacement is plotted at {count} stations.", s.size
+    )
+    cyclic = say("After the last of them the revolution goes on with the first.")
+    return Step(
+        say("The displacement"),
+        sequence([said, cyclic], " ") if c.givens["turn"] else said,
+        _view(c, "s"),
+        (*plotted, Line(_curve(c, s), Role.RESULT)),
+        given=plotted,
+    )
+
+
+def _draw_pass(c: Construction, source: str, target: str, number: int) -> list[Step]:
+    derived, pole, by = c.first(target), c.givens["poles"][number - 1], c.givens["by"]
+    title, traced = _TRACED[by]
+    index = f"{number}".translate(SUBSCRIPTS)
+    distance = say("H{index} = {pole:.6g}", index=index, pole=pole)
+    heights = levels(derived.imag)
+    axes = (
+        *_axes(c, derived, target),
+        Line(np.array([-pole, 0j]), Role.SCALE),
+        Dots(np.array([-pole + 0j])),
+        Label(-pole + 0j, f"P{index}", towards=-1 + 1j),
+        Dimension(-pole + 0j, 0j, distance, aside=-5.0 - max(0.0, -float(heights.min()))),
+    )
+    return [
+        Step(
+            replace(title, values={"source": source}),
+            replace(traced, values={"source": source, "count": derived.size}),
+            _view(c, source),
+            (_traces(c, c.first(source), derived, pole),),
+        ),
+        Step(
+            say("Pole and rays, {source} to {target}", source=source, target=target),
+            replace(_RAYS[by], values={"index": index, "pole": pole, "target": target}),
+            _view(c, target),
+            (
+                *axes,
+                Segments(np.full(heights.size, -pole + 0j), UP * heights, Role.CONSTRUCTION),
+                Segments(UP * derived.imag, derived, Role.CONSTRUCTION),
+            ),
+            given=axes,
+        ),
+        Step(
+            say("Curve of {target}", target=target),
+            say(
+                "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} "
+                "mm.",
+                greatest=float(c.first(f"max_{target}")),
+            ),
+            _view(c, target),
+            (Dots(derived), Line(_curve(c, derived), Role.RESULT)),
+        ),
+    ]  # fmt: skip
+
+
+def _view(c: Construction, symbol: str) -> View:
+    """The view, with its scale in the title."""
+    view = VIEWS[symbol]
+    scale = c.givens["mu_s"].per_mm if symbol == "s" else c.readings[symbol].scale
+    per = unit(c.givens["unit"]) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
+    index = {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol]
+    title = say(
+        "{title}, μ{index} = {mu:.4g} {per}/{mm}", title=view.title, index=index, mu=scale, per=per, mm=unit("mm")
+    )
+    return replace(view, title=title)
+
+
+def _traces(c: Construction, curve: Points, derived: Points, pole: float) -> Mark:
+    """The chords, or short pieces of the tangents."""
+    turn = c.givens["turn"]
+    if c.givens["by"] == "chords":
+        return Line(curve if turn is None else np.append(curve, curve[0] + turn), Role.LIMIT)
+    direction = pole + UP * derived.imag
+    along = TANGENT * direction / np.abs(direction)
+    return Segments(curve - along, curve + along, Role.LIMIT)
+
+
+def _curve(c: Construction, points: Points) -> Points:
+    """The faired curve; of a cyclic diagram over the ends of the turn."""
+    turn = c.givens["turn"]
+    if turn is None:
+        return faired(points)
+    line = faired(np.concatenate([points[-2:] - turn, points, points[:2] + turn]))
+    return line[(line.real >= 0) & (line.real <= turn)]
+
+
+def _axes(c: Construction, points: Points, symbol: str) -> tuple[Mark, ...]:
+    turn = c.givens["turn"]
+    end = (float(c.givens["x"][-1]) if turn is None else turn) + OVERHANG
+    low, high = min(0.0, float(np.nanmin(points.imag))), max(0.0, float(np.nanmax(points.imag))) + OVERHANG
+    return (
+        Arrow(0j, end + 0j, Role.SCALE),
+        Arrow(low * UP, high * UP, Role.SCALE),
+        Label(end + 0j, "φ", towards=1 - 1j),
+        Label(high * UP, symbol, towards=-1 + 0j),
+    )
+
+
+def _draw_scales(c: Construction) -> Step:
+    return Step(
+        say("The scales of the derivatives"),
+        say(
+            "The poles give μᵥ = μₛ/(μᵩ·H₁) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = μᵥ/(μᵩ·H₂) = {mu_a:.5g} "
+            "({unit}/rad²)/mm: the greatest velocity is {v:.5g} {unit}/rad, the greatest acceleration {a:.5g} "
+            "{unit}/rad².",
+            mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens["unit"]),
+            v=float(c.value("max_v")), a=float(c.value("max_a")),
+        ),
+        _view(c, "a"),
+        (),
+        reads=("max_v", "max_a", "v", "a"),
+    )  # fmt: skip

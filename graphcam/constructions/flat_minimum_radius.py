@@ -1,0 +1,198 @@
+"""The least radius under a flat face: the displacement drawn over the acceleration.
+
+The profile under a flat face perpendicular to its motion has the radius of curvature rho = r0 + s + a.  In a diagram of
+s over a with equal scales, places of equal s + a lie on lines at 45 degrees; the lowest of them that touches the curve
+meets the axis of s where the greatest of -(s + a) is read.  With unequal scales the tangent would lean by
+arctan(mu_a/mu_s) in place of 45 degrees.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.axes import OVERHANG, station_names
+from graphcam.constructions.views import COMBINED
+from graphcam.drafting.curve import faired, farthest
+from graphcam.drafting.euclid import RIGHT, UP, dot, meet
+from graphcam.drafting.ink import (
+    AngleMark,
+    Arrow,
+    Construction,
+    Dimension,
+    Dots,
+    Label,
+    Line,
+    Points,
+    Role,
+    Segments,
+    Step,
+    reading,
+    say,
+)
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.motion import Dwell
+
+DOWN_LEFT = -RIGHT - UP
+"""Square to the lines of equal s + a, towards smaller ones."""
+
+
+def flat_least_radius(integrated: Construction, least_curvature: float, pencil: Pencil) -> Construction:
+    """Find the least prime radius at which the profile is nowhere sharper than permitted.
+
+    integrated : from :func:`~graphcam.constructions.integration.integration`
+    least_curvature : the least permitted radius of curvature of the profile [mm]
+
+    Readings: ``prime_radius`` and the greatest ``need`` = -(s + a) [mm].
+    """
+    hand = pencil.hand("minimum_radius")
+    s, a, before = (integrated.readings[name] for name in ("s", "a", "a_before"))
+    stations = integrated.givens["stations"]
+    mu, count = np.asarray(s.scale), stations.u.size
+    height = s.paper + hand.line(count)
+    errors = hand.dividers(count)
+    # Equal scales: the accelerations are laid off in the scale of s.  At a jump the curve has two ends.
+    curve = a.value / mu[..., None] + errors + UP * height
+    ends = before.value / mu[..., None] + errors + UP * height
+    pieces = [
+        np.append(curve[..., p.start : p.stop - 1], ends[..., p.stop - 1 : p.stop], -1) for p in stations.stretches
+    ]
+    # Where the follower rests there is no acceleration: a point of the axis of s.
+    rests = UP * height[..., _rests(integrated)]
+    tops = np.concatenate([np.stack([farthest(piece, DOWN_LEFT) for piece in pieces], axis=-1), rests], axis=-1)
+    lowest = np.argmax(dot(DOWN_LEFT, tops), axis=-1)[..., None]
+    touch = np.take_along_axis(tops, lowest, -1)[..., 0]
+    zero = meet(touch, np.asarray(RIGHT - UP), np.asarray(0j), np.asarray(UP))
+    # Where s + a is never negative any radius will do that the permitted curvature itself needs.
+    prime_radius = np.maximum(least_curvature / mu - zero.imag, 0.0)
+    return Construction(
+        "minimum_radius",
+        {"integrated": integrated, "least_curvature": least_curvature, "pencil": pencil},
+        {
+            "prime_radius": reading(hand.read(prime_radius), mu, "mm"),
+            "need": reading(hand.read(0.0 - zero.imag), mu, "mm"),
+        },
+        {"curve": np.concatenate(pieces, axis=-1), "rests": rests, "touch": touch, "zero": zero},
+        _draw,
+    )
+
+
+def _rests(integrated: Construction) -> NDArray[np.intp]:
+    """The last stations of the moving phases that a dwell follows."""
+    motion, last = integrated.givens["motion"], integrated.givens["stations"].last
+    following = (integrated.givens["stations"].phase[last] + 1) % len(motion.phases)
+    return last[[isinstance(motion.phases[k], Dwell) for k in following]]
+
+
+def flat_curvature(region: Construction, prime_radius: float, pencil: Pencil) -> Construction:
+    """Read the least radius of curvature of the profile off the same diagram, at the adopted prime radius [mm].
+
+    region : from :func:`flat_least_radius`
+
+    Readings: ``rho`` [mm], negative where the profile under the face would have to turn inside out, and its only
+    candidate.
+    """
+    hand, need = pencil.hand("curvature"), region.readings["need"]
+    rho = prime_radius / np.asarray(need.scale) - need.paper
+    return Construction(
+        "curvature",
+        {"region": region, "prime_radius": prime_radius, "pencil": pencil},
+        {
+            "rho": reading(hand.read(rho), need.scale, "mm"),
+            "rho_candidates": reading(hand.read(rho)[..., None], need.scale, "mm"),
+        },
+        {"zero": region.points["zero"]},
+        _draw_curvature,
+    )
+
+
+def _draw_curvature(curved: Construction) -> list[Step]:
+    zero, rho = complex(curved.first("zero")), float(curved.first("rho"))
+    return [
+        Step(
+            say("The least radius of curvature"),
+            say(
+                "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent "
+                "meets the axis is the least radius of curvature of the profile, {rho:.3f} mm.",
+                r0=curved.givens["prime_radius"], rho=float(curved.value("rho")),
+            ),
+            COMBINED,
+            (
+                Dots(np.array([zero - rho * UP]), Role.RESULT),
+                Dimension(zero - rho * UP, zero, say("ρ = {rho:.2f}", rho=float(curved.value("rho"))), aside=-14.0),
+            ),
+            reads=("rho",),
+        )
+    ]  # fmt: skip
+
+
+def _draw(region: Construction) -> list[Step]:
+    smooth, curve = region.givens["integrated"].givens["stations"].stretches, region.first("curve")
+    touch, zero = complex(region.first("touch")), complex(region.first("zero"))
+    r0, need = float(region.first("prime_radius")), float(region.first("need"))
+    mu = float(np.ravel(region.readings["need"].scale)[0])
+    pieces, first = list[Points](), 0
+    for piece in smooth:
+        size = piece.stop - piece.start
+        pieces.append(curve[first : first + size])
+        first += size
+    below = min(-r0, zero.imag) - OVERHANG
+    named = [(p[0], smooth[k].start) for k, p in enumerate(pieces)]
+    axes = (
+        Arrow(below * UP, (float(curve.imag.max()) + OVERHANG) * UP, Role.SCALE),
+        Arrow(curve.real.min() + 0j, float(curve.real.max()) + OVERHANG + 0j, Role.SCALE),
+        Label((float(curve.imag.max()) + OVERHANG) * UP, "s", towards=-1 + 0j),
+        Label(float(curve.real.max()) + OVERHANG + 0j, "a", towards=-1j),
+    )
+    names = station_names(region.givens["integrated"].givens["stations"])
+    return [
+        Step(
+            say("Displacement over acceleration"),
+            say(
+                "At every displacement the acceleration is laid off in the scale of s, to the right where it is "
+                "positive; the longest measures {longest:.1f} mm. The ends are joined by smooth curves between jumps "
+                "and corners of the acceleration; a dwell is a point of the axis.",
+                longest=float(np.abs(curve.real).max()),
+            ),
+            COMBINED,
+            (
+                *axes,
+                Segments(UP * curve.imag, curve, Role.CONSTRUCTION),
+                *(Line(faired(piece), Role.RESULT) for piece in pieces),
+                Dots(region.first("rests"), Role.RESULT),
+                *(Label(complex(at), names[k], towards=complex(np.sign(at.real)), small=True) for at, k in named),
+            ),
+            given=axes,
+        ),
+        Step(
+            say("The tangent at 45 degrees"),
+            say(
+                "Where s + a is least the tangent at 45° touches the curve; it meets the axis of s at {meets:.2f} "
+                "mm, so the greatest of −(s + a) is {need:.3f} mm. With unequal scales it would have to lean by "
+                "arctan(μₐ/μₛ).",
+                meets=zero.imag, need=need * mu,
+            ),
+            COMBINED,
+            (
+                Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT),
+                Dots(np.array([touch, zero]), Role.LIMIT),
+                AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°"),
+            ),
+            reads=("need",),
+        ),
+        Step(
+            say("The least prime radius"),
+            say(
+                "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; "
+                "it is laid off below the start of the lift to the cam centre A.",
+                least=region.givens["least_curvature"], need=need * mu, r0=r0 * mu,
+            ),
+            COMBINED,
+            (
+                Dots(np.array([-r0 * UP]), Role.RESULT),
+                Label(-r0 * UP, "A", towards=1 - 1j),
+                Dimension(0j, -r0 * UP, say("r₀ = {r0:.2f}", r0=r0 * mu), aside=-10.0),
+            ),
+            reads=("prime_radius",),
+        ),
+    ]  # fmt: skip

@@ -1,0 +1,205 @@
+"""The force plan of a translating follower at a station: load, contact force and the guide's reaction close a triangle.
+
+The three forces on the follower are in equilibrium, so their arrows close.  The load Q is known in size and direction;
+of the contact force F the direction is known from the drawn pressure angle; of the reaction R of the guide it is known
+too: across the motion, or, with friction in the bearings, inclined against the motion by the angle whose tangent is
+mu (l + 2 b)/l.  The lines of F and R through the ends of Q meet in the third corner.
+
+Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.pressure_angle import angle_at, shown_station
+from graphcam.constructions.views import FORCES
+from graphcam.drafting.euclid import UP, dot, meet, turned
+from graphcam.drafting.ink import (
+    Arrow,
+    Caption,
+    Construction,
+    Dots,
+    Label,
+    Line,
+    Mark,
+    Points,
+    Role,
+    Step,
+    reading,
+    say,
+)
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import sense
+from graphcam.given.guide import Guide
+from graphcam.given.laws import Floats
+from graphcam.given.spring_load import SpringLoad
+
+LOAD_LENGTH = 50.0
+"""The load is drawn at the largest round scale at which its arrow is not longer [mm]."""
+ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
+"""Round scales are these times a power of ten."""
+
+
+def force_plan(
+    measured: Construction,
+    load: SpringLoad,
+    pencil: Pencil,
+    guide: Guide | None = None,
+    station: int | None = None,
+    mu_force: Scale | None = None,
+) -> Construction:
+    """Draw the force plan at a station.
+
+    measured : from :func:`~graphcam.constructions.pressure_angle.pressure_angle`
+    guide : None for one without friction
+    station : None for the one where the pressure angle on the rises is greatest
+    mu_force : scale of forces [N/mm]; None for a round one
+
+    Readings [N]: ``load``; ``normal``, the contact force, with its parts ``along`` the motion and ``side``, across it;
+    ``friction`` and ``reaction`` of the guide.  NaN where the load does not press, or the guide jams.
+    """
+    hand = pencil.hand("force_plan")
+    k = shown_station(measured) if station is None else station
+    integrated, sigma = measured.givens["integrated"], sense(measured.givens["rotation"])
+    s, v, a = (integrated.readings[name].value[..., k] for name in ("s", "v", "a"))
+    alpha = measured.readings["alpha"].paper[..., k]
+    direction = float(integrated.givens["motion"].phases[integrated.givens["stations"].phase[k]].direction)
+    force = load.force((s, v, a, np.zeros_like(s)), direction)
+    mu = mu_force or round_scale(float(np.median(np.abs(force))))
+    tilt = 0.0 if guide is None else direction * _incline(guide, s)
+    foot = -UP * (force / mu.per_mm + hand.dividers(1)[..., 0])
+    # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
+    normal = turned(UP, sigma * (alpha + hand.protractor(1)[..., 0]))
+    across = np.where(normal.real < 0, -1.0, 1.0) + UP * tilt
+    corner: Points = meet(foot, normal, np.zeros_like(foot), across) + hand.point(1)[..., 0]
+    # Beyond the jamming angle the lines meet on the other side, where no force can push.
+    pushes = (foot.imag < 0) & (dot(corner - foot, normal) > 0)
+    corner = np.asarray(np.where(pushes, corner, np.nan), dtype=np.complex128)
+    lengths = {
+        "load": -foot.imag, "normal": np.abs(corner - foot), "along": (corner - foot).imag,
+        "side": np.abs(corner.real), "friction": np.abs(corner.imag), "reaction": np.abs(corner),
+    }  # fmt: skip
+    return Construction(
+        "force_plan",
+        {"measured": measured, "load": load, "guide": guide, "station": k, "mu_force": mu, "pencil": pencil,
+         "direction": direction},
+        {name: reading(hand.read(length), mu.per_mm, "N") for name, length in lengths.items()},
+        {"foot": foot, "corner": corner, "contact_normal": normal, "across": across},
+        _draw,
+    )  # fmt: skip
+
+
+def _incline(guide: Guide, s: Floats) -> Floats:
+    """The part mu (l + 2 b)/l of the side force that the bearings hold back, with the roller s mm up."""
+    return guide.friction * (guide.length + 2 * (guide.overhang - s)) / guide.length
+
+
+def round_scale(load: float) -> Scale:
+    """The largest round scale of forces at which a load [N] is not longer than :data:`LOAD_LENGTH`.
+
+    >>> round_scale(160).per_mm
+    5.0
+    """
+    least = max(load, 1e-6) / LOAD_LENGTH
+    power = 10.0 ** math.floor(math.log10(least))
+    return Scale(next(n for n in ROUND_NUMBERS if n * power >= least) * power, "N")
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+BASE = 30.0
+"""The length of the bearings is drawn as this, to find the inclination of the reaction [mm]."""
+BEYOND = 8.0
+"""How far a line runs on beyond its corner [mm]."""
+
+
+def _draw(plan: Construction) -> list[Step]:
+    k, guide, mu = plan.givens["station"], plan.givens["guide"], plan.givens["mu_force"]
+    integrated = plan.givens["measured"].givens["integrated"]
+    name = station_names(integrated.givens["stations"])[k]
+    foot, corner, normal, across = (complex(plan.first(key)) for key in ("foot", "corner", "contact_normal", "across"))
+    alpha = float(plan.givens["measured"].first("alpha")[k])
+    lengths = {key: float(plan.first(key)) for key in plan.readings}
+    forces = {key: float(plan.value(key)) for key in plan.readings}
+    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu.per_mm))
+    steps = [
+        Step(
+            say("Force plan at station {name}: the load", name=name),
+            say(
+                "At station {name} inertia, spring and preload hold the follower down with Q = {load:.1f} N, found "
+                "from the drawn a and s. At μF = {mu:g} N/mm its arrow is {paper:.1f} mm long, against the motion.",
+                name=name, load=forces["load"], mu=mu.per_mm, paper=lengths["load"],
+            ),
+            view,
+            (Arrow(0j, foot, Role.CURVE), Label(foot / 2, "Q", towards=-across.real), Dots(np.array([0j, foot]))),
+            reads=("load",),
+        ),
+        Step(
+            say("The line of the contact force"),
+            say(
+                "Through the head of Q the line of the contact force is drawn parallel to the contact normal, at the "
+                "measured pressure angle of {alpha:.2f}° with the motion.",
+                alpha=math.degrees(alpha),
+            ),
+            view,
+            _normal_line(foot, normal, lengths["normal"], alpha),
+        ),
+        Step(say("The line of the guide's reaction"), _reaction_caption(guide), view, _reaction_line(across)),
+    ]  # fmt: skip
+    if math.isnan(corner.real):
+        unreadable = say(
+            "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
+            "guide, or the load does not press it on the cam."
+        )
+        return [*steps, Step(say("The triangle does not close"), unreadable, view, ())]
+    closing = say(
+        "The lines meet in the third corner. The contact force is F = {f_mm:.1f} mm · {mu:g} = {f:.1f} N; along the "
+        "motion it gives F cos α = {along:.1f} N, across it F sin α = {side:.1f} N, which the guide bears with the "
+        "friction of {friction:.1f} N.",
+        f_mm=lengths["normal"], mu=mu.per_mm, f=forces["normal"], along=forces["along"], side=forces["side"],
+        friction=forces["friction"],
+    )  # fmt: skip
+    marks: tuple[Mark, ...] = (
+        Arrow(foot, corner, Role.RESULT),
+        Arrow(corner, 0j, Role.RESULT),
+        Line(np.array([corner, complex(0, corner.imag)]), Role.CONSTRUCTION),
+        Dots(np.array([corner])),
+        Label((foot + corner) / 2, "F", towards=across.real + 0j - 0.5j),
+        Label(corner / 2, "R", towards=UP),
+    )
+    found = ("normal", "along", "side", "friction", "reaction")
+    return [*steps, Step(say("The triangle of forces"), closing, view, marks, reads=found)]
+
+
+def _normal_line(foot: complex, normal: complex, length: float, alpha: float) -> tuple[Mark, ...]:
+    reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
+    radius = 0.4 * min(reach, LOAD_LENGTH)
+    upright, inclined = math.pi / 2, math.atan2(normal.imag, normal.real)
+    return (
+        Line(np.array([foot, foot + reach * normal]), Role.CONSTRUCTION),
+        Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
+        angle_at(foot, upright, inclined, radius, say("α = {alpha:.1f}°", alpha=math.degrees(alpha))),
+    )
+
+
+def _reaction_caption(guide: Guide | None) -> Caption:
+    if guide is None:
+        return say("Without friction the guide only pushes across the motion: its line is drawn through the tail of Q.")
+    return say(
+        "The nearer bearing bears (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
+        "it. With l laid off across the motion and μ(l + 2b) along it, μ = {mu:g}, l = {length:g} mm, the slope of "
+        "the reaction through the tail of Q is found.",
+        mu=guide.friction, length=guide.length,
+    )  # fmt: skip
+
+
+def _reaction_line(across: complex) -> tuple[Mark, ...]:
+    base, end = complex(BASE * across.real, 0), BASE * across
+    level = () if end == base else (Line(np.array([0j, base, end]), Role.CONSTRUCTION),)
+    return (Line(np.array([-0.3 * end, end]), Role.CONSTRUCTION), *level)

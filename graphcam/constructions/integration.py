@@ -1,0 +1,268 @@
+"""Graphical integration with a pole, twice: acceleration to velocity to displacement.
+
+The ordinate at the middle of each part is projected on the axis and joined to the pole, which lies the distance H to
+the left: the ray.  A chord parallel to the ray carries the integral over the part.  A chord rises by y dx/H, so the
+scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s from the known lift.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes
+from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
+from graphcam.drafting.curve import faired, farthest_of
+from graphcam.drafting.euclid import UP, climb_along
+from graphcam.drafting.ink import (
+    Caption,
+    Construction,
+    Dimension,
+    Dots,
+    Label,
+    Line,
+    Points,
+    Role,
+    Segments,
+    Step,
+    View,
+    reading,
+    say,
+)  # fmt: skip
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import unit
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.stations import Stations
+
+FLAT = 1e-9
+"""A displacement of less, as part of what the greatest ordinate gives over the phase, is rounding."""
+SAME_HEIGHT = 2e-3
+"""Projections this near to one another [mm] fall on one line."""
+
+
+def integration(diagram: Construction, poles: tuple[float, float], pencil: Pencil) -> Construction:
+    """Integrate the acceleration diagram twice and fix its scale by the known lift.
+
+    diagram : from :func:`~graphcam.constructions.acceleration.acceleration_diagram`
+    poles : H1 (acceleration to velocity) and H2 (velocity to displacement) [mm of paper]
+
+    Readings at the stations: ``s``, ``v``, ``a``, and ``a_before`` on the near side of a jump; ``max_v``, ``max_a``.
+    In mm of paper the closing errors: ``closing_v`` (one a moving phase, taken up by turning its base line) and
+    ``closing_s`` (shared out by the returns).
+    """
+    hand = pencil.hand("integration")
+    motion, stations, mu_phi, lift_unit = (diagram.givens[name] for name in ("motion", "stations", "mu_phi", "unit"))
+    x = diagram.points["axis"].real
+    width = x[..., stations.left + 1] - x[..., stations.left]
+    middle = x[..., stations.left] + width / 2
+    count = stations.left.size
+
+    # First integration.  The hand errs where it projects an ordinate and where it ends a chord; the next chord starts
+    # from that end.  Every phase starts and ends at rest, so a velocity left at its end is taken up by the base line.
+    a_projected = diagram.readings["middles"].paper + hand.line(count)
+    v_chords = _polygons(climb_along(poles[0] + UP * a_projected, width) + hand.line(count), stations)
+    closing_v = v_chords[..., stations.last]
+    v = v_chords - closing_v[..., stations.moving] * stations.u
+
+    # Second integration: the middle ordinate is read from the polygon, halfway between the chord's ends.
+    v_projected = (v[..., stations.left] + v[..., stations.left + 1]) / 2 + hand.line(count)
+    s_chords, s, closing_s = _stacked(
+        _polygons(climb_along(poles[1] + UP * v_projected, width) + hand.line(count), stations), motion, stations
+    )
+    top = _top(motion, stations)
+    span = stations.phases[stations.moving[top]]
+    # A phase may be as narrow as it likes: what counts is whether it has risen by what its own ordinates give.
+    full = diagram.readings["greatest"].paper[..., stations.moving[top]] * (x[..., top] - x[..., span.start]) ** 2
+    mu_s = motion.lift / _measurable(s[..., top], full / (poles[0] * poles[1]), pencil)
+    mu_v = mu_s / (mu_phi.per_mm * poles[1])
+    mu_a = mu_v / (mu_phi.per_mm * poles[0])
+    fastest = [farthest_of(x + UP * side * v, stations.pieces, UP).imag for side in (1, -1)]
+    return Construction(
+        "integration",
+        {**diagram.givens, "diagram": diagram, "poles": poles, "pencil": pencil},
+        {
+            "s": reading(hand.read(s), mu_s, lift_unit),
+            "v": reading(hand.read(v), mu_v, f"{lift_unit}/rad"),
+            "a": reading(hand.read(diagram.readings["stations"].paper), mu_a, f"{lift_unit}/rad²"),
+            "a_before": reading(hand.read(diagram.readings["before"].paper), mu_a, f"{lift_unit}/rad²"),
+            "max_v": reading(hand.read(np.maximum(*fastest)), mu_v, f"{lift_unit}/rad"),
+            "max_a": reading(hand.read(diagram.readings["greatest"].paper.max(axis=-1)), mu_a, f"{lift_unit}/rad²"),
+            "closing_v": reading(closing_v, mu_v, f"{lift_unit}/rad"),
+            "closing_s": reading(closing_s, mu_s, lift_unit),
+        },
+        {
+            "a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v,
+            "v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s,
+        },
+        _draw,
+    )  # fmt: skip
+
+
+def _polygons(rises: Floats, stations: Stations) -> Floats:
+    """Chords set end to end from zero, in every phase anew: heights at the stations (..., m) from rises (..., p)."""
+    heights = np.zeros((*rises.shape[:-1], stations.u.size))
+    for span, parts in zip(stations.phases, stations.parts, strict=True):
+        heights[..., span.start + 1 : span.stop] = np.cumsum(rises[..., parts], axis=-1)
+    return heights
+
+
+def _stacked(polygons: Floats, motion: Motion, stations: Stations) -> tuple[Floats, Floats, Floats]:
+    """Set each phase's polygon on the end of the one before, and share out what is left at the end of the turn.
+
+    returns : heights (..., m) above the lowest rest as drawn and as shared out, and the closing error (...)
+    """
+    ends = polygons[..., stations.last]
+    closing = ends.sum(axis=-1)
+    # The returns bring the follower back, so they take up the error, each in proportion to its length.
+    phases = [motion.phases[k] for k in stations.phase[stations.last]]
+    share = np.array([phase.angle if phase.direction < 0 else 0.0 for phase in phases])
+    turned = closing[..., None] * share / share.sum()
+    drawn = polygons + (np.cumsum(ends, axis=-1) - ends)[..., stations.moving]
+    starts = np.cumsum(ends - turned, axis=-1) - (ends - turned)
+    shared = polygons - turned[..., stations.moving] * stations.u + starts[..., stations.moving]
+    lowest = np.minimum(starts.min(axis=-1), 0.0)[..., None]
+    return drawn - lowest, shared - lowest, closing
+
+
+def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
+    """The greatest displacement on paper, NaN in a sample where nothing has risen above the axis.
+
+    full : what the greatest ordinate would give over the whole phase [mm of paper]
+    """
+    risen = top > FLAT * full
+    if pencil.samples is None and not risen:
+        raise DesignError(
+            "greatest displacement on paper", f"{float(top):.3g} mm", "above the axis",
+            "divide into more parts, or draw longer ordinates",
+        )  # fmt: skip
+    return np.where(risen, top, np.nan)
+
+
+def _top(motion: Motion, stations: Stations) -> int:
+    """The station at the end of the phase that reaches the known greatest displacement."""
+    reached = motion.levels[stations.phase[stations.last] + 1]
+    return int(stations.last[np.argmax(reached)])
+
+
+def _draw(c: Construction) -> list[Step]:
+    return [*_draw_pass(c, _FIRST), *_draw_pass(c, _SECOND), _draw_scales(c)]
+
+
+@dataclass(frozen=True)
+class _Pass:
+    """What tells one integration from the other on the paper."""
+
+    index: int
+    source: View
+    target: View
+    symbols: tuple[str, str]
+    closing: Caption
+
+
+_FIRST = _Pass(
+    1, ACCELERATION, VELOCITY, ("a", "v"),
+    say("A phase ends at rest: the velocity left there, {left:.2f} mm at most, is taken up by turning the base line."),
+)  # fmt: skip
+_SECOND = _Pass(
+    2, VELOCITY, DISPLACEMENT, ("v", "s"),
+    say("The displacement left at the end of the turn, {left:.2f} mm, is shared out along the returns."),
+)  # fmt: skip
+
+
+def _draw_pass(c: Construction, run: _Pass) -> list[Step]:
+    motion, stations, mu_phi = (c.givens[name] for name in ("motion", "stations", "mu_phi"))
+    pole = -c.givens["poles"][run.index - 1] + 0j
+    source, target = run.symbols
+    projected, chords, curve = (
+        c.first(name) for name in (f"{source}_projected", f"{target}_chords", f"{target}_curve")
+    )
+    left = float(np.max(np.abs(c.first(f"closing_{target}"))))
+    index = f"{run.index}".translate(SUBSCRIPTS)
+    # Projections that fall on one another are drawn once, from the farthest ordinate.
+    distance = say("H{index} = {pole:.6g}", index=index, pole=-pole.real)
+    heights = levels(projected.imag)
+    reach = np.array([projected.real[np.abs(projected.imag - y) < SAME_HEIGHT].max() for y in heights])
+    laid_out = (
+        Line(np.array([pole, 0j]), Role.SCALE),
+        Dots(np.array([pole])),
+        Label(pole, f"P{index}", towards=-1 + 1j),
+        Dimension(pole, 0j, distance, aside=-5.0 - max(0.0, -float(heights.min()))),
+    )
+    axes = phi_axes(motion, mu_phi, curve.imag, target)
+    return [
+        Step(
+            say("Pole and rays, {source} to {target}", source=source, target=target),
+            say(
+                "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate "
+                "of {source} is projected on the vertical axis and joined to the pole.",
+                index=index, distance=-pole.real, source=source,
+            ),
+            run.source,
+            (
+                *laid_out,
+                Segments(UP * heights, reach + UP * heights, Role.CONSTRUCTION),
+                Segments(np.full(heights.size, pole), UP * heights, Role.CONSTRUCTION),
+            ),
+            given=laid_out,
+        ),
+        Step(
+            say("Chords parallel to the rays: {target}", target=target),
+            say(
+                "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end "
+                "of the one before. {closing}",
+                closing=replace(run.closing, values={"left": left}),
+            ),
+            run.target,
+            (
+                *axes,
+                *(Line(chords[span], Role.CONSTRUCTION) for span in stations.phases),
+                Segments(curve.real + 0j, curve, Role.CONSTRUCTION),
+            ),
+            given=axes,
+        ),
+        Step(
+            say("Curve of {target}", target=target),
+            say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
+            run.target,
+            (*(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces), *_rests(c, curve)),
+        ),
+    ]  # fmt: skip
+
+
+def _rests(c: Construction, curve: Points) -> list[Line]:
+    """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
+    stations, mu_phi = c.givens["stations"], c.givens["mu_phi"]
+    level = UP * curve[-1].imag
+    ends = [
+        level,
+        *(curve[k] for s in stations.phases for k in (s.start, s.stop - 1)),
+        FULL_TURN / mu_phi.per_mm + level,
+    ]
+    return [Line(np.array(pair), Role.RESULT) for pair in zip(ends[::2], ends[1::2], strict=True)]
+
+
+def _draw_scales(c: Construction) -> Step:
+    motion, stations = c.givens["motion"], c.givens["stations"]
+    curve = c.first("s_curve")
+    top = complex(curve[_top(motion, stations)])
+    named = numbers(curve.real + 0j, stations, -UP)
+    mu_s, mu_v, mu_a = (float(np.ravel(c.readings[name].scale)[0]) for name in ("s", "v", "a"))
+    return Step(
+        say("The scales"),
+        say(
+            "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, "
+            "so μₛ = {mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and "
+            "μₐ = μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm.",
+            paper=top.imag, unit=unit(c.givens["unit"]), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a,
+        ),
+        DISPLACEMENT,
+        (
+            Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), aside=-6.0),
+            *named,
+        ),
+        given=named,
+        reads=("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s"),
+    )  # fmt: skip

@@ -1,0 +1,108 @@
+"""The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.constructions.arm_inversion import arm_inversion
+from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
+from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
+from graphcam.constructions.curvature import curvature
+from graphcam.drafting.euclid import stepped_off
+from graphcam.drafting.ink import Circle, Construction, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import Oscillating, Rotation, sense
+from graphcam.given.laws import Floats
+from graphcam.given.limits import Limits
+
+
+@dataclass(frozen=True)
+class DrawnOscillating:
+    """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found."""
+
+    arm: float
+    place: float | None
+    place_name = "distance"
+    unit = "rad"
+    divides_at_corners = False
+    constructions = (
+        "acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram", "inversion", "curvature",
+        "roller", "working_profile", "scheme",
+    )  # fmt: skip
+
+    @property
+    def conditions(self) -> dict[str, float | None]:
+        """The centre distance is the follower's own."""
+        return {}
+
+    def least_radius(
+        self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
+    ) -> Construction:
+        """From the arm positions."""
+        return arm_least_radius(integrated, rotation, limits, self.arm, place, pencil)
+
+    def pressure_angle(
+        self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
+    ) -> Construction:
+        """From the velocity plan, along the arm."""
+        return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, pencil)
+
+    def inversion(
+        self,
+        integrated: Construction,
+        rotation: Rotation,
+        prime_radius: float,
+        place: float,
+        mu_l: Scale,
+        pencil: Pencil,
+    ) -> Construction:
+        """About the pivots on their circle."""
+        return arm_inversion(integrated, rotation, prime_radius, self.arm, place, mu_l, pencil)
+
+    def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
+        """By three points."""
+        return curvature(drawn["inversion"], pencil)
+
+    def places(self, region: Construction, prime_radius: float) -> Floats:
+        """The distances at which no line of the region cuts the cam centre off."""
+        return permitted_distances(region, prime_radius)
+
+    def must_exceed(self, place: float) -> float:
+        """The arm must reach the prime circle from its pivot."""
+        return abs(place - self.arm)
+
+    def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
+        """The pivot circle, or the pitch curve with a roller on it where that is larger."""
+        return max(place, prime_radius + self.arm * lift + roller_radius)
+
+    def built(self, place: float | None, roller_radius: float) -> Oscillating:
+        """The follower with these sizes."""
+        return Oscillating(self.arm, place, roller_radius)
+
+    def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
+        """Roller, arm and pivot."""
+        shrink = inverted.givens["mu_l"].per_mm / scale.per_mm
+        stations, motion = (
+            inverted.givens["integrated"].givens["stations"],
+            inverted.givens["integrated"].givens["motion"],
+        )
+        # Turned back by the station's cam angle, the first pivot lies on the line of centres.
+        back = np.exp(1j * sense(inverted.givens["rotation"]) * stations.phi[0])
+        pivot, start = (complex(inverted.first(name)[0] * back) * shrink for name in ("pivots", "starts"))
+        b = complex(stepped_off(start, pivot, np.asarray(-motion.levels[0])))
+        ground = pivot + np.arange(-3, 3.1, 1.5) - 5j
+        return (
+            Circle(b, roller_radius / scale.per_mm, Role.CURVE),
+            Line(np.array([b, pivot]), Role.CURVE),
+            Line(np.array([0j, pivot]), Role.AXIS),
+            Circle(pivot, 1.2, Role.CURVE),
+            Line(pivot + np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),
+            Segments(ground, ground - 1.2 - 1.5j, Role.HATCH),
+            Dots(np.array([b])),
+            Label(b, "B", towards=1 + 1j),
+            Label(pivot, "C", towards=1 + 1j),
+        )

@@ -1,0 +1,157 @@
+"""What every drawing about the cam centre has: closed curves, the phases' angles, the sense of the rotation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from graphcam.constructions.axes import numbered, phase_angle, station_names
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.curve import faired
+from graphcam.drafting.euclid import UP, stepped_off, turned
+from graphcam.drafting.ink import (
+    AngleMark,
+    Arc,
+    Arrow,
+    Caption,
+    Circle,
+    Construction,
+    Dots,
+    Label,
+    Line,
+    Mark,
+    Points,
+    Role,
+    Segments,
+    Step,
+    say,
+)
+from graphcam.given.follower import sense
+from graphcam.given.motion import FULL_TURN, Motion
+
+BEYOND = 9.0
+"""How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
+
+
+def pitch_curve(inverted: Construction) -> Points:
+    """The closed pitch curve of the first sample, for drawing."""
+    return closed_curve(inverted, inverted.first("pitch"))
+
+
+def closed_curve(inverted: Construction, points: Points) -> Points:
+    """A closed curve through one point a station: faired between jumps, an arc about the cam centre in every dwell.
+
+    points : (m,) places on the paper, NaN where there is none
+    """
+    integrated = inverted.givens["integrated"]
+    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    spans = {int(stations.phase[span.start]): span for span in stations.phases}
+    sigma, line = sense(inverted.givens["rotation"]), list[Points]()
+    at, since = len(points) - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
+    for k, phase in enumerate(motion.phases):
+        if k in spans:
+            span = spans[k]
+            pieces = [p for p in stations.pieces if span.start <= p.start < span.stop - 1]
+            line += [faired(points[piece][~np.isnan(points[piece])]) for piece in pieces]
+            at, since = span.stop - 1, stations.phi[span.stop - 1]
+        else:
+            turns = motion.starts[k] - since + np.linspace(0, phase.angle, max(2, round(phase.angle / ARC_STEP)))
+            # Where the point before the dwell is missing, the one after it lies on the same arc.
+            after = (at + 1) % len(points)
+            back = sigma * ((stations.phi[after] - since) % FULL_TURN)
+            last = turned(points[after], back) if np.isnan(points[at]) else points[at]
+            line.append(stepped_off(last, 0j, -sigma * turns))
+    whole = np.concatenate(line)
+    return whole[~np.isnan(whole)]
+
+
+ROTATION_ARC = 0.9
+"""Length of the arc that shows the sense of the rotation [rad]."""
+ARC_STEP = math.radians(1)
+"""The arcs of a closed curve are drawn through points this far apart [rad]."""
+
+
+def radius_arrow(inverted: Construction, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
+    """An arrow from the cam centre to a circle, in the middle of the longest phase, where there is most room."""
+    motion: Motion = inverted.givens["integrated"].givens["motion"]
+    longest = int(np.argmax([phase.angle for phase in motion.phases]))
+    middle = motion.starts[longest] + motion.phases[longest].angle / 2
+    sigma, mu_l = sense(inverted.givens["rotation"]), inverted.givens["mu_l"]
+    tip = complex(turned(start / abs(start), -sigma * middle)) * radius / mu_l.per_mm
+    return (
+        Arrow(0j, tip, Role.DIMENSION),
+        Label(tip * 0.6, say("{symbol} = {radius:g}", symbol=symbol, radius=radius), towards=tip * UP),
+    )
+
+
+def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
+    """An arc about the cam centre that starts in a direction [rad] and points in the sense of the rotation."""
+    start, end = sorted((direction, direction + sigma * ROTATION_ARC))
+    return Arc(0j, radius, start, end, Role.CURVE, arrow="end" if sigma > 0 else "start")
+
+
+def phase_angles(inverted: Construction, start: complex, radius: float) -> list[Mark]:
+    """The angles of the phases outside the curve, against the rotation, from the point where the lift starts."""
+    motion: Motion = inverted.givens["integrated"].givens["motion"]
+    sigma = sense(inverted.givens["rotation"])
+    limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
+    rays: Points = np.exp(1j * limits[:-1])
+    marks = list[Mark]([Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS)])
+    for k, (a, b) in enumerate(pairwise(limits)):
+        marks.append(AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k)))
+    return marks
+
+
+def outer_radius(inverted: Construction) -> float:
+    """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
+    prime = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm
+    return max(float(np.nanmax(np.abs(inverted.first("pitch")))), prime) + BEYOND
+
+
+def ground(inverted: Construction) -> tuple[Mark, ...]:
+    """Cam centre, centre lines and the sense of the rotation."""
+    prime, sigma = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm, sense(inverted.givens["rotation"])
+    reach = (outer_radius(inverted) + BEYOND) * np.array([-1, 1])
+    return (
+        Line(reach + 0j, Role.AXIS),
+        Line(UP * reach, Role.AXIS),
+        rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
+        Label(0.6 * prime * complex(turned(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
+        Dots(np.array([0j]), Role.RESULT),
+    )
+
+
+def prime_circle(inverted: Construction) -> Circle:
+    """The prime circle."""
+    return Circle(0j, inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm, Role.CONSTRUCTION)
+
+
+PITCH_CURVE = say("Pitch curve")
+PITCH_SAID = say("A smooth curve through the points, with arcs about the centre in the dwells, is the pitch curve.")
+
+
+def pitch_steps(
+    inverted: Construction, laid_off: Step, title: Caption = PITCH_CURVE, said: Caption = PITCH_SAID
+) -> list[Step]:
+    """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
+    pitch, stations = inverted.first("pitch"), inverted.givens["integrated"].givens["stations"]
+    names = station_names(stations)
+    points = (
+        Dots(pitch, Role.CONSTRUCTION),
+        *(
+            Label(complex(pitch[k]), names[k], towards=complex(pitch[k]) / abs(pitch[k]), small=True)
+            for k in numbered(pitch, stations)
+        ),
+    )
+    return [
+        replace(laid_off, marks=(*laid_off.marks, *points)),
+        Step(
+            title,
+            said,
+            PROFILE,
+            (Line(pitch_curve(inverted), Role.CURVE, closed=True),),
+        ),
+    ]

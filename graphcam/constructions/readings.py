@@ -1,0 +1,165 @@
+"""What a step reads off the paper, as a reader writes it down: millimetres times a scale are a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphcam.constructions.arc_roller import ArcStations
+from graphcam.constructions.axes import station_names
+from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.drafting.units import unit
+from graphcam.given.laws import Floats
+from graphcam.given.stations import Stations
+from graphcam.words import sequence
+
+PAPER = "mm of paper"
+"""The unit of a reading that stands for nothing but its own length."""
+NOTHING = 1e-9
+"""A length or an angle of less [mm or degrees] is rounding of the arithmetic."""
+TITLES: Mapping[str, Caption] = {
+    "acceleration.base": say("length of the axis"),
+    "acceleration.greatest": say("greatest ordinates"),
+    "acceleration.middles": say("middle ordinates"),
+    "s": say("displacement s"),
+    "v": say("velocity v"),
+    "a": say("acceleration a"),
+    "max_v": say("greatest v"),
+    "max_a": say("greatest a"),
+    "closing_v": say("closing error of v"),
+    "closing_s": say("closing error of s"),
+    "prime_radius": say("prime radius r₀"),
+    "offset": say("offset e"),
+    "distance": say("centre distance c"),
+    "s0": say("distance s₀"),
+    "need": say("greatest −(s + a)"),
+    "alpha": say("pressure angle α"),
+    "transmission": say("transmission angle"),
+    "psi0": say("angle ψ₀"),
+    "max_rise": say("greatest α on the rise"),
+    "max_return": say("greatest α on the return"),
+    "x": say("x"),
+    "y": say("y"),
+    "radius": say("polar radius"),
+    "polar_angle": say("polar angle"),
+    "contact": say("contact beside the ray"),
+    "face_left": say("half-width of the face, left"),
+    "face_right": say("half-width of the face, right"),
+    "phi": say("cam angles φ"),
+    "rho": say("least radius of curvature ρ"),
+    "candidates": say("proposals"),
+    "roller_radius": say("roller radius r"),
+    "load": say("load Q"),
+    "normal": say("contact force F"),
+    "along": say("F cos α"),
+    "side": say("F sin α"),
+    "friction": say("friction in the guide"),
+    "reaction": say("reaction R"),
+    "three_arcs.base": say("radius of the base circle"),
+    "outer": say("radius of the outer circle"),
+    "rho2": say("radius ρ₂"),
+    "rho3": say("radius ρ₃"),
+    "lift": say("lift h"),
+    "max_alpha": say("greatest α"),
+    "phi_G": say("φ at G"),
+    "phi_F": say("φ at F"),
+    "rise": say("angle of the rise"),
+    **{f"{name}_{axis}": sequence([name, axis]) for name in ("C1", "C2", "C3", "F") for axis in "xy"},
+    **{f"other_{name}_{axis}": sequence([f"{name}′", axis]) for name in ("C3", "F") for axis in "xy"},
+    **{f"a_{point}": say("a in {point}", point=point) for point in "AD"},
+    **{f"a_{point}_before": say("a in {point}, {side}", point=point, side=say("before")) for point in "GF"},
+    **{f"a_{point}_after": say("a in {point}, {side}", point=point, side=say("after")) for point in "GF"},
+}
+"""What each reading is called; of a name that two constructions use, after the construction's."""
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One reading of a step in the first sample, as it is written down: angles in degrees.
+
+    paper : what was measured, () or (m,) [mm, or degrees of an angle that was measured itself]
+    mu : what a millimetre stands for [``unit``/mm], None where what was measured is itself the value
+    value : () or (m,) [``unit``];  unit : with "°" for an angle
+    places : (m,) names of the stations that the values belong to, else their numbers from 1; empty for a scalar
+    """
+
+    name: str
+    title: Caption
+    paper: Floats
+    mu: float | None
+    value: Floats
+    unit: str
+    places: tuple[str, ...]
+
+    def said(self, place: int | None = None) -> Caption:
+        """The reading in one line: of an array that at a ``place``, by default the one of greatest magnitude."""
+        if self.paper.ndim:
+            place = int(np.nanargmax(np.abs(self.paper))) if place is None else place
+        at = () if place is None else (place,)
+        paper, value = float(self.paper[at]), float(self.value[at])
+        if self.mu is None:
+            return say("{value:.2f}°", value=value) if self.unit == "°" else say("{paper:.2f} mm", paper=paper)
+        if self.unit == "°":
+            return say("{paper:.2f} mm × {mu:.5g}°/mm = {value:.5g}°", paper=paper, mu=self.mu, value=value)
+        said = (
+            say("{paper:.2f} mm × {mu:.5g} ({unit})/mm = {value:.5g} {unit}")
+            if "/" in self.unit
+            else say("{paper:.2f} mm × {mu:.5g} {unit}/mm = {value:.5g} {unit}")
+        )
+        return replace(said, values={"paper": paper, "mu": self.mu, "value": value, "unit": unit(self.unit)})
+
+
+def rows(construction: Construction, step: Step) -> list[Row]:
+    """The readings that a step of a construction takes; one that could not be read anywhere is left out.
+
+    >>> from graphcam.main_job import solve
+    >>> from graphcam.task_file import builtin_task
+    >>> region = solve(builtin_task()).drawn["minimum_radius"]
+    >>> for row in rows(region, region.steps()[-1]):
+    ...     print(row.title, "=", row.said())
+    prime radius r₀ = 72.13 mm × 0.6 mm/mm = 43.28 mm
+    offset e = -16.67 mm × 0.6 mm/mm = -10 mm
+    distance s₀ = 70.18 mm × 0.6 mm/mm = 42.109 mm
+    """
+    found = [_row(construction, name) for name in step.reads]
+    return [row for row in found if not np.isnan(row.paper).all()]
+
+
+def _row(construction: Construction, name: str) -> Row:
+    reading = construction.readings[name]
+    # Not Construction.first: a place of the same name would come before the reading.
+    paper = reading.paper[0] if construction.givens["pencil"].samples is not None else reading.paper
+    paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
+    title = TITLES.get(f"{construction.name}.{name}") or TITLES[name]
+    places = _places(construction, paper.size) if paper.ndim else ()
+    mu = float(np.ravel(reading.scale)[0])
+    if reading.unit == PAPER:
+        return Row(name, title, paper, None, paper, "mm", places)
+    if reading.unit == "rad":
+        # An angle that was measured as such has the scale 1 on every sheet.
+        measured = mu == 1
+        degrees = np.degrees(paper * mu)
+        return Row(name, title, degrees if measured else paper, None if measured else float(np.degrees(mu)), degrees,
+                   "°", places)  # fmt: skip
+    return Row(name, title, paper, mu, paper * mu, reading.unit, places)
+
+
+def _places(construction: Construction, size: int) -> tuple[str, ...]:
+    """The names of the stations, if there are so many."""
+    names = _stations(construction)
+    return names if len(names) == size else tuple(str(k) for k in range(1, size + 1))
+
+
+def _stations(construction: Construction) -> tuple[str, ...]:
+    """The names of the stations that lie on the board of a construction, or of those that it started from."""
+    for given in construction.givens.values():
+        if isinstance(given, Construction):
+            if names := _stations(given):
+                return names
+        elif isinstance(given, Stations):
+            return tuple(station_names(given))
+        elif isinstance(given, ArcStations):
+            return tuple(given.names)
+    return ()

@@ -1,0 +1,53 @@
+"""The scheme of the mechanism: cam, follower and frame at the start of the turn, small, for the eye alone."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphcam.constructions.board import DrawnFollower
+from graphcam.constructions.profile_view import closed_curve, rotation_arrow
+from graphcam.constructions.views import SCHEME, at_scale
+from graphcam.drafting.ink import Circle, Construction, Label, Line, Role, Segments, Step, say
+from graphcam.drafting.scale import ratio_text, standard_scale
+from graphcam.given.follower import sense
+
+SIZE = 60.0
+"""The cam is drawn at the largest standard scale at which it is not wider [mm]."""
+
+
+def scheme(profile: Construction, follower: DrawnFollower) -> Construction:
+    """Cam, follower and frame at the start of the turn.
+
+    profile : from :func:`~graphcam.constructions.roller.working_profile`
+    """
+    givens = {"profile": profile, "follower": follower, "pencil": profile.givens["pencil"]}
+    return Construction("scheme", givens, {}, {}, _draw)
+
+
+def _draw(drawn: Construction) -> list[Step]:
+    profile = drawn.givens["profile"]
+    inverted, roller = profile.givens["inverted"], profile.givens["roller_radius"]
+    mu_l, sigma = inverted.givens["mu_l"], sense(inverted.givens["rotation"])
+    outline = closed_curve(inverted, profile.first("touch")) * mu_l.per_mm
+    scale = standard_scale(2 * float(np.nanmax(np.abs(outline))), SIZE)
+    scheme = at_scale(SCHEME, scale)
+    radius = 0.5 * inverted.givens["prime_radius"] / scale.per_mm
+    ground = np.arange(-3, 3.1, 1.5) - 5j
+    marks = (
+        Line(outline / scale.per_mm, Role.RESULT, closed=True),
+        *drawn.givens["follower"].scheme(inverted, roller, scale),
+        Circle(0j, 1.2, Role.CURVE),
+        Line(np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),
+        Segments(ground, ground - 1.2 - 1.5j, Role.HATCH),
+        rotation_arrow(np.pi / 2 - sigma * 1.9, sigma, radius),
+        Label(radius * complex(-sigma, 1), "ω", towards=complex(-sigma)),
+        Label(0j, "A", towards=1 - 1j),
+    )
+    return [
+        Step(
+            say("Scheme of the mechanism"),
+            say("Cam, follower and frame at the start of the turn, at {ratio}.", ratio=ratio_text(scale.per_mm)),
+            scheme,
+            marks,
+        )
+    ]

@@ -1,0 +1,29 @@
+"""The drawings on the sheet, and which axes they share."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from graphcam.drafting.ink import View, say
+from graphcam.drafting.scale import Scale, ratio_text
+
+ACCELERATION = View("acceleration", say("Acceleration"), across="phi", up="a")
+VELOCITY = View("velocity", say("Velocity"), across="phi", up="v")
+DISPLACEMENT = View("displacement", say("Displacement"), across="phi", up="s")
+ANGLE = View("angle", say("Pressure angle"), across="phi", up="alpha")
+COMBINED = View("combined", say("Displacement and velocity: the least radius"), across="offset", up="s")
+PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")
+PROFILE = View("profile", say("Cam profile by inversion"), across="cam x", up="cam y")
+CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
+SCHEME = View("scheme", say("Scheme of the mechanism"), across="scheme x", up="scheme y")
+REGION = View("region", say("Arm positions: the least radius"), across="region x", up="region y")
+FORCES = View("forces", say("Force plan"), across="forces", up="forces")
+
+
+def at_scale(view: View, scale: Scale) -> View:
+    """A view whose title says its drawing scale.
+
+    >>> str(at_scale(PLAN, Scale(2.0, "mm")).title)
+    'Velocity plan, 1:2'
+    """
+    return replace(view, title=say("{title}, {ratio}", title=view.title, ratio=ratio_text(scale.per_mm)))

@@ -1,0 +1,79 @@
+"""Plotted points and the curve that a hand fairs through them: a parabola through three neighbouring points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from graphcam.drafting.euclid import dot
+from graphcam.drafting.ink import Points
+
+
+def farthest(points: Points, direction: Points | complex) -> Points:
+    """The point of a faired curve that lies farthest in a direction: there the tangent is perpendicular to it.
+
+    points : (..., n) plotted points of one smooth piece, in order; direction : one for all
+    returns : (...) on the parabola through the three points about the farthest one, or that point itself where the
+    parabola has no top between them, so that nothing is read beyond a corner or an end
+
+    >>> x = np.array([-1.0, 0.5, 2.0])
+    >>> complex(farthest(x + 1j * (3 - x**2), 1j))
+    3j
+    """
+    points = np.asarray(points)
+    direction = direction / np.abs(direction)
+    height = dot(direction, points)
+    best = np.argmax(np.where(np.isnan(height), -np.inf, height), axis=-1)[..., None]
+    plotted = np.take_along_axis(points, best, -1)[..., 0]
+    if points.shape[-1] < 3:
+        return plotted
+    middle = np.clip(best, 1, points.shape[-1] - 2)
+    a, b, c = (np.take_along_axis(points, middle + k, -1)[..., 0] for k in (-1, 0, 1))
+    slope, bend = (c - a) / 2, a - 2 * b + c  # the parabola b + slope t + bend t^2/2, at t = -1, 0, 1 on the points
+    with np.errstate(divide="ignore", invalid="ignore"):
+        top = -dot(direction, slope) / dot(direction, bend)
+        between = (dot(direction, bend) < 0) & (np.abs(top) <= 1)
+    top = np.where(between, top, 0.0)
+    return np.where(between, b + top * (slope + top * bend / 2), plotted)
+
+
+def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
+    """The farthest point in a direction over several smooth pieces, each faired for itself.
+
+    points : (..., n); returns : (...)
+
+    >>> x = np.arange(5.0)
+    >>> corner = x + 1j * np.minimum(x, 4 - x)
+    >>> complex(farthest_of(corner, [slice(0, 3), slice(2, 5)], 1j))
+    (2+2j)
+    """
+    tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
+    best = np.argmax(dot(direction, tops), axis=-1)[..., None]
+    return np.take_along_axis(tops, best, -1)[..., 0]
+
+
+def faired(points: Points, between: int = 8) -> Points:
+    """A smooth line through plotted points (..., n), with ``between`` short chords a part.
+
+    Between two points the parabolas through them and either neighbour are blended into one another (A. W. Overhauser
+    1968), so the line bends as the readings do.
+
+    >>> x = np.arange(4.0)
+    >>> line = faired(x + 1j * x**2, between=2)
+    >>> complex(line[3])
+    (1.5+2.25j)
+    """
+    if points.shape[-1] < 3:
+        return points
+    # One point beyond either end, on the parabola through the last three.
+    before = 3 * points[..., :1] - 3 * points[..., 1:2] + points[..., 2:3]
+    after = 3 * points[..., -1:] - 3 * points[..., -2:-1] + points[..., -3:-2]
+    p = np.concatenate([before, points, after], axis=-1)[..., None]
+    t: Points = np.arange(between) / between + 0j
+    a, b, c, d = p[..., :-3, :], p[..., 1:-2, :], p[..., 2:-1, :], p[..., 3:, :]
+    first = b + t * (c - a) / 2 + t * t * (a - 2 * b + c) / 2
+    second = b + t * (4 * c - 3 * b - d) / 2 + t * t * (b - 2 * c + d) / 2
+    blended = (1 - t) * first + t * second
+    line: list[Points] = [blended.reshape(*points.shape[:-1], -1), points[..., -1:]]
+    return np.concatenate(line, axis=-1)

@@ -1,0 +1,106 @@
+"""What a hand adds: errors of line, dividers and protractor, and the rounding of readings.
+
+The default pencil is perfect and deterministic.  A pencil may carry many samples at once: then every point and reading
+has a leading axis of that length, and one run of the arithmetic gives the scatter of all of them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphcam.errors import DesignError
+
+Floats = NDArray[np.floating[Any]]
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """Standard deviations of a hand's errors.
+
+    line : of a drawn line's or point's position [mm]
+    dividers : of a length that dividers carry from one place to another [mm]
+    division : of the scale that readings are rounded to [mm]; 0 reads exactly
+    protractor : of a measured or laid off angle [rad]
+    samples : how many hands draw at once; None for one, without a sample axis
+    seed : of the random numbers; each construction has its own stream of them
+
+    >>> Pencil(line=0.2, samples=3).hand("integration").line(2).shape
+    (3, 2)
+    """
+
+    line: float = 0.0
+    dividers: float = 0.0
+    division: float = 0.0
+    protractor: float = 0.0
+    samples: int | None = None
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("line", "dividers", "division", "protractor"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise DesignError(f"pencil {name}", value, "a finite number of 0 or more")
+        if self.samples is not None and self.samples < 1:
+            raise DesignError("pencil samples", self.samples, "1 or more, or None for a single drawing")
+        if self.seed < 0:
+            raise DesignError("pencil seed", self.seed, "0 or more")
+
+    @property
+    def perfect(self) -> bool:
+        """Whether this pencil adds no error at all."""
+        return not (self.line or self.dividers or self.division or self.protractor)
+
+    def sheets(self, paper: ArrayLike) -> NDArray[Any]:
+        """The same lengths or points on every sample's sheet: shaped ([samples,] ...).
+
+        >>> Pencil(samples=3).sheets([1.0, 2.0]).shape
+        (3, 2)
+        """
+        paper = np.asarray(paper)
+        return paper if self.samples is None else np.broadcast_to(paper, (self.samples, *paper.shape))
+
+    def hand(self, construction: str) -> Hand:
+        """The hand that draws one construction, with a stream of random numbers of its own.
+
+        The stream depends on the seed and the construction's name only, so that drawing one construction more or
+        less never changes another.
+        """
+        return Hand(self, np.random.default_rng([self.seed, *construction.encode()]))
+
+
+@dataclass(frozen=True, eq=False)
+class Hand:
+    """A pencil at work: each call gives the errors of the next ``count`` moves, shaped ([samples,] count)."""
+
+    pencil: Pencil
+    random: np.random.Generator = field(repr=False)
+
+    def line(self, count: int) -> Floats:
+        """Errors of the position across a drawn line [mm]."""
+        return self._errors(self.pencil.line, count)
+
+    def dividers(self, count: int) -> Floats:
+        """Errors of a length carried over with dividers [mm]."""
+        return self._errors(self.pencil.dividers, count)
+
+    def protractor(self, count: int) -> Floats:
+        """Errors of an angle [rad]."""
+        return self._errors(self.pencil.protractor, count)
+
+    def point(self, count: int) -> NDArray[np.complex128]:
+        """Errors of a plotted point [mm], alike in every direction."""
+        return self.line(count) + 1j * self.line(count)
+
+    def read(self, paper: Floats) -> Floats:
+        """A length as it is read off a scale: rounded to its division."""
+        division = self.pencil.division
+        return np.round(paper / division) * division if division else paper
+
+    def _errors(self, sigma: float, count: int) -> Floats:
+        shape = (count,) if self.pencil.samples is None else (self.pencil.samples, count)
+        return sigma * self.random.standard_normal(shape) if sigma else np.zeros(shape)

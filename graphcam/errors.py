@@ -1,0 +1,72 @@
+"""What can go wrong, said once: every error names the quantity, its value and what is allowed."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class GraphcamError(Exception):
+    """The parent of every error that graphcam raises on purpose."""
+
+
+class DesignError(GraphcamError, ValueError):
+    """A design that cannot be.
+
+    Parameters
+    ----------
+    quantity : what is wrong, in the words of the textbook ("prime radius")
+    value : the value it has
+    limit : what is allowed ("greater than 0 mm")
+    remedy : what to do about it; may be empty
+
+    >>> print(DesignError("lift", -3, "greater than 0 mm", "give the height of the rise"))
+    lift is -3, but must be greater than 0 mm; give the height of the rise
+    """
+
+    def __init__(self, quantity: str, value: object, limit: str, remedy: str = "") -> None:
+        super().__init__(quantity, value, limit, remedy)
+        self.quantity = quantity
+        self.value = value
+        self.limit = limit
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return _sentence(self.quantity, self.value, self.limit, self.remedy)
+
+
+class TaskError(GraphcamError):
+    """A task file that cannot be used: the file, the field, its value, what was expected, the remedy.
+
+    >>> print(TaskError("cam.toml", "motion.phases[0].lift", 0, "greater than 0", "give the lift in mm"))
+    cam.toml: motion.phases[0].lift is 0, but must be greater than 0; give the lift in mm
+    """
+
+    def __init__(self, path: str, field: str, value: object, expected: str, remedy: str = "") -> None:
+        super().__init__(path, field, value, expected, remedy)
+        self.path = path
+        self.field = field
+        self.value = value
+        self.expected = expected
+        self.remedy = remedy
+
+    def __str__(self) -> str:
+        return f"{self.path}: {_sentence(self.field, self.value, self.expected, self.remedy)}"
+
+
+def _sentence(what: str, value: object, allowed: str, remedy: str) -> str:
+    shown = repr(value) if isinstance(value, str) else f"{value}"
+    return f"{what} is {shown}, but must be {allowed}" + (f"; {remedy}" if remedy else "")
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """A remedy for a mistyped word: the known word that is nearest to it, or all of them.
+
+    >>> nearest("cicloidal", ["cosine", "cycloidal"])
+    "did you mean 'cycloidal'?"
+    >>> nearest("xyz", ["cosine", "cycloidal"])
+    'known are cosine, cycloidal'
+    """
+    known = list(known)
+    close = difflib.get_close_matches(word, known, n=1)
+    return f"did you mean '{close[0]}'?" if close else "known are " + ", ".join(known)

@@ -1,0 +1,106 @@
+"""The teacher's folder of a course: which exercise it is, in which language, and one certificate a student."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from graphcam.errors import TaskError
+from graphcam.exercises.folders import folder_name, is_cut, student_of
+
+STUDENTS, TEACHER = "students", "teacher"
+"""The two folders that 'exercise make' writes; the first may be handed out as it is."""
+SUBMITTED = "submitted"
+"""Where nbgrader collects: a folder for every student, and in it one for every assignment."""
+HIDDEN = ".graphcam"
+"""Where certificates go in a course that was not made so; no student's folder has a name that begins with a point."""
+
+
+@dataclass(frozen=True)
+class Certificates:
+    """The certificates kept in a folder."""
+
+    folder: Path
+
+    @staticmethod
+    def of(course: Path) -> tuple[Path, Certificates]:
+        """Where the hand-ins of a course are, and where its certificates: beside them if graphcam made the course."""
+        for hand_ins in (STUDENTS, SUBMITTED):
+            if (course / hand_ins).is_dir() and (course / TEACHER).is_dir():
+                return course / hand_ins, Certificates(course / TEACHER)
+        beside = course.resolve().parent / TEACHER
+        if course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir():
+            return course, Certificates(beside)
+        return course, Certificates(course / HIDDEN)
+
+    def find(self, student: str) -> str:
+        """A student's certificate as JSON; empty where there is none."""
+        try:
+            return self._path(student).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError):
+            return ""
+
+    def student(self, place: str) -> str:
+        """The student whose folder has this name; who had to be cut for it is named by the certificate."""
+        if not is_cut(place):
+            return student_of(place)
+        try:
+            said = json.loads((self.folder / "certificates" / f"{place}.json").read_bytes())
+            student = str(said["student"])
+        except (OSError, ValueError, TypeError, KeyError):
+            return student_of(place)
+        return student if folder_name(student) == place else student_of(place)
+
+    def keep(self, student: str, certificate: str) -> None:
+        """Keep a certificate; it is there whole or not at all."""
+        path = self._path(student)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        draft = path.with_suffix(".new")
+        draft.write_text(certificate, encoding="utf-8")
+        draft.replace(path)
+
+    def keep_course(self, exercise: Path, **said: Any) -> None:
+        """Note what the course is about: a copy of the exercise's file, and what else is said, such as the language.
+
+        A copy, so that the course can be graded wherever it goes, and after the library's exercise has changed.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / exercise.name).write_bytes(exercise.read_bytes())
+        said = {"exercise": exercise.stem, **said}
+        (self.folder / "course.json").write_text(json.dumps(said) + "\n", encoding="utf-8")
+
+    def exercise(self) -> str:
+        """What the course is about, as :func:`~graphcam.exercises.exercise_file.find_exercise` takes it; or empty."""
+        name = str(self.course().get("exercise", ""))
+        copy = self.folder / f"{name}.toml"
+        return str(copy) if copy.is_file() else name
+
+    def course(self) -> dict[str, Any]:
+        """What is noted of the course; empty where nothing is."""
+        try:
+            said = json.loads((self.folder / "course.json").read_bytes())
+        except (OSError, ValueError):
+            return {}
+        return said if isinstance(said, dict) else {}
+
+    def _path(self, student: str) -> Path:
+        return self.folder / "certificates" / f"{folder_name(student)}.json"
+
+
+def read_secret(path: str | Path) -> bytes:
+    """The secret of a course, without the end of its line.
+
+    Raises
+    ------
+    TaskError : the file cannot be read, or it is empty
+    """
+    try:
+        secret = Path(path).read_bytes().strip()
+    except OSError as error:
+        raise TaskError(str(path), "the secret", error.strerror or "not readable", "a file that only you can read",
+                        "check the name") from None  # fmt: skip
+    if not secret:
+        raise TaskError(str(path), "the secret", "empty", "a long random text", "write one into the file and keep it")
+    return secret

@@ -1,0 +1,1 @@
+"""Exercises for other systems: question banks, courses, autograders."""

@@ -1,0 +1,58 @@
+"""What ``graphcam exercise export`` does: variants for another system, in one folder."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+
+from graphcam.errors import DesignError
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.course_folder import TEACHER, Certificates
+from graphcam.exercises.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.exports.formats import Format
+from graphcam.exercises.exports.gradescope import write_autograder
+from graphcam.exercises.exports.moodle import moodle_xml
+from graphcam.exercises.exports.nbgrader import write_course
+from graphcam.exercises.issue import issue
+from graphcam.files import OutputError, whole_folder
+
+MOST = 1000
+"""Variants of one export."""
+
+
+def export(name: str, target: Format, students: list[str], folder: Path, secret: bytes | None = None,
+           step: Callable[[int, int], None] = lambda done, total: None) -> None:  # fmt: skip
+    """Write the export for some students, or for as many nameless variants, into a new folder.
+
+    name : of an exercise, or the path of its file, which travels with the export
+    secret : of the course; without one a new one is drawn and written into the folder, for the teacher
+
+    Raises
+    ------
+    OutputError : the folder is there already, or cannot be written
+    """
+    if not 0 < len(students) <= MOST:
+        raise DesignError("number of variants", len(students), f"from 1 to {MOST}")
+    if folder.exists():
+        raise OutputError(folder, "it is there already", "name a new folder, or remove that one first")
+    exercise = find_exercise(name)
+    key = secret or secrets.token_hex(32).encode()
+    certificates: list[Certificate] = []
+    for student in students:
+        certificates.append(issue(exercise, student, key)[1])
+        step(len(certificates), len(students))
+    with whole_folder(folder) as draft:
+        kept = Certificates(draft / TEACHER)
+        kept.keep_course(exercise_path(name), version=exercise.version, language="en")
+        for certificate in certificates:
+            kept.keep(certificate.student, certificate.to_json())
+        match target:
+            case Format.MOODLE:
+                (draft / f"{exercise.name}.xml").write_text(moodle_xml(exercise, certificates), encoding="utf-8")
+            case Format.NBGRADER:
+                write_course(draft, exercise, certificates)
+            case Format.GRADESCOPE:
+                write_autograder(draft, exercise, key)
+        if secret is None:
+            (draft / TEACHER / "secret").write_bytes(key)

@@ -1,0 +1,11 @@
+"""The systems that exercises can be exported for."""
+
+from enum import StrEnum
+
+
+class Format(StrEnum):
+    """A system that keeps questions, courses or scores."""
+
+    MOODLE = "moodle"
+    NBGRADER = "nbgrader"
+    GRADESCOPE = "gradescope"

@@ -1,0 +1,79 @@
+"""Gradescope's ``results.json`` (otter's too), and an autograder that writes it.
+
+The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from graphcam.exercises.course_folder import TEACHER, Certificates, read_secret
+from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.exercise_file import find_exercise
+from graphcam.exercises.grading.hand_in import read_hand_in
+from graphcam.exercises.grading.work import Assignment, grade
+from graphcam.exercises.reports.words import OUTCOMES
+from graphcam.exercises.template import sentence
+
+SETUP = """#!/usr/bin/env bash
+set -e
+pip3 install graphcam
+"""
+RUN = """#!/usr/bin/env bash
+cd /autograder/source && python3 -m graphcam.exercises.exports.gradescope /autograder
+"""
+
+
+def results(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
+    """A record as ``results.json`` wants it: one test for every answer.
+
+    Gradescope shows outputs to the student, so nothing of the key and no deviation is in them.
+    """
+    asked = {one.name: one for one in exercise.answers}
+    return {
+        "score": record["total"],
+        "output": "\n".join([*record["feedback"], *record["notes"]]),
+        "output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [
+            {
+                "name": answer["name"], "score": answer["marks"], "max_score": answer["of"],
+                "status": "passed" if answer["marks"] == answer["of"] else "failed",
+                "output": f"{sentence(asked[answer['name']].text, record['parameters'])} {OUTCOMES[answer['outcome']]}",
+                "output_format": "text", "visibility": "visible",
+            }
+            for answer in record["answers"]
+        ],
+        "extra_data": {"exercise": record["exercise"], "version": record["version"], "level": record["level"]},
+    }  # fmt: skip
+
+
+def write_autograder(folder: Path, exercise: Exercise, secret: bytes) -> None:
+    """The files of an autograder; packed as a zip they are what Gradescope asks for."""
+    (folder / "setup.sh").write_text(SETUP, encoding="utf-8")
+    (folder / "run_autograder").write_text(RUN, encoding="utf-8")
+    for program in ("setup.sh", "run_autograder"):
+        (folder / program).chmod(0o755)
+    (folder / TEACHER / "secret").write_bytes(secret)
+
+
+def main(root: Path) -> None:
+    """Grade the one hand-in of an autograder's container."""
+    source = root / "source"
+    metadata = json.loads((root / "submission_metadata.json").read_bytes())
+    student = str(metadata["users"][0]["email"])
+    kept = Certificates(source / TEACHER)
+    exercise = find_exercise(kept.exercise())
+    assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
+    graded = grade(assignment, read_hand_in(student, root / "submission", kept.find(student)))
+    (root / "results").mkdir(exist_ok=True)
+    said = json.dumps(results(assignment.exercise, graded.record.to_dict()), indent=1, allow_nan=False)
+    (root / "results" / "results.json").write_text(said, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

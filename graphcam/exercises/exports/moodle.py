@@ -1,0 +1,89 @@
+"""Moodle's question XML: for each variant a description and a numerical question for every answer.
+
+The first answer is the key with its tolerance and all marks; those after it are what the catalogued mistakes answer,
+with no marks and the feedback that belongs to them.  Moodle takes the first that matches.  Numbers are written so that
+they are read back exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise import Asked, Exercise
+from graphcam.exercises.misconceptions import misconception
+from graphcam.exercises.template import sentence
+
+
+def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
+    """The questions of several variants, each in a category of its own.
+
+    >>> from graphcam.exercises.exercise_file import find_exercise
+    >>> moodle_xml(find_exercise("acceleration-and-scales"), []).splitlines()[1]
+    '<quiz />'
+    """
+    quiz = Element("quiz")
+    for certificate in certificates:
+        category = SubElement(quiz, "question", type="category")
+        _text(category, "category", f"$course$/{exercise.title}/{certificate.student}")
+        description = _question(quiz, "description", exercise.title, sentence(exercise.text, certificate.parameters))
+        SubElement(description, "defaultgrade").text = "0"
+        for asked in exercise.answers:
+            _ask(quiz, exercise, certificate, asked)
+    indent(quiz)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(quiz, encoding="unicode") + "\n"
+
+
+def _ask(quiz: Element, exercise: Exercise, certificate: Certificate, asked: Asked) -> None:
+    title = f"{exercise.title}: {asked.name}"
+    text = sentence(asked.text, certificate.parameters) + (f" [{asked.unit}]" if asked.unit else "")
+    if asked.kind != "number":
+        _essay(quiz, title, text, asked)
+        return
+    question = _question(quiz, "numerical", title, text)
+    SubElement(question, "defaultgrade").text = repr(asked.marks)
+    SubElement(question, "penalty").text = "0"
+    SubElement(question, "hidden").text = "0"
+    key = certificate.keys[asked.name]
+    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), "Right.")
+    place = [one.name for one in exercise.answers].index(asked.name)
+    for name, values in certificate.hypotheses.items():
+        value, scatter = values[place].value, values[place].scatter
+        assert isinstance(value, float)
+        assert isinstance(scatter, float)
+        # A mistake made elsewhere leaves this answer right, and the key stands before it anyway.
+        if abs(value - float(str(key.expected.value))) > key.tolerance:
+            _answer(question, 0, repr(value), repr(certificate.bound * scatter), str(misconception(name).said))
+    _answer(question, 0, "*", "0", "Farther off than a careful hand draws or calculates.")
+    SubElement(question, "unitgradingtype").text = "0"
+    SubElement(question, "showunits").text = "3"
+
+
+def _essay(quiz: Element, title: str, text: str, asked: Asked) -> None:
+    """Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades."""
+    question = _question(quiz, "essay", title, f"{text} Hand in a DXF, drawn in mm on the layer {asked.layer}.")
+    SubElement(question, "defaultgrade").text = repr(asked.marks)
+    SubElement(question, "penalty").text = "0"
+    for name, value in (("responseformat", "noinline"), ("responserequired", "0"), ("attachments", "1"),
+                        ("attachmentsrequired", "1"), ("filetypeslist", ".dxf")):  # fmt: skip
+        SubElement(question, name).text = value
+
+
+def _question(quiz: Element, kind: str, name: str, text: str) -> Element:
+    question = SubElement(quiz, "question", type=kind)
+    _text(question, "name", name)
+    _text(question, "questiontext", text, format="plain_text")
+    _text(question, "generalfeedback", "", format="plain_text")
+    return question
+
+
+def _answer(question: Element, fraction: int, value: str, tolerance: str, feedback: str) -> None:
+    answer = SubElement(question, "answer", fraction=str(fraction), format="moodle_auto_format")
+    SubElement(answer, "text").text = value
+    _text(answer, "feedback", feedback, format="plain_text")
+    SubElement(answer, "tolerance").text = tolerance
+
+
+def _text(parent: Element, name: str, text: str, **attributes: str) -> None:
+    SubElement(SubElement(parent, name, attributes), "text").text = text

@@ -1,0 +1,117 @@
+"""Work shared out among processes or machines, so that every job gives one result, also one that kills its worker."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+from typing import Any, TypeVar
+
+J = TypeVar("J")
+R = TypeVar("R")
+
+BATCH = 16
+"""Jobs that travel together: less talk between processes, and still an even load."""
+AHEAD = 3
+"""Batches a worker that are on their way: none waits, and not all jobs are in memory."""
+
+
+@dataclass(frozen=True)
+class Crew:
+    """Where the work is done.
+
+    executor : makes a :class:`concurrent.futures.Executor`, a new one after one has broken
+    workers : how many jobs it does at once
+    close : to be called when all work is done
+    """
+
+    executor: Callable[[], Executor]
+    workers: int
+    close: Callable[[], object] = lambda: None
+
+
+def processes(workers: int) -> Crew:
+    """Processes on this machine."""
+    return Crew(partial(_pool, workers), workers)
+
+
+def cluster(address: str) -> Crew:
+    """The workers of a dask scheduler; needs the extra ``cluster``.
+
+    Raises
+    ------
+    OSError : there is no scheduler at the address
+    """
+    from distributed import Client
+
+    client: Any = Client(address)
+    return Crew(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
+
+
+def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J]) -> Generator[tuple[J, R | None]]:
+    """Every job with its result as they come, or with None where the worker died of it.
+
+    work : a module-level function that does not raise
+
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> sorted(results(Crew(ThreadPoolExecutor, 2), abs, [-1, 2]))
+    [(-1, 1), (2, 2)]
+    """
+    suspects: list[J] = []
+    waiting = iter(jobs)
+    while batch := list(islice(waiting, BATCH)):
+        # An executor that breaks takes down with it what others were doing: all of that is suspected.
+        for done, found in _until_broken(crew, work, batch, waiting):
+            if found is None:
+                suspects += done
+            else:
+                yield from zip(done, found, strict=True)
+    yield from _one_by_one(crew, work, suspects)
+
+
+def _until_broken(
+    crew: Crew, work: Callable[[J], R], first: list[J], waiting: Iterator[J]
+) -> Generator[tuple[list[J], list[R] | None]]:
+    with crew.executor() as executor:
+        running: dict[Future[list[R]], list[J]] = {executor.submit(_each, work, first): first}
+        broken = False
+        while running:
+            while not broken and len(running) < AHEAD * crew.workers and (batch := list(islice(waiting, BATCH))):
+                try:
+                    running[executor.submit(_each, work, batch)] = batch
+                except BrokenExecutor:
+                    broken = True
+                    yield batch, None
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                # Whatever came instead of a result: the work itself does not raise.
+                broken = broken or future.exception() is not None
+                yield running.pop(future), None if future.exception() else future.result()
+
+
+def _one_by_one(crew: Crew, work: Callable[[J], R], suspects: list[J]) -> Generator[tuple[J, R | None]]:
+    """Alone, so that the one that breaks the executor is the guilty one."""
+    left = iter(suspects)
+    for job in left:
+        with crew.executor() as executor:
+            one: J | None = job
+            while one is not None:
+                future = executor.submit(work, one)
+                if future.exception() is not None:
+                    yield one, None
+                    break
+                yield one, future.result()
+                one = next(left, None)
+
+
+def _each(work: Callable[[J], R], jobs: list[J]) -> list[R]:
+    return [work(job) for job in jobs]
+
+
+def _pool(workers: int) -> Executor:
+    # A fork of a process with threads may hang; the server that forks instead has none, and loads the libraries once.
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["graphcam.exercises.grading.work"])
+    return ProcessPoolExecutor(workers, mp_context=context)

@@ -1,0 +1,37 @@
+"""Issuing variants: parameters are drawn until every catalogued mistake can be told."""
+
+from __future__ import annotations
+
+from graphcam.errors import DesignError
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.certify import certify
+from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.separation import promising
+from graphcam.exercises.variant import Variant, drawn
+
+MOST_DRAWS = 400
+"""Draws after which an exercise is held to have no variant that can be diagnosed."""
+
+
+def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, Certificate]:
+    """The student's variant and its certificate: the first draw in which every mistake can be told from every other.
+
+    The same exercise, student and secret give the same variant on every machine.
+
+    Raises
+    ------
+    DesignError : no draw can be diagnosed
+    """
+    for draw in range(MOST_DRAWS):
+        candidate = drawn(exercise, student, secret, draw)
+        if promising(candidate):
+            certificate = certify(candidate)
+            if not certificate.alike:
+                return candidate, certificate
+    raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws",
+                      "widen the parameters, ask for another reading, or leave a misconception out")  # fmt: skip
+
+
+def variant(exercise: Exercise, student: str, secret: bytes) -> Variant:
+    """The student's variant alone."""
+    return issue(exercise, student, secret)[0]

@@ -1,0 +1,179 @@
+"""What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphcam.constructions.axes import phi_axes
+from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
+from graphcam.drafting.ink import Step, View
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.drawing import board_chain
+from graphcam.exercises.exercise import Asked, Diagram, Exercise
+from graphcam.exercises.roster import Student
+from graphcam.exercises.template import sentence
+from graphcam.exercises.variant import Variant
+from graphcam.main_job.sheet import title_block
+from graphcam.main_job.solution import board_of
+from graphcam.sheets.layout import compose
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.tables import Table
+from graphcam.task import Task
+
+TAG = "answers"
+"""The tag of the notebook's cell that holds the answers."""
+KEY_COLUMNS = ("name", "unit", "value", "tolerance", "marks")
+"""Of the key's table, as :func:`key_rows` fills them."""
+KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+
+
+def instructions(variant: Variant) -> str:
+    """The exercise's text with the variant's numbers, its lines joined."""
+    return " ".join(sentence(variant.exercise.text, variant.parameters).split())
+
+
+def answer_file(exercise: Exercise) -> str:
+    """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong."""
+    lines = [f"# {exercise.title}. Take the # away before an answer and write the number behind the = sign.", ""]
+    for asked in exercise.answers:
+        lines += [f"# {asked.text} {_how(asked)}", f"# {asked.name} = {_blank(asked)}", ""]
+    return "\n".join(lines)
+
+
+def notebook(variant: Variant) -> str:
+    """A notebook with the task, and a tagged cell of literals for the answers."""
+    exercise = variant.exercise
+    asked = "\n".join(f"- `{a.name}`: {a.text} {_how(a)}" for a in exercise.answers)
+    blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
+    cells = [
+        _cell("task", "markdown", f"# {exercise.title}\n\n{instructions(variant)}"),
+        _cell("asked", "markdown", f"Write your answers into the next cell: plain numbers, nothing else.\n\n{asked}"),
+        _cell("answers", "code", blanks, {"tags": [TAG]}),
+    ]
+    whole = {"cells": cells, "metadata": KERNEL, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
+
+
+def task_file(variant: Variant, language: str = "en") -> str:
+    """The variant as a task file of graphcam, whose sheets are in the language."""
+    task = variant.task
+    return toml_text(replace(task, drawing=replace(task.drawing, language=language)).to_dict())
+
+
+def worksheet(variant: Variant, student: Student) -> Drawing:
+    """The sheet to draw on: what is given, and the table for the answers."""
+    exercise = variant.exercise
+    chain = board_chain(variant.task)
+    steps = [(name, _axes(name, variant.task)) for name in exercise.axes]
+    steps += [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    rows = tuple((asked.text, asked.name, asked.unit, " " * 16) for asked in exercise.answers)
+    table = Table("Answers", ("asked", "name", "unit", "answer"), rows)
+    return _composed(variant, student, steps, [table], [instructions(variant)])
+
+
+ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {
+    "acceleration": ("a", ACCELERATION, -80.0, 80.0),
+    "velocity": ("v", VELOCITY, -80.0, 80.0),
+    "displacement": ("s", DISPLACEMENT, 0.0, 140.0),
+}
+"""Symbol, view, and how far the empty axes reach [mm]: the same for everybody, so that they betray no ordinate."""
+
+
+def _axes(name: Diagram, task: Task) -> Step:
+    symbol, view, low, high = ROOM[name]
+    marks = phi_axes(task.motion(), board_of(task).mu_phi, np.array([low, high]), symbol)
+    return Step(view.title, view.title, view, marks)
+
+
+def key_sheet(variant: Variant, student: Student, certificate: Certificate) -> Drawing:
+    """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
+    exercise = variant.exercise
+    chain = board_chain(variant.task)
+    steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
+    table = Table("Key", KEY_COLUMNS, tuple(key_rows(exercise, certificate)))
+    return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
+
+
+def _drawn_for(exercise: Exercise, order: tuple[str, ...]) -> list[str]:
+    """The constructions up to the last one that is asked for; one that stands beside them is drawn alone."""
+    asked = {each.construction for each in exercise.answers}
+    within = [order.index(name) for name in asked if name in order]
+    return [*order[: max(within) + 1 if within else 0], *sorted(asked - set(order))]
+
+
+def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[str, ...]]:
+    """A line an answer: name, unit, value, tolerance, marks."""
+    rows: list[tuple[str, ...]] = []
+    for asked in exercise.answers:
+        key = certificate.keys[asked.name]
+        number = asked.kind == "number"
+        value = f"{key.expected.value:.{asked.decimals}f}" if number else "see the drawing"
+        rows.append((asked.name, asked.unit, value, f"{key.tolerance:.{asked.decimals + 1}f}", f"{asked.marks:g}"))
+    return rows
+
+
+def _composed(
+    variant: Variant, student: Student, steps: list[tuple[str, Step]], tables: list[Table], notes: list[str]
+) -> Drawing:
+    task = variant.task
+    title = replace(task.title, name=variant.exercise.title, author=student.name or student.id)
+    scale = board_chain(task).profile_scale
+    return compose(steps, tables, title_block(title, scale), task.drawing.format, task.drawing.frame, notes)
+
+
+def _how(asked: Asked) -> str:
+    if asked.kind != "number":
+        what = "Points" if asked.kind == "points" else "A curve"
+        where = f"drawn on the layer {asked.layer} of a DXF file, its origin marked by a POINT on the layer ORIGIN"
+        return f"({what} in mm on paper, or {where}.)"
+    unit = f"in {asked.unit}, " if asked.unit else ""
+    return f"({unit}to {asked.decimals} decimals.)"
+
+
+def _blank(asked: Asked) -> str:
+    return "" if asked.kind == "number" else "[[x, y], [x, y]]"
+
+
+def _cell(name: str, kind: str, source: str, metadata: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    code = {"execution_count": None, "outputs": []} if kind == "code" else {}
+    return {"id": name, "cell_type": kind, "metadata": dict(metadata or {}), "source": source, **code}
+
+
+def toml_text(table: Mapping[str, Any]) -> str:
+    """A table of plain values as TOML.
+
+    >>> print(toml_text({"rotation": "cw", "cam": {"prime_radius": 44}}))
+    rotation = "cw"
+    cam = {prime_radius = 44}
+    <BLANKLINE>
+    """
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items() if value is not None)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_value(each)}" for key, each in value.items() if each is not None) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def write_papers(variant: Variant, student: Student, folder: Path, language: str) -> None:
+    """Write all that the student gets into a folder."""
+    from graphcam.sheets.dxf_renderer import write_dxf
+    from graphcam.sheets.matplotlib_renderer import write_pdf
+
+    sheet = worksheet(variant, student)
+    write_pdf(sheet, folder / "worksheet.pdf")
+    write_dxf(sheet, folder / "worksheet.dxf")
+    for name, text in (
+        ("answers.toml", answer_file(variant.exercise)), ("exercise.ipynb", notebook(variant)),
+        ("task.toml", task_file(variant, language)),
+    ):  # fmt: skip
+        (folder / name).write_text(text, encoding="utf-8")

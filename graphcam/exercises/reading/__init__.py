@@ -1,0 +1,1 @@
+"""Answers as data: what a student hands in, read without executing anything of it."""

@@ -1,0 +1,95 @@
+"""Answers drawn in a CAD program: points and curves on named layers, in mm of paper from the marked origin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from graphcam.exercises.reading.chains import one_curve
+from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.values import Points, shown
+
+ORIGIN = "origin"
+"""The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
+LISTED = 8
+"""Layers that a sentence names."""
+
+
+@dataclass
+class Layer:
+    """What stands on one layer, mm of paper: points, centres of circles, curves, and kinds that are neither."""
+
+    points: list[complex] = field(default_factory=list[complex])
+    centres: list[complex] = field(default_factory=list[complex])
+    curves: list[Points] = field(default_factory=list[Points])
+    strange: set[str] = field(default_factory=set[str])
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A drawing: its layers by their names in small letters; its places are counted from the marked origin."""
+
+    layers: dict[str, Layer]
+
+    def points(self, name: str) -> Points:
+        """The points on a layer, in the order of the drawing: POINTs, or the centres of circles where there are none.
+
+        Raises
+        ------
+        UnreadableError : no such layer, or no points on it
+
+        >>> Drawn({"touch": Layer(points=[1 + 2j])}).points("TOUCH")
+        array([1.+2.j])
+        """
+        layer = self._layer(name)
+        found = layer.points or layer.centres
+        if not found:
+            raise UnreadableError("there is no point on the layer {layer}; mark it with a POINT", layer=name)
+        return np.array(found) - self._origin(name)
+
+    def curve(self, name: str) -> Points:
+        """The one curve on a layer, of whatever pieces it is drawn.
+
+        Raises
+        ------
+        UnreadableError : no such layer, nothing on it, something that is no curve, or more than one curve
+        """
+        layer = self._layer(name)
+        if layer.strange:
+            raise UnreadableError(
+                "the layer {layer} holds {kinds}, which is no plain curve; draw lines, arcs, polylines or splines",
+                layer=name, kinds=", ".join(sorted(layer.strange)),
+            )  # fmt: skip
+        if not layer.curves:
+            raise UnreadableError("there is no curve on the layer {layer}", layer=name)
+        return one_curve(name, layer.curves) - self._origin(name)
+
+    def marks_origin(self, name: str) -> bool:
+        """Whether the origin is marked for a layer, or for all."""
+        return any(layer in self.layers for layer in _origin_layers(name))
+
+    def _layer(self, name: str) -> Layer:
+        if name.lower() not in self.layers:
+            there = ", ".join([shown(layer) for layer in sorted(self.layers)[:LISTED]]) or "none"
+            raise UnreadableError(
+                "the drawing has nothing on the layer {layer}; its layers are {there}", layer=name, there=there
+            )
+        return self.layers[name.lower()]
+
+    def _origin(self, name: str) -> complex:
+        """Where the origin is marked; the drawing's own zero where it is not."""
+        for layer in _origin_layers(name):
+            if layer in self.layers:
+                marks = set(np.round(self.layers[layer].points, 6).tolist())
+                if len(marks) != 1:
+                    raise UnreadableError(
+                        "the layer {layer} must hold one POINT, the origin, but holds {count}",
+                        layer=layer, count=len(marks),
+                    )  # fmt: skip
+                return marks.pop()
+        return 0j
+
+
+def _origin_layers(name: str) -> tuple[str, str]:
+    return f"{name.lower()}-{ORIGIN}", ORIGIN

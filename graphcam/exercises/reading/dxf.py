@@ -1,0 +1,144 @@
+"""DXF files of any CAD program, by ezdxf: units and blocks put right."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Generator, Iterable
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from graphcam.exercises.reading.drawing import Drawn, Layer
+from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.values import MOST_POINTS, Points, shown
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.entities.dxfgfx import DXFGraphic
+
+MOST_ENTITIES = 20_000
+"""Entities that are looked at, those in blocks counted each time the block stands there."""
+DEEPEST_BLOCK = 8
+FLAT = 0.005
+"""A curve is replaced by chords that stay so near to it, mm: far below the finest pencil line."""
+LARGEST = 5000.0
+"""mm: no sheet is larger, so farther coordinates come from wrong units."""
+BINARY = b"AutoCAD Binary DXF"
+CURVES = {"LINE", "LWPOLYLINE", "POLYLINE", "SPLINE", "ARC", "CIRCLE", "ELLIPSE"}
+WORDS = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "HATCH", "SOLID", "ATTDEF", "ATTRIB", "VIEWPORT"}
+"""What may stand on a layer beside the answer."""
+
+
+def read_dxf(name: str, data: bytes) -> Drawn:
+    """The layers of a DXF file, text or binary, in mm.
+
+    The unit of the header counts ($INSUNITS; none means mm), and blocks are dissolved.
+
+    Raises
+    ------
+    UnreadableError : no DXF, a unit that is no length, more or farther entities than a sheet can hold
+    """
+    document = _document(name, data)
+    factor = _millimetres(name, document)
+    layers: dict[str, Layer] = {}
+    try:
+        entities = list(islice(_dissolved(document.modelspace(), "0", 0), MOST_ENTITIES + 1))
+        if len(entities) > MOST_ENTITIES:
+            raise UnreadableError("{name} has more than {most} entities", name=name, most=MOST_ENTITIES)
+        for entity, layer in entities:
+            _add(layers.setdefault(layer.lower(), Layer()), entity, factor)
+    except UnreadableError:
+        raise
+    # What a stranger wrote into a file can make a library stumble anywhere; it is his answer that is lost then.
+    except Exception as error:  # noqa: BLE001
+        raise UnreadableError(
+            "{name} holds an entity that cannot be read ({why})", name=name, why=shown(str(error))
+        ) from None
+    return Drawn(layers)
+
+
+def _document(name: str, data: bytes) -> Drawing:
+    from ezdxf import document, recover
+    from ezdxf.lldxf.tagger import binary_tags_loader
+
+    if data.startswith(b"AC10"):
+        raise UnreadableError("{name} is a DWG file; save it as DXF", name=name)
+    try:
+        # What repairs faults reads text alone.
+        if data.startswith(BINARY):
+            return document.Drawing.load(binary_tags_loader(data))
+        return recover.read(io.BytesIO(data))[0]
+    except Exception as error:  # noqa: BLE001  as above
+        raise UnreadableError("{name} is not a DXF file ({why})", name=name, why=shown(str(error))) from None
+
+
+def _millimetres(name: str, document: Drawing) -> float:
+    """How many mm the drawing's unit is."""
+    from ezdxf import units
+
+    code = document.header.get("$INSUNITS", 0)
+    if code == 0:
+        return 1.0
+    try:
+        return units.conversion_factor(units.InsertUnits(code), units.InsertUnits.Millimeters)
+    except (ValueError, TypeError, IndexError):
+        raise UnreadableError(
+            "{name}: the drawing's unit ($INSUNITS {code}) is no length; set it to mm", name=name, code=shown(str(code))
+        ) from None
+
+
+def _dissolved(entities: Iterable[Any], block_layer: str, depth: int) -> Generator[tuple[DXFGraphic, str]]:
+    """All entities with the layers they show on; those of blocks in their places.
+
+    An insert itself is given too, so that a bomb of blocks that are empty counts as well.
+    """
+    for entity in entities:
+        own = str(entity.dxf.get("layer", "0"))
+        layer = block_layer if own == "0" else own
+        yield entity, layer
+        if entity.dxftype() != "INSERT":
+            continue
+        if depth == DEEPEST_BLOCK:
+            raise UnreadableError("blocks stand within blocks more than {most} deep", most=DEEPEST_BLOCK)
+        for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
+            yield from _dissolved(single.virtual_entities(), layer, depth + 1)
+
+
+def _add(layer: Layer, entity: DXFGraphic, factor: float) -> None:
+    kind = entity.dxftype()
+    if kind == "POINT":
+        layer.points.append(_place(entity.dxf.location, factor))
+    elif kind in CURVES:
+        if kind == "CIRCLE":
+            layer.centres.append(_place(entity.ocs().to_wcs(entity.dxf.center), factor))
+        layer.curves.append(_curve(entity, factor))
+    elif kind not in WORDS and kind != "INSERT":
+        layer.strange.add(kind)
+
+
+def _place(at: Any, factor: float) -> complex:
+    z = factor * complex(at.x, at.y)
+    # NaN fails too.
+    if not (abs(z.real) <= LARGEST and abs(z.imag) <= LARGEST):
+        raise UnreadableError(
+            "a point lies {far:.3g} mm from the origin, and no sheet is so large; check the unit of the drawing "
+            "($INSUNITS)",
+            far=abs(z),
+        )
+    return z
+
+
+def _curve(entity: DXFGraphic, factor: float) -> Points:
+    from ezdxf.path import make_path
+
+    path = make_path(entity)
+    # Before it is divided: what is far too large would be divided for long.
+    for vertex in path.control_vertices():
+        _place(vertex, factor)
+    found = [_place(vertex, factor) for vertex in islice(path.flattening(FLAT / factor, segments=4), MOST_POINTS + 1)]
+    if len(found) > MOST_POINTS:
+        raise UnreadableError("a {kind} has more than {most} points", kind=entity.dxftype(), most=MOST_POINTS)
+    if not found:
+        raise UnreadableError("a {kind} is empty", kind=entity.dxftype())
+    return np.array(found)

@@ -1,0 +1,102 @@
+"""Answers in a text table: ``answers.toml`` and ``answers.csv``."""
+
+from __future__ import annotations
+
+import csv
+import io
+import tomllib
+from typing import Any
+
+from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.values import Points, decimal, shown
+
+MOST_ROWS = 20_000
+MOST_PARTS = 16
+"""Parts of a dotted key: tomllib takes minutes for thousands."""
+
+
+def toml_values(name: str, data: bytes) -> dict[str, Any]:
+    """The values of a TOML file: those of its table ``[answers]``, or all where it has none.
+
+    >>> toml_values("answers.toml", b"[answers]\\nv_max = 12.5\\ntouch = [1, 2]")
+    {'v_max': 12.5, 'touch': [1, 2]}
+    """
+    text = text_of(name, data)
+    if _longest_key(text) > MOST_PARTS:
+        raise UnreadableError("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS)
+    try:
+        whole = tomllib.loads(text)
+    # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
+    except (ValueError, RecursionError) as error:
+        why = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise UnreadableError("{name} is not valid TOML ({why})", name=name, why=shown(why)) from None
+    answers = whole.get("answers", whole)
+    if not isinstance(answers, dict):
+        raise UnreadableError("{name}: answers must be a table", name=name)
+    return answers
+
+
+def csv_values(name: str, data: bytes) -> dict[str, float | Points | UnreadableError]:
+    """The values of rows ``name,value`` and ``name,x,y``; rows of one name are the points of a curve.
+
+    Semicolons may separate, as spreadsheets write them where the comma is decimal.  A row that cannot be read spoils
+    its own answer only.
+
+    >>> csv_values("answers.csv", b"answer;value\\nv_max;12,5\\ntouch;1;2\\ntouch;3;4")
+    {'v_max': 12.5, 'touch': array([1.+2.j, 3.+4.j])}
+    """
+    text = text_of(name, data)
+    first = text.lstrip().split("\n", 1)[0]
+    rows: dict[str, list[list[str]]] = {}
+    try:
+        for count, row in enumerate(csv.reader(io.StringIO(text), delimiter=";" if ";" in first else ",")):
+            if count > MOST_ROWS:
+                raise UnreadableError("{name} has more than {most} rows", name=name, most=MOST_ROWS)
+            cells = [cell.strip() for cell in row]
+            while cells and not cells[-1]:
+                cells.pop()
+            if cells and not (count == 0 and _is_heading(cells)):
+                rows.setdefault(cells[0], []).append(cells[1:])
+    except csv.Error as error:
+        raise UnreadableError("{name} is not valid CSV ({why})", name=name, why=shown(str(error))) from None
+    # A row without a value is an answer that is still open.
+    return {answer: _value(answer, listed) for answer, listed in rows.items() if listed != [[]]}
+
+
+def _longest_key(text: str) -> int:
+    """The greatest number of parts that stand between points, with nothing between them that ends a key."""
+    longest = parts = 0
+    for piece in text.split("."):
+        if any(end in piece for end in ",=\n[]{}"):
+            parts = 0
+        elif piece.strip():
+            parts += 1
+            longest = max(longest, parts)
+    return longest
+
+
+def _is_heading(cells: list[str]) -> bool:
+    return [cell.lower() for cell in cells] in (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
+
+
+def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableError:
+    import numpy as np
+
+    try:
+        if all(len(row) == 2 for row in rows):
+            return np.array([complex(decimal(answer, x), decimal(answer, y)) for x, y in rows])
+        if len(rows) > 1:
+            raise UnreadableError("{answer} is answered {count} times", answer=shown(answer), count=len(rows))
+        if len(rows[0]) != 1:
+            raise UnreadableError("{answer} must have one value, or x and y", answer=shown(answer))
+        return decimal(answer, rows[0][0])
+    except UnreadableError as error:
+        return error
+
+
+def text_of(name: str, data: bytes) -> str:
+    """UTF-8 text, with or without a byte order mark."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise UnreadableError("{name} is not UTF-8 text", name=name) from None

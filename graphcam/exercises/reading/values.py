@@ -1,0 +1,98 @@
+"""What an answer may be: a finite number, or points in mm of paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.exercises.reading.regular_file import UnreadableError
+
+Points = NDArray[np.complex128]
+GREATEST = 1e9
+"""No reading of a drawing is greater; a number that is cannot be meant."""
+MOST_POINTS = 20_000
+SHOWN = 40
+"""Letters of what a stranger wrote that a sentence repeats."""
+
+
+def number(name: str, value: object) -> float:
+    """A finite number, as written in a file.
+
+    Raises
+    ------
+    UnreadableError : no number, or none that can be meant
+
+    >>> number("v_max", 12)
+    12.0
+    >>> number("v_max", True)
+    Traceback (most recent call last):
+    ...
+    graphcam.exercises.reading.regular_file.UnreadableError: v_max is True, which is not a number
+    """
+    # bool is an int in Python, not for a student.
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UnreadableError("{answer} is {value}, which is not a number", answer=shown(name), value=shown(value))
+    # An int of any length compares, but does not always convert.
+    if not (math.isfinite(value) if isinstance(value, float) else True) or not -GREATEST <= value <= GREATEST:
+        raise UnreadableError("{answer} is no number that a drawing can show", answer=shown(name))
+    return float(value)
+
+
+def points(name: str, value: object) -> Points:
+    """Points (n,) from one pair [x, y] or a list of pairs, mm of paper.
+
+    >>> points("touch", [[1, 2], [3.5, 4]])
+    array([1. +2.j, 3.5+4.j])
+    >>> points("touch", [1, 2])
+    array([1.+2.j])
+    """
+    if not isinstance(value, list | tuple) or not value:
+        raise UnreadableError("{answer} must be points [x, y] in mm of paper", answer=shown(name))
+    listed: Sequence[Any] = value
+    pairs: Sequence[Any] = (
+        [listed] if len(listed) == 2 and not any(isinstance(x, list | tuple) for x in listed) else listed
+    )
+    if len(pairs) > MOST_POINTS:
+        raise UnreadableError("{answer} has more than {most} points", answer=shown(name), most=MOST_POINTS)
+    if not all(isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs):
+        raise UnreadableError("{answer} must be points [x, y] in mm of paper", answer=shown(name))
+    return np.array([complex(number(name, x), number(name, y)) for x, y in pairs])
+
+
+def decimal(name: str, text: str) -> float:
+    """A number as a person writes it: with a point or with a comma.
+
+    >>> decimal("v_max", " 12,5 ")
+    12.5
+    """
+    # float() would also take "nan", "1_000" and digits of other scripts.
+    plain = text.strip().replace(",", ".")
+    if not plain or not plain.isascii() or "_" in plain:
+        raise UnreadableError("{answer} is {value}, which is not a number", answer=shown(name), value=shown(text))
+    try:
+        return number(name, float(plain))
+    except ValueError:
+        raise UnreadableError(
+            "{answer} is {value}, which is not a number", answer=shown(name), value=shown(text)
+        ) from None
+
+
+def shown(value: object) -> str:
+    """A stranger's text for a sentence: short, in one line, without control characters.
+
+    >>> shown("a" * 50)
+    'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…'
+    """
+    if isinstance(value, str):
+        text = value
+    elif value is None or isinstance(value, bool | float):
+        text = str(value)
+    else:
+        # repr() of a deep or long value may not end.
+        text = {"list": "a list", "dict": "a table", "int": "an integer"}.get(type(value).__name__, "something else")
+    text = "".join(letter if letter.isprintable() else " " for letter in text[: SHOWN + 1])
+    return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"

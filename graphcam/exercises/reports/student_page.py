@@ -1,0 +1,62 @@
+"""The page a student gets: what was right, where to look again, the own curve; never the key."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise import Asked, Exercise
+from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
+from graphcam.exercises.reports.pages import page
+from graphcam.exercises.reports.words import OUTCOMES, Speaker, given_text, spoken
+from graphcam.exercises.template import sentence
+
+WORDS = {
+    "asked": say("Asked"), "given": say("Your answer"), "outcome": say("Result"), "marks": say("Marks"),
+    "remarks": say("Remarks"), "notes": say("On your hand-in"),
+}  # fmt: skip
+
+
+def student_page(
+    exercise: Exercise, record: dict[str, Any], certificate: Certificate | None, language: str = "en",
+    speak: Speaker = str,
+) -> str:  # fmt: skip
+    """The feedback on one record as HTML.
+
+    certificate : tells where on the student's own curve it is farthest off; of the key nothing is shown
+    """
+    asked = {one.name: one for one in exercise.answers}
+    rows = [
+        {
+            "text": sentence(asked[answer["name"]].text, record["parameters"]),
+            "given": f"{given_text(answer, speak)} {_unit(asked[answer['name']], answer)}".strip(),
+            "kind": answer["outcome"], "outcome": speak(OUTCOMES[answer["outcome"]]),
+            "marks": speak(say("{marks:g} of {of:g}", marks=answer["marks"], of=answer["of"])),
+        }
+        for answer in record["answers"]
+    ]  # fmt: skip
+    return page(
+        "feedback.html", language=language, title=exercise.title, student=record["student"], rows=rows,
+        total=speak(say("{marks:g} of {of:g} marks", marks=record["total"], of=record["of"])),
+        words=spoken(WORDS, speak), feedback=list(record["feedback"]), notes=list(record["notes"]),
+        pictures=[(speak(_caption(answer)), _own(asked[answer["name"]], answer, certificate))
+                  for answer in record["answers"] if isinstance(answer["given"], list)],
+    )  # fmt: skip
+
+
+def _unit(asked: Asked, answer: dict[str, Any]) -> str:
+    return "" if answer["given"] is None or isinstance(answer["given"], list) else asked.unit
+
+
+def _caption(answer: dict[str, Any]) -> Caption:
+    if answer["outcome"] in ("wrong", "follow-through") and answer["station"] is not None:
+        return say("{name}: your drawing; look again about the circle.", name=answer["name"])
+    return say("{name}: your drawing.", name=answer["name"])
+
+
+def _own(asked: Asked, answer: dict[str, Any], certificate: Certificate | None) -> Picture:
+    own = points_of(answer)
+    wrong = certificate is not None and answer["outcome"] == "wrong"
+    spot = worst_place(certificate.keys[asked.name].expected, answer) if certificate is not None and wrong else None
+    return picture([("own", own, asked.kind == "curve")], spot)

@@ -1,0 +1,78 @@
+"""Answers that a student's code hands out: run, limited, and read as the untrusted data they are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.reading.notebook import cell_source, code_cells, notebook_values
+from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.values import shown
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.limits import Limits
+from graphcam.exercises.running.process import Ended
+from graphcam.exercises.running.sandbox import run_cells
+
+
+def run_notebook(
+    level: Level, names: Sequence[str], limits: Limits, name: str, data: bytes
+) -> tuple[Mapping[str, Any], list[Caption]]:
+    """The values that a notebook's code hands out, and sentences on how it ended.
+
+    Where it hands out nothing, its answer cell counts if it holds literals.
+
+    names : the answers that are asked;  name, data : of the notebook
+
+    Raises
+    ------
+    UnreadableError : it is no notebook
+    """
+    cells = [_without_commands(cell_source(cell)) for cell in code_cells(name, data)]
+    ended = run_cells(level, cells, [*names, "answers"], limits)
+    values, notes = _handed_out(name, ended.handed_out)
+    if not values:
+        with suppress(UnreadableError):
+            values, notes = notebook_values(name, data), []
+    return values, [*_on_end(name, ended, limits), *notes]
+
+
+def _without_commands(source: str) -> str:
+    """Without the lines that are for the notebook program itself."""
+    return "\n".join("" if line.startswith(("%", "!")) else line for line in source.splitlines())
+
+
+def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
+    """The last whole line that says something: an answer may be given again, improved."""
+    lines = [line for line in data.split(b"\n")[:-1] if line.strip() not in (b"", b"{}")]
+    if not lines:
+        return {}, [say("{name} hands out no answers", name=name)]
+    try:
+        found = json.loads(lines[-1], object_pairs_hook=_once)
+    except (ValueError, RecursionError) as error:
+        return {}, [say("{name}: what it hands out cannot be read ({why})", name=name, why=shown(str(error)))]
+    if not isinstance(found, dict):
+        return {}, [say("{name}: what it hands out is no table of answers", name=name)]
+    inner = found.pop("answers", {})
+    return {**(inner if isinstance(inner, dict) else {}), **found}, []
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("an answer stands there twice")
+    return found
+
+
+def _on_end(name: str, ended: Ended, limits: Limits) -> list[Caption]:
+    if ended.late:
+        return [say("{name} was stopped after {seconds:g} s", name=name, seconds=limits.seconds)]
+    # The student's own words; what is shown of them is one short line.
+    last = ended.text.strip().splitlines()[-1:]
+    if last and ("Error" in last[0] or "SystemExit" in last[0] or "Interrupt" in last[0]):
+        return [say("{name} ended with {error}", name=name, error=shown(last[0]))]
+    if ended.status:
+        return [say("{name} ended with status {status}", name=name, status=ended.status)]
+    return []

@@ -1,0 +1,129 @@
+"""What this machine can hold students' code in, found out by trying."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from graphcam.errors import GraphcamError
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.limits import MEBIBYTE, Limits
+from graphcam.exercises.running.sandbox import run_cells, visible
+
+FEW = Limits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
+ESCAPES = """
+import os, socket, time
+broken = []
+def attempt(name, what):
+    try:
+        what()
+    except OSError:
+        return
+    except MemoryError:
+        return
+    broken.append(name)
+def too_many():
+    children = []
+    try:
+        for _ in range({processes}):
+            child = os.fork()
+            if child == 0:
+                time.sleep(60)
+                os._exit(0)
+            children.append(child)
+    finally:
+        for child in children:
+            os.kill(child, 9)
+attempt("more processes than its limit", too_many)
+attempt("more memory than its limit", lambda: bytearray({memory}))
+if {closed}:
+    attempt("the host's files", lambda: open({canary!r}).read())
+    attempt("the network", lambda: socket.create_connection(("127.0.0.1", {port}), 1))
+    attempt("the system", lambda: open("/usr/graphcam-was-here", "w"))
+"""
+"""What must fail inside; ``broken`` names what did not."""
+
+
+class LevelError(GraphcamError):
+    """A level of isolation that this machine, or this command, does not give.
+
+    >>> print(LevelError(Level.L2, "the program bwrap is not installed"))
+    level L2 is not available: the program bwrap is not installed
+    """
+
+    def __init__(self, level: Level, why: str) -> None:
+        super().__init__(level, why)
+        self.level = level
+        self.why = why
+
+    def __str__(self) -> str:
+        return f"level {self.level} is not available: {self.why}"
+
+
+@functools.cache
+def missing(level: Level) -> str:
+    """Why the level is not available here, in one sentence; empty where it is.
+
+    A program that does what must be impossible is run once; that it fails is the evidence.
+    """
+    import shutil
+
+    if level is Level.L0:
+        return ""
+    if sys.platform != "linux":
+        return "its limits are those of Linux"
+    if level is Level.L2 and shutil.which("bwrap") is None:
+        return "the program bwrap (bubblewrap) is not installed"
+    try:
+        return _broken(level)
+    except OSError as error:
+        return f"the launcher does not start ({error.strerror})"
+
+
+def require(level: Level, private: tuple[Path, ...] = ()) -> None:
+    """Refuse to go on below a level.
+
+    private : files and folders that students' code must not see
+
+    Raises
+    ------
+    LevelError : it is not available, or a private file lies where the code can read
+    """
+    if why := missing(level):
+        raise LevelError(level, why)
+    if level is not Level.L2:
+        return
+    for path in private:
+        for folder in visible():
+            if path.resolve().is_relative_to(folder):
+                raise LevelError(level, f"{path} lies in {folder}, which the code can read; move it")
+
+
+def _broken(level: Level) -> str:
+    import socket
+
+    with tempfile.NamedTemporaryFile(dir=_outside()) as canary, socket.create_server(("127.0.0.1", 0)) as server:
+        Path(canary.name).chmod(0o644)
+        escapes = ESCAPES.format(processes=FEW.processes + _margin(), memory=FEW.memory, closed=level is Level.L2,
+                                 canary=canary.name, port=server.getsockname()[1])  # fmt: skip
+        ended = run_cells(level, [escapes], ["broken"], FEW)
+    try:
+        broken = json.loads(ended.handed_out)["broken"]
+    except (ValueError, KeyError):
+        last = ended.text.strip().splitlines()[-1:] or [f"status {ended.status}"]
+        return f"a program in it does not run ({last[0]})"
+    return f"code in it reaches {' and '.join(broken)}" if broken else ""
+
+
+def _outside() -> Path:
+    """A folder that is not hidden by the sandbox's own /tmp."""
+    home = Path.home()
+    return home if os.access(home, os.W_OK) else Path.cwd()
+
+
+def _margin() -> int:
+    return 0 if os.getuid() == 0 else 4096

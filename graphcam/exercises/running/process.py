@@ -1,0 +1,144 @@
+"""A process that is ended in time, whatever it does, and whose output fills no memory."""
+
+from __future__ import annotations
+
+import os
+import selectors
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, field
+from io import FileIO
+
+from graphcam.exercises.running.limits import Limits
+
+CHUNK = 1 << 16
+PATIENCE = 0.05
+"""Seconds between two looks at a process that says nothing."""
+LAST_WORDS = 0.3
+"""Seconds in which a killed group lets go of its pipes."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a run ended.
+
+    handed_out : what came through the pipe for the answers, cut at its limit
+    text : the last of what was written to standard output and error
+    status : exit status; negative for a signal
+    late : whether it was killed when its time was over
+    """
+
+    handed_out: bytes
+    text: str
+    status: int
+    late: bool
+
+
+@dataclass
+class _Sink:
+    """Keeps the first or the last bytes of what comes."""
+
+    most: int
+    last: bool
+    held: bytearray = field(default_factory=bytearray)
+
+    def take(self, data: bytes) -> None:
+        self.held += data
+        if len(self.held) > self.most:
+            self.held = self.held[-self.most :] if self.last else self.held[: self.most]
+
+
+def run_limited(
+    command: list[str], order: Callable[[int], bytes], limits: Limits, folder: str, environment: dict[str, str]
+) -> Ended:
+    """Run a command in a process group of its own, and kill the group when its time is over or its work is done.
+
+    order : what the command reads on standard input; it hears the number of the pipe for its answers
+
+    Raises
+    ------
+    OSError : the command cannot be started
+    """
+    with ExitStack() as stack:
+        (in_read, in_write), (out_read, out_write), (pipe_read, pipe_write) = (os.pipe() for _ in range(3))
+        source = stack.enter_context(FileIO(in_write, "w"))
+        for mine in (out_read, pipe_read):
+            stack.callback(os.close, mine)
+        os.set_blocking(in_write, False)
+        try:
+            process = subprocess.Popen(
+                command, stdin=in_read, stdout=out_write, stderr=out_write, pass_fds=(pipe_write,),
+                start_new_session=True, cwd=folder, env=environment,
+            )  # fmt: skip
+        finally:
+            for theirs in (in_read, out_write, pipe_write):
+                os.close(theirs)
+        stack.callback(_end, process)
+        answers, text = _Sink(limits.handed_out, last=False), _Sink(limits.kept, last=True)
+        late = _attend(process, (source, order(pipe_write)), {pipe_read: answers, out_read: text}, limits.seconds)
+        return Ended(bytes(answers.held), text.held.decode(errors="replace"), process.returncode, late)
+
+
+def _attend(
+    process: subprocess.Popen[bytes], feed: tuple[FileIO, bytes], sinks: dict[int, _Sink], seconds: float
+) -> bool:
+    """Feed and drain until the process has ended or its time is over; whether it was late."""
+    deadline = time.monotonic() + seconds
+    source, order = feed
+    with selectors.DefaultSelector() as selector:
+        selector.register(source, selectors.EVENT_WRITE)
+        for number in sinks:
+            selector.register(number, selectors.EVENT_READ)
+        while not _has_ended(process) and time.monotonic() < deadline:
+            for key, _ in selector.select(min(PATIENCE, max(0.0, deadline - time.monotonic()))):
+                if key.fileobj is source:
+                    order = _fed(selector, source, order)
+                else:
+                    _drained(selector, key.fd, sinks[key.fd])
+        late = not _has_ended(process)
+        _end(process)
+        # What is still in the pipes; they end when the last of the group has gone.
+        until = time.monotonic() + LAST_WORDS
+        if not source.closed:
+            selector.unregister(source)
+        while selector.get_map() and time.monotonic() < until:
+            for key, _ in selector.select(max(0.0, until - time.monotonic())):
+                _drained(selector, key.fd, sinks[key.fd])
+    return late
+
+
+def _fed(selector: selectors.BaseSelector, source: FileIO, order: bytes) -> bytes:
+    try:
+        order = order[source.write(order[:CHUNK]) or 0 :]
+    except BrokenPipeError:
+        order = b""
+    if not order:
+        selector.unregister(source)
+        source.close()
+    return order
+
+
+def _drained(selector: selectors.BaseSelector, number: int, sink: _Sink) -> None:
+    data = os.read(number, CHUNK)
+    sink.take(data)
+    if not data:
+        selector.unregister(number)
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Kill the whole group, and wait for its leader."""
+    if process.returncode is not None:
+        return
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+
+
+def _has_ended(process: subprocess.Popen[bytes]) -> bool:
+    """Whether the leader has ended.  It is not reaped yet: its number stays the group's, and nobody else's."""
+    if process.returncode is not None:
+        return True
+    return os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None

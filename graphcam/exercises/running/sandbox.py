@@ -1,0 +1,139 @@
+"""The command lines that start the launcher at each level, and what it finds there."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import json
+import os
+import shutil
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from typing import Any
+
+from graphcam.exercises.running import launcher
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.limits import Limits
+from graphcam.exercises.running.process import Ended, run_limited
+
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
+SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
+"""What the loader of shared libraries and matplotlib want; nothing of the host's own."""
+FIRST_USER, USERS = 20_000, 40_000
+"""Numbers that no account has, one for each run at a time, so that one cannot use up another's processes."""
+
+
+def run_cells(level: Level, cells: list[str], names: list[str], limits: Limits | None = None) -> Ended:
+    """Run a notebook's cells at a level.
+
+    cells : their code
+    names : variables that are handed out where nothing was displayed
+    """
+    if level is Level.L0:
+        raise ValueError("at L0 nothing is run")
+    limits = limits or Limits()
+    already = 0 if os.getuid() == 0 else _processes_of(os.getuid())
+    what: dict[str, Any] = {
+        "cells": cells, "names": names, "limits": limits.resources(already), "user": _user(),
+        "path": [str(folder) for folder in _library()],
+    }  # fmt: skip
+    with tempfile.TemporaryDirectory(prefix="graphcam-run-") as folder:
+        if os.getuid() == 0:
+            os.chown(folder, _user(), _user())
+
+        def order(pipe: int) -> bytes:
+            return json.dumps(what | {"pipe": pipe}).encode()
+
+        return run_limited(_command(level, limits), order, limits, folder, _environment(level, folder))
+
+
+def visible() -> list[Path]:
+    """The folders of the host that code at L2 can read."""
+    folders = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.exec_prefix), *_packages()]
+    return sorted({folder.resolve() for folder in folders if folder.is_dir()} | {Path(name) for name in SYSTEM})
+
+
+def _command(level: Level, limits: Limits) -> list[str]:
+    # A virtual environment is found by the name of its own python.
+    python = [sys.executable, "-I", "-B", "-X", "utf8"]
+    if level is Level.L1:
+        return [*_another_user(), *python, launcher.__file__]
+    return [*_bubblewrap(limits), *python, "/launcher.py"]
+
+
+def _another_user() -> list[str]:
+    """As root, the start of a command line that runs as nobody else does, but may still read root's own Python."""
+    if os.getuid() != 0:
+        return []
+    program, user = shutil.which("setpriv") or "setpriv", str(_user())
+    kept = "-all,+dac_read_search"
+    return [program, "--reuid", user, "--regid", user, "--clear-groups", f"--inh-caps={kept}", f"--ambient-caps={kept}",
+            "--no-new-privs"]  # fmt: skip
+
+
+def _bubblewrap(limits: Limits) -> list[str]:
+    program = shutil.which("bwrap") or "bwrap"
+    command = [program, "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
+               "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]  # fmt: skip
+    # As root another user is taken inside; otherwise the kernel gives a name space in which nobody is anybody.
+    command += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"] if os.getuid() == 0 else ["--unshare-user"]
+    for folder in SYSTEM:
+        if Path(folder).is_symlink():
+            command += ["--symlink", str(Path(folder).readlink()), folder]
+        elif Path(folder).is_dir():
+            command += ["--ro-bind", folder, folder]
+    for thing in SETTINGS:
+        command += ["--ro-bind-try", thing, thing]
+    # Before the folders of Python, which may lie in /tmp themselves.
+    command += ["--perms", "1777", "--size", str(limits.written), "--tmpfs", "/tmp"]
+    for folder in visible():
+        if not any(folder.is_relative_to(other) for other in SYSTEM):
+            for parent in reversed(folder.parents[:-1]):
+                command += ["--perms", "0755", "--dir", str(parent)]
+            command += ["--ro-bind", str(folder), str(folder)]
+    command += ["--proc", "/proc", "--dev", "/dev", "--ro-bind", launcher.__file__, "/launcher.py", "--chdir", "/tmp",
+                "--remount-ro", "/"]  # fmt: skip
+    return command
+
+
+def _environment(level: Level, folder: str) -> dict[str, str]:
+    """Nothing of the host's environment: it may hold passwords."""
+    home = folder if level is Level.L1 else "/tmp"
+    return {
+        "PATH": "/usr/bin:/bin", "HOME": home, "TMPDIR": home, "LANG": "C.UTF-8",
+        "MPLBACKEND": "agg", "MPLCONFIGDIR": home,
+        # One thread each: more cost memory and processes, and gain nothing here.
+        "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1",
+    }  # fmt: skip
+
+
+@functools.cache
+def _packages() -> tuple[Path, ...]:
+    """graphcam itself, and the packages it needs."""
+    found = [importlib.util.find_spec(name) for name in ("numpy", "graphcam")]
+    places = [Path(spec.origin).parent for spec in found if spec is not None and spec.origin]
+    # Packages that were installed stand beside numpy, in one folder; a checkout is only its own.
+    return (places[0].parent, places[1])
+
+
+def _library() -> list[Path]:
+    numpy, graphcam = _packages()
+    return [numpy, graphcam.parent]
+
+
+def _user() -> int:
+    return FIRST_USER + threading.get_native_id() % USERS if os.getuid() == 0 else 0
+
+
+def _processes_of(user: int) -> int:
+    """Processes and threads of a user: older kernels count those outside of a sandbox as well."""
+    count = 0
+    for task in Path("/proc").glob("[0-9]*"):
+        try:
+            if task.stat().st_uid == user:
+                count += sum(1 for _ in (task / "task").iterdir())
+        except OSError:
+            continue
+    return count

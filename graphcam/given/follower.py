@@ -1,0 +1,75 @@
+"""The followers of a disk cam and the sense in which the cam turns.  Conventions: see :mod:`graphcam`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from graphcam.errors import DesignError
+
+Rotation = Literal["ccw", "cw"]
+
+
+def sense(rotation: str) -> int:
+    """sigma: +1 for a cam that turns counter-clockwise, -1 for clockwise.
+
+    >>> sense("ccw"), sense("cw")
+    (1, -1)
+    """
+    try:
+        return {"ccw": 1, "cw": -1}[rotation]
+    except (KeyError, TypeError):
+        raise DesignError("rotation", rotation, "'ccw' or 'cw'") from None
+
+
+def _check_length(quantity: str, value: float, *, zero: bool) -> None:
+    if not math.isfinite(value) or value < 0 or (value == 0 and not zero):
+        raise DesignError(quantity, value, "a finite length of " + ("0 mm or more" if zero else "more than 0 mm"))
+
+
+@dataclass(frozen=True)
+class Translating:
+    """A follower that slides along the line x = offset, with a roller or (roller_radius = 0) a knife edge.
+
+    offset, roller_radius : mm; offset > 0 to the right of the cam centre
+    """
+
+    offset: float = 0.0
+    roller_radius: float = 0.0
+    kind = "translating"
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.offset):
+            raise DesignError("offset", self.offset, "a finite length in mm")
+        _check_length("roller radius", self.roller_radius, zero=True)
+
+
+@dataclass(frozen=True)
+class Oscillating:
+    """A follower that swings about a pivot at (distance, 0) on an arm, with a roller or a knife edge.
+
+    arm, roller_radius : mm
+    distance : centre distance [mm]; None leaves it to be found with the least radius, a cam needs it
+    """
+
+    arm: float
+    distance: float | None = None
+    roller_radius: float = 0.0
+    kind = "oscillating"
+
+    def __post_init__(self) -> None:
+        _check_length("arm", self.arm, zero=False)
+        if self.distance is not None:
+            _check_length("centre distance", self.distance, zero=False)
+        _check_length("roller radius", self.roller_radius, zero=True)
+
+
+@dataclass(frozen=True)
+class FlatFaced:
+    """A follower with a flat face perpendicular to its motion."""
+
+    kind = "flat-faced"
+
+
+Follower = Translating | Oscillating | FlatFaced

@@ -1,0 +1,64 @@
+"""The kind of impact of a motion: where its velocity or its acceleration jumps.
+
+A jump of the velocity would need an infinite force, a rigid impact; a jump of the acceleration is a jump of the force,
+a soft impact.  Source: J. E. Shigley, *Theory of Machines* (1961), chapter 6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import Motion
+
+ROUNDING = 1e-9
+"""A jump of less, as a fraction of lift over angle (squared for the acceleration), is rounding."""
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Where the motion jumps: cam angle [rad], and the values before and after."""
+
+    phi: float
+    before: float
+    after: float
+
+    @property
+    def size(self) -> float:
+        """After less before."""
+        return self.after - self.before
+
+
+def velocity_jumps(motion: Motion) -> list[Jump]:
+    """The rigid impacts: where v jumps [mm/rad].
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Return, Rise
+    >>> velocity_jumps(Motion([Rise(30, pi, "rectangular"), Return(30, pi, "2-3")]))
+    []
+    """
+    return _jumps(motion, derivative=1)
+
+
+def acceleration_jumps(motion: Motion) -> list[Jump]:
+    """The soft impacts: where a jumps [mm/rad^2].
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Return, Rise
+    >>> jumps = acceleration_jumps(Motion([Rise(30, 2, "cosine"), Return(30, 2 * pi - 2, "3-4-5")]))
+    >>> [(jump.phi, round(jump.size, 3)) for jump in jumps]
+    [(0.0, 37.011), (2.0, 37.011)]
+    """
+    return _jumps(motion, derivative=2)
+
+
+def _jumps(motion: Motion, derivative: int) -> list[Jump]:
+    phi = motion.breaks
+    before: Floats = motion(phi, side="left")[derivative]
+    after: Floats = motion(phi, side="right")[derivative]
+    scale = max(phase.lift / phase.angle**derivative for phase in motion.phases)
+    jumped = np.abs(after - before) > ROUNDING * scale
+    columns = (column[jumped].tolist() for column in (phi, before, after))
+    return [Jump(*row) for row in zip(*columns, strict=True)]

@@ -1,0 +1,33 @@
+"""What a design must keep to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Permitted pressure angles [rad], as magnitudes.
+
+    rise : on every rise
+    return_ : on every return; None for force closure, where a spring drives the return
+    rest : whether the angle at the low rest must keep the rise's limit too
+
+    >>> Limits(rise=0.5).return_ is None
+    True
+    """
+
+    rise: float = math.radians(30)
+    return_: float | None = None
+    rest: bool = True
+
+    def __post_init__(self) -> None:
+        for name, value in (("rise", self.rise), ("return", self.return_)):
+            if value is not None and not 0 < value < math.pi / 2:
+                raise DesignError(
+                    f"permitted pressure angle on the {name}", f"{math.degrees(value):g} degrees",
+                    "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower",
+                )  # fmt: skip

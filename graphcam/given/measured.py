@@ -1,0 +1,252 @@
+"""Motions that were measured: a table of displacements or of accelerations in place of laws.
+
+A spline is fitted to the table and cut where it rests and where it turns, so that it becomes a motion of rises, dwells
+and returns as any other, whose laws are the pieces of the spline.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.legs import Leg, find_legs
+from graphcam.given.monotone_spline import Fit, fit
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.spline_law import AT_REST, TURNING, spline_law
+
+DEFAULT_TOLERANCE = 0.01
+"""How far the motion may pass a row of its table [mm]."""
+FEWEST_ROWS, MOST_ROWS = 8, 10_000
+WIDEST_GAP = 2.0
+"""The gap that closes the turn may be so many times the widest gap between rows."""
+SAMPLES = 50
+"""Places of a leg among which one is sought where it moves fast."""
+ROUNDING = 1e-9
+"""Cam angles nearer to one another than this [rad] are the same."""
+
+
+class RowError(DesignError):
+    """A row of a table that cannot be; ``row`` counts from 0."""
+
+    def __init__(self, row: int, quantity: str, value: object, limit: str, remedy: str) -> None:
+        super().__init__(quantity, value, limit, remedy)
+        self.row = row
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredMotion(Motion):
+    """A motion through the rows of a table; made by :func:`measured_motion` and :func:`integrated_motion`.
+
+    Attributes
+    ----------
+    zero : the cam angle [rad] of the table where this motion's begins: 0, unless the follower moves there
+    phi, measured : (n,) the table: its cam angles [rad], and displacements [mm] above the motion's lowest
+    tolerance : how far the motion may pass a row [mm]
+    """
+
+    zero: float
+    phi: Floats
+    measured: Floats
+    tolerance: float
+
+    @property
+    def residuals(self) -> Floats:
+        """(n,) the motion less the table [mm]."""
+        return self(self.phi - self.zero)[0] - self.measured
+
+    @property
+    def greatest_residual(self) -> float:
+        """The greatest |residual| [mm]; it is no greater than the tolerance."""
+        return float(np.max(np.abs(self.residuals)))
+
+    @property
+    def rms_residual(self) -> float:
+        """The root of the residuals' mean square [mm]."""
+        return float(np.sqrt(np.mean(self.residuals**2)))
+
+
+@dataclass(frozen=True, eq=False)
+class IntegratedMotion(MeasuredMotion):
+    """A motion whose accelerations were measured; made by :func:`integrated_motion`.
+
+    Attributes
+    ----------
+    accelerations : (n,) the table [mm/rad^2];  ``measured`` is its second integral
+    closing : what was taken from every acceleration to close the turn [mm/rad^2]
+    """
+
+    accelerations: Floats
+    closing: float
+
+
+def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> MeasuredMotion:
+    """The motion through measured displacements, smooth to the third derivative.
+
+    Where the rows keep to one level the motion rests; else it rises or falls from each rest or turning point to the
+    next.  Between these it is a quintic spline with as few knots as keep every row to the tolerance, so a tolerance of
+    several times what the table is rounded to, or scatters by, keeps noise out of the acceleration.
+
+    Parameters
+    ----------
+    phi : (n,) cam angles [rad], growing, over one turn; the last row may repeat the first one a turn later
+    s : (n,) displacements [mm; an arm's: rad]
+    tolerance : how far the motion may pass a row, in the unit of s
+
+    Raises
+    ------
+    DesignError : the rows are too few, not numbers, not in order, leave a part of the turn open or do not close; the
+        displacement does not move by more than the tolerance; or no spline keeps to the tolerance
+
+    >>> phi = np.radians(np.arange(0, 360, 5))
+    >>> motion = measured_motion(phi, 10 - 10 * np.cos(phi))
+    >>> [phase.kind for phase in motion.phases], round(motion.lift, 2)
+    (['rise', 'return'], 20.0)
+    >>> motion.greatest_residual <= motion.tolerance
+    True
+    """
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise DesignError("tolerance", tolerance, "a finite number greater than 0")
+    phi, s = check_rows(phi, s, tolerance)
+    legs = find_legs(phi, s, tolerance)
+    start = legs[0].start
+    shifted = start + (phi - start) % FULL_TURN
+    order = np.argsort(shifted)
+    fitted = fit(shifted[order], s[order], legs, tolerance)
+    phases, zero, level = _phases(fitted, legs)
+    return MeasuredMotion(phases, zero, phi, s - level, tolerance)
+
+
+def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> IntegratedMotion:
+    """The motion whose accelerations were measured [mm/rad^2 at cam angles in rad]: integrated twice, then fitted.
+
+    Between rows the acceleration is taken to be straight.  For the follower to come back to where it was, the mean of
+    the acceleration is taken from every row, and the velocity begins so that its own mean is zero; what was taken is
+    ``closing``.  The tolerance holds for the displacements.
+
+    Raises
+    ------
+    DesignError : as :func:`measured_motion`
+
+    >>> phi = np.radians(np.arange(0, 360, 5))
+    >>> motion = integrated_motion(phi, 10 * np.cos(phi) + 0.5)
+    >>> round(motion.lift, 1), round(motion.closing, 3)
+    (20.0, 0.5)
+    """
+    phi, a = check_rows(phi, a, math.inf)
+    step = np.diff(np.append(phi, phi[0] + FULL_TURN))
+    closing = float(np.sum(step * (a + np.roll(a, -1)) / 2)) / FULL_TURN
+    closed = a - closing
+    after = np.roll(closed, -1)
+    v = np.append(0.0, np.cumsum(step * (closed + after) / 2)[:-1])
+    # Over a part the displacement grows by v dx + (2 a + a') dx^2/6, all parts together by nothing.
+    rises = v * step + (2 * closed + after) * step**2 / 6
+    rises -= step * np.sum(rises) / FULL_TURN
+    s = np.append(0.0, np.cumsum(rises)[:-1])
+    motion = measured_motion(phi, s, tolerance)
+    return IntegratedMotion(motion.phases, motion.zero, phi, motion.measured, tolerance, a, closing)
+
+
+def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Floats, Floats]:
+    """The rows as arrays, without a last one that repeats the first, when they cover a turn in order.
+
+    closes_to : how far a last row that repeats the first may miss it
+
+    Raises
+    ------
+    RowError : a row that cannot be, the first there is
+    """
+    phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    if phi.ndim != 1 or phi.shape != values.shape:
+        shapes = f"{phi.shape} and {values.shape}"
+        raise DesignError("shapes of the table's columns", shapes, "one number for each cam angle", "give two lists")
+    if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
+        limit = f"{FEWEST_ROWS} to {MOST_ROWS}"
+        raise RowError(
+            max(phi.size - 1, 0), "number of rows", phi.size, limit, "measure at more or at fewer cam angles"
+        )
+    for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
+        if not number:
+            raise RowError(k, "row", f"{phi[k]:g}, {values[k]:g}", "finite numbers", "measure it")
+    for k, step in enumerate(np.diff(phi), 1):
+        if step <= ROUNDING:
+            remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"
+            limit = f"greater than the one before, {_degrees(phi[k - 1])}"
+            raise RowError(k, "cam angle", _degrees(phi[k]), limit, remedy)
+    span = float(phi[-1] - phi[0])
+    widest = float(np.max(np.diff(phi)))
+    last = phi.size - 1
+    if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
+        raise RowError(
+            last, "turn that the rows cover", _degrees(span), "360 degrees, or a step less",
+            "give one revolution of the cam",
+        )  # fmt: skip
+    if span < FULL_TURN - ROUNDING:
+        return phi, values
+    if abs(values[-1] - values[0]) > closes_to:
+        raise RowError(
+            last, "last row", f"{values[-1]:g}", f"{values[0]:g} as in the first, a turn before",
+            "the follower comes back to where it was",
+        )  # fmt: skip
+    return phi[:-1], values[:-1]
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.10g} degrees"
+
+
+# --- from the spline to phases ---------------------------------------------------------------------------------------
+
+
+def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
+    """The phases of one turn, the cam angle [rad] at which they begin, and the lowest displacement."""
+    ends = [
+        leg.end if leg.to_rest else _turning(fitted, leg, following)
+        for leg, following in zip(legs, [*legs[1:], legs[0].a_turn_later], strict=True)
+    ]
+    starts = [
+        leg.start if leg.from_rest else end for leg, end in zip(legs, [ends[-1] - FULL_TURN, *ends[:-1]], strict=True)
+    ]
+    phases: list[tuple[float, Phase]] = []
+    for leg, start, end, following in zip(legs, starts, ends, [*starts[1:], starts[0] + FULL_TURN], strict=True):
+        phases.append((start, _phase(fitted, leg, start, end)))
+        if leg.to_rest:
+            phases.append((end, Dwell(following - end)))
+    return *_from_zero(phases), min(float(fitted.spline(start)) for start in starts)
+
+
+def _phase(fitted: Fit, leg: Leg, start: float, end: float) -> Rise | Return:
+    contact = AT_REST if leg.from_rest else TURNING, AT_REST if leg.to_rest else TURNING
+    lift, law = spline_law(fitted, start, end, contact)
+    return (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)
+
+
+def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
+    """The cam angle [rad] between two legs where the velocity changes its sign."""
+    from scipy.optimize import brentq
+
+    v = fitted.spline.derivative()
+    before = np.linspace(leg.start, leg.end, SAMPLES)
+    after = np.linspace(leg.end, following.end, SAMPLES)
+    fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
+    return brentq(v, *fastest, xtol=ROUNDING**2)  # pyright: ignore[reportReturnType]
+
+
+def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:
+    """The phases from the cam angle 0 on, or from the nearest end of a phase to it, if the follower moves at 0.
+
+    phases : with the cam angles at which they begin [rad], in order over one turn
+    returns : the phases, and the angle at which they begin
+    """
+    starts = np.array([start for start, _ in phases]) % FULL_TURN
+    k = int(np.argmax(starts))  # the phase that reaches over 0
+    (_, over), start = phases[k], float(starts[k]) - FULL_TURN
+    others = [phase for _, phase in [*phases[k + 1 :], *phases[:k]]]
+    end = start + over.angle
+    if isinstance(over, Dwell) and min(-start, end) > ROUNDING:
+        return [Dwell(end), *others, Dwell(-start)], 0.0
+    return ([over, *others], start) if -start < end else ([*others, over], end)

@@ -1,0 +1,297 @@
+"""The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats, Law, Side, law
+from graphcam.given.pieces import Piece, Piecewise, chunks
+
+CLOSURE = 1e-9
+"""How far the angles may miss a full turn (rad), and the lifts zero (relative to the greatest)."""
+FULL_TURN = 2 * math.pi
+
+
+def _check_positive(quantity: str, value: float, unit: str) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}")
+
+
+def wrap(phi: ArrayLike) -> Floats:
+    """The cam angles in [0, 2 pi); NaN and infinities give NaN.
+
+    >>> wrap([-0.25, 7.0]).round(3).tolist()
+    [6.033, 0.717]
+    """
+    phi = np.asarray(phi, dtype=np.float64)
+    if phi.size and phi.min() >= 0 and phi.max() < FULL_TURN:
+        return phi  # the usual case, and the remainder is dear
+    with np.errstate(invalid="ignore"):
+        turned = np.mod(phi, FULL_TURN)
+    return np.where(turned < FULL_TURN, turned, turned - FULL_TURN)  # a tiny negative angle rounds up to a full turn
+
+
+def cam_angle(angle: ArrayLike, turn: float = 360.0) -> Floats:
+    """The cam angle [rad] in [0, 2 pi) of an angle given in degrees, or in a unit of which ``turn`` make a turn.
+
+    It is reduced before it becomes radians: a thousand million turns in radians are known to a millionth of a degree.
+
+    >>> (cam_angle(37.5 + 360e9) == cam_angle(37.5)).item(), cam_angle(-0.25, turn=1.0).item() / math.pi
+    (True, 1.5)
+    """
+    with np.errstate(invalid="ignore"):
+        return wrap(np.mod(np.asarray(angle, dtype=np.float64), turn) * (FULL_TURN / turn))
+
+
+def _check_side(side: str) -> None:
+    if side not in ("right", "left"):
+        raise DesignError("side", side, "'right' or 'left'")
+
+
+@dataclass(frozen=True)
+class Dwell:
+    """A phase of rest over ``angle`` radians of the cam."""
+
+    angle: float
+    kind: ClassVar[str] = "dwell"
+    direction: ClassVar[int] = 0
+
+    def __post_init__(self) -> None:
+        _check_positive("angle", self.angle, "rad")
+
+    @property
+    def lift(self) -> float:
+        """A dwell lifts nothing."""
+        return 0.0
+
+
+@dataclass(frozen=True)
+class Moving:
+    """What a rise and a return have in common: a lift [mm] by a law over an angle [rad]."""
+
+    kind: ClassVar[str]
+    direction: ClassVar[int]
+
+    lift: float
+    angle: float
+    law: str | Law = "3-4-5"
+    ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        _check_positive("lift", self.lift, "mm")
+        _check_positive("angle", self.angle, "rad")
+        _ = self.normalised  # says at once if there is no such law
+
+    @property
+    def normalised(self) -> Law:
+        """The phase's law on [0, 1]: the one of that name, or the given one, as of a measured motion."""
+        return self.law if isinstance(self.law, Law) else law(self.law, self.ratio)
+
+
+@dataclass(frozen=True)
+class Rise(Moving):
+    """A phase that lifts the follower by ``lift`` over ``angle`` radians: s = lift f(u)."""
+
+    kind: ClassVar[str] = "rise"
+    direction: ClassVar[int] = 1
+
+
+@dataclass(frozen=True)
+class Return(Moving):
+    """A phase that lowers the follower by ``lift`` over ``angle`` radians: s = lift (1 - f(u)).
+
+    ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.
+    """
+
+    kind: ClassVar[str] = "return"
+    direction: ClassVar[int] = -1
+
+
+Phase = Rise | Dwell | Return
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The motion s(phi) of a follower over one revolution of the cam.
+
+    Call it with cam angles in radians for (s, v, a, j), the displacement and its derivatives by phi.
+
+    Parameters
+    ----------
+    phases : rises, dwells and returns in order; the angles sum to 2 pi and the lifts to zero, both to 1e-9
+
+    Raises
+    ------
+    DesignError : there is no rise or no return, or the angles or the lifts do not close
+
+    >>> from math import pi
+    >>> motion = Motion([Rise(30, pi / 2), Dwell(pi / 2), Return(30, pi, "cosine")])
+    >>> s, v, a, j = motion([pi / 4, pi])
+    >>> s.tolist()
+    [15.0, 30.0]
+    """
+
+    phases: Sequence[Phase]
+    starts: Floats = field(init=False)
+    """(k,) cam angle at which each phase begins"""
+    levels: Floats = field(init=False)
+    """(k + 1,) displacement at which each phase begins, and the last one ends; the lowest is 0"""
+    first_piece: NDArray[np.intp] = field(init=False, repr=False)
+    """(k + 1,) number of each phase's first piece, and the count of all"""
+    _piecewise: Piecewise = field(init=False, repr=False)
+    """s and its derivatives over the turn: the pieces of the laws, and the dwells"""
+
+    def __post_init__(self) -> None:
+        phases = tuple(self.phases)
+        angles = [phase.angle for phase in phases]
+        steps = [phase.direction * phase.lift for phase in phases]
+        for direction, kind in ((1, "rise"), (-1, "return")):
+            if all(phase.direction != direction for phase in phases):
+                raise DesignError("motion", f"without a {kind}", "at least one rise and one return", f"add a {kind}")
+        turn = math.fsum(angles)
+        if abs(turn - FULL_TURN) > CLOSURE:
+            raise DesignError(
+                "sum of the phase angles", f"{math.degrees(turn):.10g} degrees", "360 degrees",
+                "lengthen or shorten a dwell by the difference",
+            )  # fmt: skip
+        closing = math.fsum(steps)
+        if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
+            raise DesignError(
+                "sum of rises less returns", f"{closing:.10g} mm", "0 mm", "make the lifts of rises and returns equal"
+            )
+        heights = [math.fsum(steps[:k]) for k in range(len(phases))]
+        heights.append(heights[0])  # closed by definition: what the sum misses is rounding
+        object.__setattr__(self, "phases", phases)
+        starts = [math.fsum(angles[:k]) for k in range(len(phases))]
+        levels = np.array(heights) - min(heights)
+        parts = [
+            _pieces(phase, (start, end), (float(below), float(above)))
+            for phase, (start, end), (below, above) in zip(
+                phases, pairwise([*starts, FULL_TURN]), pairwise(levels), strict=True
+            )
+        ]
+        object.__setattr__(self, "starts", np.array(starts))
+        object.__setattr__(self, "levels", levels)
+        object.__setattr__(self, "first_piece", np.cumsum([0, *map(len, parts)]))
+        object.__setattr__(self, "_piecewise", Piecewise([piece for part in parts for piece in part]))
+
+    @property
+    def lift(self) -> float:
+        """The greatest displacement [mm]."""
+        return float(self.levels.max())
+
+    @property
+    def piece_starts(self) -> Floats:
+        """(p,) the cam angle at which each piece of a law, and each dwell, begins."""
+        return self._piecewise.starts
+
+    @property
+    def breaks(self) -> Floats:
+        """The cam angles where a derivative may jump: starts of phases (0 among them) and the laws' inner breaks."""
+        inner = [
+            start + phase.angle * b
+            for start, phase in zip(self.starts, self.phases, strict=True)
+            if not isinstance(phase, Dwell)
+            for b in phase.normalised.breaks
+        ]
+        return np.unique(np.concatenate([self.starts, inner]))
+
+    def __call__(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
+        """(s, v, a, j) at cam angles phi [rad], any real numbers, each shaped like phi.
+
+        At a break the value of the named side is returned; elsewhere the sides agree.  NaN stays NaN.
+        """
+        phi = np.asarray(phi, dtype=np.float64)
+        _check_side(side)
+        flat = phi.ravel()
+        out = np.empty((4, flat.size))
+        for here in chunks(flat.size):
+            turned = wrap(flat[here])
+            if side == "left":
+                turned = np.where(turned == 0, FULL_TURN, turned)
+            self._piecewise.fill(turned, side, out[:, here])
+        s, v, a, j = out.reshape(4, *phi.shape)
+        return s, v, a, j
+
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
+        """(s, v, a, j) at the fraction u in [0, 1] of a phase, so that both its ends belong to it; NaN outside.
+
+        phase : index of the phase, one or as many as there are u
+
+        >>> motion = Motion([Rise(30, 1.0, "rectangular"), Return(30, FULL_TURN - 1, "rectangular")])
+        >>> motion.at([0, 1], [1.0, 0.0])[2].round(3).tolist()
+        [-120.0, -4.299]
+        """
+        _check_side(side)
+        index, fraction = np.broadcast_arrays(np.asarray(phase, dtype=np.intp), np.asarray(u, dtype=np.float64))
+        shape, index, flat = index.shape, index.ravel(), fraction.ravel()
+        out = np.empty((4, flat.size))
+        for here in chunks(flat.size):
+            u = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
+            edges = self._edges[index[here]]
+            passed = edges <= u[:, None] if side == "right" else edges < u[:, None]
+            piece = self.first_piece[index[here]] + np.count_nonzero(passed, axis=1)
+            self._piecewise.gather(piece, np.where(self._from_end[piece], 1 - u, u), out[:, here])
+        s, v, a, j = out.reshape(4, *shape)
+        return s, v, a, j
+
+    def angle_at(self, phase: ArrayLike, u: ArrayLike) -> Floats:
+        """The cam angle [rad] at the fraction u of a phase.
+
+        >>> motion = Motion([Rise(30, 1.0), Return(30, FULL_TURN - 1)])
+        >>> motion.angle_at(0, [0.5, 1.0]).tolist()
+        [0.5, 1.0]
+        """
+        index = np.asarray(phase, dtype=np.intp)
+        return self.starts[index] + np.asarray(u) * self._angles[index]
+
+    @cached_property
+    def _angles(self) -> Floats:
+        return np.array([phase.angle for phase in self.phases])
+
+    @cached_property
+    def _edges(self) -> Floats:
+        """(k, most) the fractions of each phase at which its pieces meet, and NaN."""
+        most = int(np.max(np.diff(self.first_piece))) - 1
+        edges = np.full((len(self.phases), most), np.nan)
+        for row, phase in zip(edges, self.phases, strict=True):
+            if isinstance(phase, Moving):
+                row[: len(phase.normalised.edges)] = phase.normalised.edges
+        return edges
+
+    @cached_property
+    def _from_end(self) -> NDArray[np.bool_]:
+        """(p,) whether a piece is seen from the end of its phase."""
+        return np.array([piece.length < 0 for piece in self._piecewise.pieces])
+
+
+def _rest(x: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    still = np.zeros_like(x)
+    return still, still, still, still
+
+
+def _pieces(phase: Phase, ends: tuple[float, float], levels: tuple[float, float]) -> list[Piece]:
+    """The pieces of a phase between two cam angles [rad] and two displacements."""
+    if isinstance(phase, Dwell):
+        return [Piece(_rest, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
+    h, angle = phase.lift, phase.angle
+    # A return is measured from its lower end, where the missing lift keeps its digits.
+    low = levels[0] if phase.direction > 0 else levels[1]
+    units = [phase.direction * h / angle**n for n in range(4)]
+    return [
+        Piece(
+            formula, ends[0] + angle * start, ends[int(origin)], angle * length,
+            low + h * (base if phase.direction > 0 else 1 - base),
+            (factors[0] * units[0], factors[1] * units[1], factors[2] * units[2], factors[3] * units[3]),
+        )
+        for formula, start, origin, length, base, factors in phase.normalised.pieces
+    ]  # fmt: skip

@@ -1,0 +1,88 @@
+"""Rules of the schools for the roller radius, such as ``min(0.7 rho, 0.4 r0)``."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from graphcam.errors import DesignError, nearest
+
+DEFAULT_RULE = "min(0.7 rho, 0.4 r0)"
+
+
+@dataclass(frozen=True)
+class NamedRule:
+    """A rule of a school: its terms, and where it is taught."""
+
+    rule: str
+    source: str
+
+
+NAMED_RULES = {
+    "coursework": NamedRule(
+        "min(0.65 rho, 0.4 r0)",
+        "coursework guides on the theory of machines: (0.65 to 0.8) rho and at most 0.4 r0, the smaller",
+    ),
+    "coursework-prime-radius": NamedRule("0.45 r0", "coursework guides on the theory of machines: 0.45 r0"),
+    "gorbenko": NamedRule("0.7 rho", "Gorbenko, Teoriya mekhanizmov i mashin (2007), section 9.2: (0.7 to 0.8) rho"),
+    "least-profile-radius": NamedRule(
+        "rho - 5",
+        "Chinese courses on the theory of machines: the profile keeps a radius of curvature of 3 to 5 mm at least",
+    ),
+    "norton": NamedRule(
+        "0.33 rho",
+        "R. L. Norton, Design of Machinery, chapter 8: rho is at least 2 to 3 times the roller radius",
+    ),
+}
+"""Rules by name.  Where a school gives a range, the end of it is taken that gives the smaller roller."""
+
+_NUMBER = r"(\d+(?:\.\d+)?)"
+_FACTOR = re.compile(rf"{_NUMBER}\s*\*?\s*(rho|r0)")
+_MARGIN = re.compile(rf"rho\s*-\s*{_NUMBER}")
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One term of a rule: ``factor`` times rho or r0, less ``margin`` mm; ``source`` of a named rule."""
+
+    text: str
+    of: str
+    factor: float = 1.0
+    margin: float = 0.0
+    source: str = ""
+
+    def __call__(self, rho: float, r0: float) -> float:
+        """The radius that this term proposes, in the unit of rho and r0."""
+        return self.factor * (rho if self.of == "rho" else r0) - self.margin
+
+
+def roller_rule(text: str) -> tuple[Candidate, ...]:
+    """The terms of a rule; the smallest of what they propose is taken.
+
+    Grammar: ``K rho``, ``K r0``, ``rho - MM`` or ``min(..., ...)`` of these, or a name of :data:`NAMED_RULES`.
+
+    Raises
+    ------
+    DesignError : the text is not such a rule
+
+    >>> [term(rho=50.0, r0=40.0) for term in roller_rule("min(0.7 rho, 0.4 r0, rho - 4)")]
+    [35.0, 16.0, 46.0]
+    >>> [term.text for term in roller_rule("coursework")]
+    ['0.65 rho', '0.4 r0']
+    """
+    if text in NAMED_RULES:
+        named = NAMED_RULES[text]
+        return tuple(replace(term, source=named.source) for term in roller_rule(named.rule))
+    inner = re.fullmatch(r"\s*min\s*\((.*)\)\s*", text)
+    return tuple(_candidate(term.strip(), text) for term in (inner[1].split(",") if inner else [text]))
+
+
+def _candidate(term: str, rule: str) -> Candidate:
+    if match := _FACTOR.fullmatch(term):
+        return Candidate(term, match[2], factor=float(match[1]))
+    if match := _MARGIN.fullmatch(term):
+        return Candidate(term, "rho", margin=float(match[1]))
+    remedy = nearest(rule, NAMED_RULES) if re.fullmatch(r"[a-z-]+", rule) else f"the term '{term}' is none of them"
+    raise DesignError(
+        "roller rule", rule, "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule", remedy
+    )

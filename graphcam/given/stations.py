@@ -1,0 +1,121 @@
+"""Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats, Law
+from graphcam.given.motion import Dwell, Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Stations:
+    """The ends of the parts of every moving phase, both ends of each phase included.
+
+    Attributes
+    ----------
+    phase : (m,) index of the phase that each station belongs to
+    u, phi : (m,) fraction of the phase and cam angle [rad]
+    phases : slice of the stations of each moving phase, in order
+    pieces : slices between places where the acceleration jumps; neighbours inside a phase share the jump's station
+    stretches : slices of equal parts, which may be shorter than the pieces; neighbours share a station too
+    left : (p,) station at which each part begins; it ends at ``left + 1``
+    refine : into how many each of the divisions was divided again, 1 for a drawing as it was asked for
+    """
+
+    phase: NDArray[np.intp]
+    u: Floats
+    phi: Floats
+    phases: tuple[slice, ...]
+    pieces: tuple[slice, ...]
+    stretches: tuple[slice, ...]
+    left: NDArray[np.intp]
+    refine: int = 1
+
+    @property
+    def moving(self) -> NDArray[np.intp]:
+        """(m,) which of the moving phases each station belongs to, counted from 0."""
+        return np.repeat(np.arange(len(self.phases)), [span.stop - span.start for span in self.phases])
+
+    @property
+    def last(self) -> NDArray[np.intp]:
+        """The last station of each moving phase."""
+        return np.array([span.stop - 1 for span in self.phases])
+
+    @property
+    def parts(self) -> tuple[slice, ...]:
+        """The parts of each moving phase, as slices of ``left``."""
+        # Every phase before k has one part fewer than it has stations.
+        return tuple(slice(s.start - k, s.stop - k - 1) for k, s in enumerate(self.phases))
+
+
+def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool = False) -> Stations:
+    """Divide each moving phase into ``divisions`` equal parts, and each of these again into ``refine``.
+
+    A phase whose acceleration jumps inside is divided so that the jump falls on a division: each stretch between
+    jumps gets its own whole number of equal parts, in proportion, at least one.  With ``at_corners`` the corners of the
+    acceleration fall on divisions too, where what is looked for may be greatest in a corner.
+
+    Raises
+    ------
+    DesignError : divisions is less than 1
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Rise, Return
+    >>> motion = Motion([Rise(30, pi, "rectangular", ratio=3.0), Return(30, pi, "cosine")])
+    >>> stations = divide(motion, 4)
+    >>> stations.u.tolist()
+    [0.0, 0.25, 0.5, 0.75, 1.0, 0.0, 0.25, 0.5, 0.75, 1.0]
+    >>> stations.pieces
+    (slice(0, 2, None), slice(1, 5, None), slice(5, 10, None))
+    >>> triangular = Motion([Rise(30, pi, "triangular"), Return(30, pi, "cosine")])
+    >>> divide(triangular, 6, at_corners=True).u[:7].round(3).tolist()
+    [0.0, 0.125, 0.25, 0.417, 0.583, 0.75, 1.0]
+    """
+    if divisions < 1:
+        raise DesignError("divisions", divisions, "1 or more parts a phase")
+    phase: list[int] = []
+    u: list[float] = []
+    phases: list[slice] = []
+    pieces: list[slice] = []
+    stretches: list[slice] = []
+    for k, part in enumerate(motion.phases):
+        if isinstance(part, Dwell):
+            continue
+        ends = _ends(part.normalised, at_corners)
+        first = begun = len(u)
+        u.append(0.0)
+        for (start, end), share in zip(pairwise(ends), _shares(ends, divisions), strict=True):
+            n = share * refine
+            stretches.append(slice(len(u) - 1, len(u) + n))
+            u.extend(start + (end - start) * np.arange(1, n + 1) / n)
+            if end in (*part.normalised.jumps, 1.0):
+                pieces.append(slice(begun, len(u)))
+                begun = len(u) - 1
+        phase += [k] * (len(u) - first)
+        phases.append(slice(first, len(u)))
+    phase_of, fraction = np.array(phase), np.array(u)
+    angles = np.array([part.angle for part in motion.phases])
+    left = np.concatenate([np.arange(s.start, s.stop - 1) for s in phases])
+    phi = motion.starts[phase_of] + fraction * angles[phase_of]
+    return Stations(phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine)
+
+
+def _ends(law: Law, at_corners: bool) -> tuple[float, ...]:
+    """Where the stretches of equal parts begin and end."""
+    return (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
+
+
+def _shares(ends: tuple[float, ...], divisions: int) -> list[int]:
+    """Whole numbers of parts for the stretches between ``ends``: in proportion, each at least one."""
+    lengths = np.diff(ends)
+    shares = np.ones(lengths.size, dtype=np.intp)
+    while shares.sum() < divisions:
+        # The rule of Sainte-Lague: of two stretches it rounds the shares to the nearest, and of any it keeps the sum.
+        shares[np.argmax(lengths / (shares + 0.5))] += 1
+    return shares.tolist()

@@ -1,0 +1,118 @@
+"""Tables of a measured motion in CSV files: a header, then a cam angle and a value on every line."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal, get_args
+
+import numpy as np
+
+from graphcam.errors import TaskError
+from graphcam.given.measured import (
+    DEFAULT_TOLERANCE,
+    MeasuredMotion,
+    RowError,
+    check_rows,
+    integrated_motion,
+    measured_motion,
+)
+
+Column = Literal["s_mm", "s_deg", "a"]
+ANGLES = "phi_deg"
+_HEADERS = ", ".join(f"'{ANGLES},{column}'" for column in get_args(Column))
+_FIRST_ROW = 2
+"""Line of the first row, below the header."""
+
+
+@dataclass(frozen=True)
+class CurveTable:
+    """What a CSV file says of a motion.
+
+    file : its name, as the task gives it
+    column : "s_mm", displacements; "s_deg", those of an arm; "a", accelerations per rad^2 in the same unit
+    rows : cam angle [degrees] and value
+    """
+
+    file: str
+    column: Column
+    rows: tuple[tuple[float, float], ...]
+
+    def __call__(self, tolerance: float | None = None, unit: float = 1.0) -> MeasuredMotion:
+        """The motion through the rows.
+
+        tolerance : how far it may pass a displacement, in the unit of the table; None is 0.01
+        unit : what one unit of displacement is in the API: 1 mm, or for an arm 1 degree in radians
+        """
+        return _motion(self, DEFAULT_TOLERANCE if tolerance is None else tolerance, unit)
+
+
+@lru_cache(maxsize=16)  # because a task asks for its motion in several places, and the fit takes its time
+def _motion(table: CurveTable, tolerance: float, unit: float) -> MeasuredMotion:
+    phi, values = np.transpose(table.rows)
+    made = integrated_motion if table.column == "a" else measured_motion
+    return made(np.radians(phi), values * unit, tolerance * unit)
+
+
+def read_table(path: Path, name: str, tolerance: float | None = None) -> CurveTable:
+    """The table in a CSV file.
+
+    path : where the file is;  name : how the task calls it
+    tolerance : how far the last row may miss the first where it repeats it a turn later; None is 0.01
+
+    Raises
+    ------
+    TaskError : there is no such file, or a line of it is wrong; the first is named
+    """
+    lines = _lines(path)
+    column = _column(path, lines[0] if lines else "")
+    rows = tuple(_row(path, number, line, column) for number, line in enumerate(lines[1:], _FIRST_ROW))
+    phi, values = np.array(rows).reshape(-1, 2).T
+    try:
+        closes_to = math.inf if column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
+        check_rows(np.radians(phi), values, closes_to)
+    except RowError as error:
+        line = f"line {error.row + _FIRST_ROW}: {error.quantity}"
+        raise TaskError(str(path), line, error.value, error.limit, error.remedy) from None
+    return CurveTable(name, column, rows)
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        content = path.read_bytes()
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise TaskError(str(path), "the table", why, "a CSV file that can be read", "check motion.table") from None
+    try:
+        return content.decode("utf-8-sig").rstrip().splitlines()
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        wrong = content[error.start : error.start + 1]
+        raise TaskError(str(path), f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
+
+
+def _column(path: Path, header: str) -> Column:
+    names = [name.strip() for name in header.split(",")]
+    for column in get_args(Column):
+        if names == [ANGLES, column]:
+            return column
+    raise TaskError(str(path), "line 1", _short(header), f"one of {_HEADERS}", "name the two columns of the table")
+
+
+def _row(path: Path, number: int, line: str, column: Column) -> tuple[float, float]:
+    try:
+        phi, value = (float(cell) for cell in line.split(","))
+    except ValueError:
+        phi = value = math.nan
+    if not (math.isfinite(phi) and math.isfinite(value)):
+        raise TaskError(
+            str(path), f"line {number}", _short(line), f"two finite numbers, {ANGLES} and {column}",
+            "write decimals with a point, and a comma between the numbers",
+        )  # fmt: skip
+    return phi, value
+
+
+def _short(line: str) -> str:
+    return line if len(line) <= 60 else line[:60] + "..."

@@ -1,0 +1,106 @@
+"""Languages: English as it is written in the code, every other one from a catalog ``data/languages/NAME.po``.
+
+A catalog is an ordinary gettext file, and it is there when its file is: nothing else names the languages.
+"""
+
+from __future__ import annotations
+
+import string
+from dataclasses import dataclass, field
+from functools import cache
+from gettext import GNUTranslations, NullTranslations
+from importlib import resources
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from graphcam.errors import DesignError
+from graphcam.words import Caption, Words
+
+
+@dataclass(frozen=True)
+class Language:
+    """A language: how it says captions, and how it writes numbers.
+
+    name : as in a task file, "en"
+    decimal : what stands before the decimals
+    translations : of the templates; what a catalog leaves out stays English
+
+    >>> from graphcam.words import say
+    >>> russian = language("ru")
+    >>> russian.text(say("{value:.2f} {unit}", value=1.5, unit=say("mm")))
+    '1,50 мм'
+    >>> ENGLISH.text(say("{value:.2f} {unit}", value=1.5, unit=say("mm")))
+    '1.50 mm'
+    """
+
+    name: str
+    decimal: str = "."
+    translations: NullTranslations = field(default_factory=NullTranslations, repr=False, compare=False)
+
+    def text(self, words: Words) -> str:
+        """What somebody who speaks the language writes."""
+        if isinstance(words, str):
+            return words
+        return _Formatter(self).vformat(self._template(words), (), words.values)
+
+    def _template(self, caption: Caption) -> str:
+        one, many, context = caption.template, caption.plural, caption.context
+        if not one:  # the catalog's own header stands there
+            return ""
+        if many:
+            return self.translations.ngettext(one, many, caption.count)
+        return self.translations.pgettext(context, one) if context else self.translations.gettext(one)
+
+
+class _Formatter(string.Formatter):
+    """Formats a template whose values may be captions, and numbers as the language writes them."""
+
+    def __init__(self, language: Language) -> None:
+        self.language = language
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, str | Caption):
+            return format(self.language.text(value), format_spec)
+        return format(value, format_spec).replace(".", self.language.decimal)
+
+
+ENGLISH = Language("en")
+
+
+def _folder() -> Path:
+    return Path(str(resources.files("graphcam").joinpath("data", "languages")))
+
+
+def languages() -> tuple[str, ...]:
+    """The names of the languages there are: English, and every one that has a catalog.
+
+    >>> languages()
+    ('en', 'ru')
+    """
+    return (ENGLISH.name, *sorted(path.stem for path in _folder().glob("*.po")))
+
+
+@cache
+def language(name: str) -> Language:
+    """The language of that name.
+
+    Raises
+    ------
+    DesignError : there is no such language
+    """
+    if name == ENGLISH.name:
+        return ENGLISH
+    if name not in languages():
+        raise DesignError("language", name, "one of " + ", ".join(languages()))
+    # Only another language needs Babel.
+    from babel import Locale
+    from babel.messages.mofile import write_mo
+    from babel.messages.pofile import read_po
+
+    with (_folder() / f"{name}.po").open("rb") as file:
+        catalog = read_po(file, locale=name)
+    compiled = BytesIO()
+    write_mo(compiled, catalog)
+    compiled.seek(0)
+    return Language(name, Locale.parse(name).number_symbols["latn"]["decimal"], GNUTranslations(compiled))

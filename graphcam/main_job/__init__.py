@@ -1,0 +1,8 @@
+"""The main job: from a task to a solution, and from a solution to its files."""
+
+from graphcam.main_job.arcs import ArcsSolution
+from graphcam.main_job.kinds import sheet_of, solve, worksheet
+from graphcam.main_job.output import write
+from graphcam.main_job.solution import Solution
+
+__all__ = ["ArcsSolution", "Solution", "sheet_of", "solve", "worksheet", "write"]

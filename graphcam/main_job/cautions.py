@@ -1,0 +1,120 @@
+"""What the exact side warns of: a profile that cannot be cut, limits that are not kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
+from graphcam.errors import DesignError
+from graphcam.given.follower import FlatFaced
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.undercut import Undercut, largest_roller
+from graphcam.words import Caption, say, sequence
+
+LAST_DIGIT = 0.005
+"""mm or degrees: what differs by less does not differ in print."""
+
+
+def cautions(cam: Cam, board: Board, least_prime_radius: float) -> list[Caption]:
+    """Sentences, the gravest first; none for a sound cam.
+
+    cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
+    """
+    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
+
+
+def _undercut(cam: Cam) -> Iterator[Caption]:
+    try:
+        lost = cam.undercuts()
+    except DesignError:
+        yield say(
+            "The profile cannot be cut: its undercut is made of loops that cannot be told apart. {remedy}",
+            remedy=say("Enlarge the prime radius.")
+            if isinstance(cam.follower, FlatFaced)
+            else say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam))),
+        )
+        return
+    if not lost:
+        return
+    too_large = (
+        say("by the flat face on a prime radius of {radius:g} mm", radius=cam.prime_radius)
+        if isinstance(cam.follower, FlatFaced)
+        else say("with a roller of {radius:g} mm", radius=cam.roller_radius)
+    )
+    yield say(
+        "The profile cannot be cut {cause}: it is undercut {where}. {remedy}",
+        cause=too_large, where=sequence([_where(part) for part in lost], "; "), remedy=_remedy(cam, lost),
+    )  # fmt: skip
+
+
+def _where(part: Undercut) -> Caption:
+    if part.is_cusp:
+        return say("to an edge at {phi}", phi=_degrees(part.cusps[0]))
+    start, end = (_degrees(phi) for phi in part.crossing[:2])
+    if not part.cusps:
+        return say("where its flanks meet, and is lost from {start} to {end}", start=start, end=end)
+    return say(
+        "between the cusps at {first} and {last}, and is lost from {start} to {end}",
+        first=_degrees(part.cusps[0]), last=_degrees(part.cusps[-1]), start=start, end=end,
+    )  # fmt: skip
+
+
+def _remedy(cam: Cam, lost: list[Undercut]) -> Caption:
+    if isinstance(cam.follower, FlatFaced):
+        return say("Enlarge the prime radius.")
+    if any(part.cusps for part in lost):
+        return say("Every roller smaller than {radius} mm avoids the cusps.", radius=_rounded_down(largest_roller(cam)))
+    return say("Take a smaller roller or a larger prime radius.")
+
+
+EXCEEDED = {
+    "rise": say("The pressure angle reaches {alpha:.2f}° on the rise, at {phi}; {limit:g}° are permitted."),
+    "return": say("The pressure angle reaches {alpha:.2f}° on the return, at {phi}; {limit:g}° are permitted."),
+}
+
+
+def _limits(cam: Cam, board: Board) -> Iterator[Caption]:
+    if isinstance(cam.follower, FlatFaced):
+        return
+    extremes, limits = cam.extremes(), board.limits
+    for word, (alpha, phi), limit in (
+        ("rise", extremes.pressure_angle_rise, limits.rise),
+        ("return", extremes.pressure_angle_return, limits.return_),
+    ):
+        at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
+        if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > LAST_DIGIT:
+            values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
+            yield replace(EXCEEDED[word], values=values)
+
+
+def _prime_radius(board: Board, least: float) -> Iterator[Caption]:
+    given = board.prime_radius
+    if given is not None and given < least - LAST_DIGIT:
+        yield say(
+            "The given prime radius of {given:g} mm is smaller than the least permitted one, {least:.2f} mm.",
+            given=given, least=least,
+        )  # fmt: skip
+
+
+def less_round(chain: Chain) -> list[Caption]:
+    """The sentence on sizes that are no multiples of the rounding, because none of them goes with another."""
+    if chain.rounded:
+        return []
+    return [
+        say(
+            "No multiples of {rounding:g} mm go with one another within the permitted pressure angles: the prime "
+            "radius {radius:g} mm with the centre distance {distance:g} mm is adopted.",
+            rounding=chain.rounding, radius=chain.prime_radius, distance=chain.place,
+        )
+    ]  # fmt: skip
+
+
+def _degrees(phi: float) -> Caption:
+    return say("{phi:.2f}°", phi=math.degrees(phi))
+
+
+def _rounded_down(length: float) -> Caption:
+    return say("{length:.3f}", length=math.floor(length * 1000) / 1000)

@@ -1,0 +1,88 @@
+"""What stands on the sheets of a solution, and which of it is drawn: finished, half done, or a blank worksheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphcam.drafting.ink import Step
+from graphcam.errors import DesignError
+from graphcam.sheets.formats import Format
+from graphcam.sheets.layout import Part, compose_parts
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.tables import Table
+from graphcam.sheets.title_block import TitleBlock
+from graphcam.words import Tell
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What stands on the sheets of a solution.
+
+    steps : (name of the construction, step), in order
+    givens, results : tables that stand with the first construction, and with the last
+    notes : sentences that are numbered on the sheet
+    tell : says all texts in the language of the sheets
+    """
+
+    steps: tuple[tuple[str, Step], ...]
+    givens: tuple[Table, ...]
+    results: tuple[Table, ...]
+    notes: tuple[str, ...]
+    title: TitleBlock
+    sheet: Format
+    tell: Tell
+
+    @property
+    def constructions(self) -> tuple[str, ...]:
+        """The names of the constructions, in order."""
+        return tuple(dict.fromkeys(name for name, _ in self.steps))
+
+
+def drawing(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
+    """The sheets.
+
+    upto : the last step that is drawn, its number or the name of the construction that it ends; of what follows only
+        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet, None for a
+        finished sheet.
+    per_construction : every construction on sheets of its own, with what was drawn before in the same views
+
+    Raises
+    ------
+    DesignError : there is no such step or construction
+    """
+    last = None if upto is None else _last_step(contents, upto)
+    parts = _parts(contents) if per_construction else [_whole(contents)]
+    return compose_parts(parts, contents.title, contents.sheet, last, contents.tell)
+
+
+def _last_step(contents: Contents, upto: int | str) -> int:
+    """The number of the last step that is drawn."""
+    count, names = len(contents.steps), contents.constructions
+    if isinstance(upto, str) and upto in names:
+        return max(number for number, (name, _) in enumerate(contents.steps, 1) if name == upto)
+    if isinstance(upto, int) and 0 <= upto <= count:
+        return upto
+    known = f"a number of steps from 0 to {count}, or one of {', '.join(names)}"
+    raise DesignError("upto", upto, known)
+
+
+def _numbered(contents: Contents) -> tuple[tuple[int, str, Step], ...]:
+    return tuple((number, name, step) for number, (name, step) in enumerate(contents.steps, 1))
+
+
+def _whole(contents: Contents) -> Part:
+    return Part(_numbered(contents), contents.givens + contents.results, contents.notes)
+
+
+def _parts(contents: Contents) -> list[Part]:
+    """A part for each construction that draws something."""
+    steps = _numbered(contents)
+    drawing = [name for name in contents.constructions if any(step.marks for _, of, step in steps if of == name)]
+    parts: list[Part] = []
+    for name in drawing:
+        views = {step.view.name for _, of, step in steps if of == name and step.marks}
+        last = max(number for number, of, _ in steps if of == name)
+        shown = tuple(s for s in steps if s[0] <= last and s[2].view.name in views)
+        tables = (contents.givens if name == drawing[0] else ()) + (contents.results if name == drawing[-1] else ())
+        parts.append(Part(shown, tables, contents.notes if name == drawing[-1] else ()))
+    return parts

@@ -1,0 +1,67 @@
+"""Markdown: numbers, texts and tables as a note prints them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+
+from graphcam.words import Caption, Tell, Words, say
+
+
+def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
+    """A number with so many decimals, a dash where there is none, no minus before zero.
+
+    >>> [str(x) for x in (number(2.345, 1), number(float("nan")), number(-0.001), number(0.5, sign=True))]
+    ['2.3', '–', '0.00', '+0.50']
+    """
+    if not math.isfinite(value):
+        return say("–")
+    return say("{value:{sign}.{digits}f}", value=round(value, digits) + 0.0, sign="+" if sign else "-", digits=digits)
+
+
+def text(plain: str) -> str:
+    """A text of the user's, so that nothing in it is taken for markup.
+
+    >>> text("Cam *A* | 2")
+    'Cam \\\\*A\\\\* \\\\| 2'
+    """
+    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", plain)
+
+
+def in_formulas(note: str) -> str:
+    """A note whose decimal commas stand in braces within formulas: TeX would else set a gap after them.
+
+    >>> in_formulas("1,5 mm, $r = 1,5$ mm, \\\\$2,5")
+    '1,5 mm, $r = 1{,}5$ mm, \\\\$2,5'
+    """
+    return re.sub(r"(?<!\\)\$\$?[^$]+\$\$?", lambda formula: re.sub(r"(?<=\d),(?=\d)", "{,}", formula[0]), note)
+
+
+def blocks(*parts: str) -> str:
+    """Paragraphs, tables and formulas one under the other; empty ones are left out.
+
+    >>> blocks("One.", "", "Two.")
+    'One.\\n\\nTwo.'
+    """
+    return "\n\n".join(part for part in parts if part)
+
+
+def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell = str) -> str:
+    """A table: the first column to the left, the others to the right, every column as wide as its widest cell.
+
+    >>> print(table(("law", "C"), [("cosine", "4.93"), ("2-3", "6")]))
+    | law    |    C |
+    | :----- | ---: |
+    | cosine | 4.93 |
+    | 2-3    |    6 |
+    """
+    told = [[tell(cell) for cell in row] for row in (header, *rows)]
+    widths = [max(3, *(len(row[k]) for row in told)) for k in range(len(header))]
+
+    def line(cells: Sequence[str]) -> str:
+        first, *rest = zip(cells, widths, strict=True)
+        return "| " + " | ".join([f"{first[0]:<{first[1]}}", *(f"{cell:>{width}}" for cell, width in rest)]) + " |"
+
+    ruler = [":" + "-" * (widths[0] - 1), *("-" * (width - 1) + ":" for width in widths[1:])]
+    return "\n".join([line(told[0]), line(ruler), *(line(row) for row in told[1:])])

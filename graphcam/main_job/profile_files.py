@@ -1,0 +1,51 @@
+"""The exact profile as files that CAD and CAM programs import, in mm, the cam centre at the origin.
+
+``profile.csv`` is a table, ``profile.xyz`` a curve through points (x, y, z = 0 on each line, closed), ``profile.dxf``
+one B-spline.  All three hold the profile that can be cut: what a roller too large would lose is left out.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.spline import profile_spline
+from graphcam.mechanism.undercut import CutProfile, trimmed_profile
+
+POINTS = 720
+"""On the profile: one for every half degree of the cam angle."""
+NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
+
+
+def write_profile(cam: Cam, folder: Path) -> dict[str, str]:
+    """Write the three files into a folder; returns their names by kind.
+
+    Raises
+    ------
+    DesignError : no profile can be told that could be cut
+    """
+    from graphcam.sheets.dxf_renderer import write_spline
+
+    cut, spline = trimmed_profile(cam, POINTS), profile_spline(cam)
+    write_spline(spline.control, spline.knots, folder / NAMES["profile_dxf"], layer="profile")
+    _write_csv(cut, folder / NAMES["profile_csv"])
+    _write_xyz(cut, folder / NAMES["profile_xyz"])
+    return NAMES
+
+
+def _write_csv(cut: CutProfile, path: Path) -> None:
+    x, y = cut.points.T
+    columns = np.degrees(cut.phi), x, y, np.hypot(x, y), np.degrees(np.arctan2(y, x)) % 360
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["phi_deg", "x", "y", "radius", "angle_deg"])
+        table.writerows([f"{value:.9f}" for value in row] for row in zip(*columns, strict=True))
+
+
+def _write_xyz(cut: CutProfile, path: Path) -> None:
+    closed = np.append(cut.points, cut.points[:1], axis=0)
+    lines = (f"{x:.9f}\t{y:.9f}\t{0:.9f}\n" for x, y in closed.tolist())
+    path.write_text("".join(lines), encoding="ascii", newline="\n")

@@ -1,0 +1,129 @@
+"""The sheet of a sized cam: the region of permitted cams over offset and prime radius, and the cam that was found."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from graphcam.drafting.euclid import UP
+from graphcam.drafting.ink import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments, Step, View, say
+from graphcam.given.laws import Floats
+from graphcam.mechanism.sizing import SizedCam
+from graphcam.mechanism.sizing_region import FeasibleRegion, feasible_region
+from graphcam.sheets.layout import compose
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.tables import Table
+from graphcam.sheets.title_block import TitleBlock
+
+REGION = View("sizing", say("Permitted cams, prime radius r₀ over offset e"), across="sizing e", up="sizing r0")
+WIDTH, HEIGHT = 130.0, 100.0
+"""The region is drawn as large as this [mm of paper]; its axes have scales of their own."""
+TICKS = 5
+"""Parts of an axis with numbers."""
+MARGIN = 0.05
+"""The offset's axis is this part longer than its range, so that a range of one offset has an axis too."""
+
+
+def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso") -> Drawing:
+    """A sheet with the permitted region and the values of the cam, for the writers of :mod:`graphcam.sheets`.
+
+    paper : "A1" to "A4"; frame : "gost" or "iso"
+    """
+    steps = [("sizing", step) for step in _steps(sized, feasible_region(sized.problem))]
+    return compose(steps, [_table(sized)], TitleBlock(name="The smallest cam"), paper, frame)
+
+
+def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
+    (e0, e1), (r0, r1) = sized.problem.offset, sized.problem.prime_radius
+    span = max(e1 - e0, MARGIN * r1)
+
+    def place(e: Floats | float, radius: Floats | float) -> Points:
+        across, up = (np.asarray(e) - e0) / span * WIDTH, (np.asarray(radius) - r0) / max(r1 - r0, MARGIN * r1) * HEIGHT
+        return np.asarray(across + UP * up)
+
+    kept = ~np.isnan(region.least)
+    border = place(region.offset[kept], region.least[kept])
+    lines = {name: place(region.offset, radius)[~np.isnan(radius)] for name, radius in region.by_limit.items()}
+    found = complex(place(sized.offset, sized.cam.prime_radius))
+    top = place(region.offset[kept], r1)
+    shaded = (Region(np.concatenate([border, top[::-1]])),) if border.size > 1 else ()
+    return [
+        Step(
+            say("The limits"),
+            say(
+                "Above its line a limit is kept: the pressure angle, the roller's share of the radius of curvature "
+                "with the smallest roller, and the stress with the widest face and the best roller."
+            ),
+            REGION,
+            (
+                *_axes(e0, e0 + span, r0, r1),
+                *(Line(line, Role.CURVE) for line in lines.values() if line.size > 1),
+                *(Label(complex(line[line.size // 2]), name, towards=UP) for name, line in lines.items() if line.size),
+            ),
+        ),
+        Step(
+            say("The smallest cam"),
+            say(
+                "Over all lines the cams are permitted. The least prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; "
+                "what binds there: {binding}.",
+                r0=sized.cam.prime_radius, e=sized.offset, binding=", ".join(sized.binding),
+            ),
+            REGION,
+            (
+                *shaded,
+                Dots(np.array([found]), Role.RESULT),
+                Label(found, f"r₀ = {sized.cam.prime_radius:.2f}", towards=1 - 1j),
+            ),
+        ),
+    ]  # fmt: skip
+
+
+def _axes(e0: float, e1: float, r0: float, r1: float) -> tuple[Mark, ...]:
+    across, up = WIDTH + 0j, HEIGHT * UP
+    beyond = 8.0
+    return (
+        Arrow(0j, across + beyond, Role.SCALE),
+        Arrow(0j, up + beyond * UP, Role.SCALE),
+        *_ticks(across, e0, e1, -UP),
+        *_ticks(up, r0, r1, -1 + 0j),
+        Label(across + beyond, "e, mm", towards=1 - 1j),
+        Label(up + beyond * UP, "r₀, mm", towards=-1 + 0j),
+    )
+
+
+def _ticks(end: complex, low: float, high: float, outwards: complex) -> tuple[Mark, ...]:
+    """Short strokes with numbers along an axis from the origin."""
+    share = np.arange(TICKS + 1) / TICKS
+    at = share * end
+    labels = (
+        Label(complex(x), f"{low + t * (high - low):g}", outwards, small=True) for x, t in zip(at, share, strict=True)
+    )
+    return (Segments(at, at + 1.5 * outwards, Role.SCALE), *labels)
+
+
+def _table(sized: SizedCam) -> Table:
+    """Sizes and limits with what is permitted; a star where that binds."""
+    problem, limits = sized.problem, sized.problem.limits
+    values = (
+        ("prime radius", sized.cam.prime_radius, problem.prime_radius),
+        ("offset", sized.offset, problem.offset),
+        ("roller radius", sized.cam.roller_radius, problem.roller_radius),
+        ("face width", sized.face_width, problem.face_width),
+    )
+    rows = [(name, f"{value:.3f} mm", f"{low:g} to {high:g}") for name, value, (low, high) in values]
+    permitted = max(limits.rise, limits.return_ or 0.0)
+    rows += [
+        ("pressure angle", f"{math.degrees(sized.max_pressure_angle):.2f}°", f"{math.degrees(permitted):g}°"),
+        ("least curvature radius", f"{sized.min_convex_radius:.3f} mm",
+         f"{sized.cam.roller_radius / limits.roller_share:.3f}"),
+        ("contact stress", f"{sized.stress:.1f} MPa", f"{limits.stress:g}"),
+    ]  # fmt: skip
+    starred = [(name, value, allowed + " *" * _binds(name, sized.binding)) for name, value, allowed in rows]
+    return Table("The smallest cam", ("size", "value", "permitted, * binds"), tuple(starred))
+
+
+def _binds(row: str, binding: tuple[str, ...]) -> bool:
+    """Whether what a row of the table shows is among what binds."""
+    word = {"least curvature radius": "curvature", "contact stress": "stress"}.get(row, row)
+    return any(word in name for name in binding)

@@ -1,0 +1,182 @@
+"""Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphcam import __version__
+from graphcam.comparison.quantities import Comparison
+from graphcam.constructions.board import Board, DrawnFollower
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.flat_faced import DrawnFlatFaced
+from graphcam.constructions.oscillating import DrawnOscillating
+from graphcam.constructions.translating import DrawnTranslating
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import FlatFaced, Oscillating
+from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.main_job.cautions import cautions, less_round
+from graphcam.main_job.diagram_sizes import chosen_ordinate, chosen_poles, diagram_room
+from graphcam.main_job.plain import plain_quantities, plain_stations
+from graphcam.main_job.spring import SpringDesign
+from graphcam.mechanism.cam import Cam
+from graphcam.sheets.layout import profile_room
+from graphcam.task import OscillatingTable, Task, TranslatingTable
+from graphcam.words import Tell
+
+FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
+
+
+def solve(task: Task, pencil: Pencil | None = None) -> Solution:
+    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    Raises
+    ------
+    DesignError : there is no such cam, or its follower is not there yet
+
+    >>> from graphcam.task_file import builtin_task
+    >>> solution = solve(builtin_task())
+    >>> solution.cam.prime_radius, solution.cam.follower
+    (44.0, Translating(offset=-10.0, roller_radius=17.0))
+    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
+    43.28
+    """
+    chain = Chain(board_of(task), pencil or Pencil())
+    follower = chain.board.follower.built(chain.place, chain.roller_radius)
+    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
+
+
+def board_of(task: Task) -> Board:
+    """What the task puts on the drawing board."""
+    drawing, motion = task.drawing, task.motion()
+    room = diagram_room(drawing)
+    ordinate = drawing.ordinate or chosen_ordinate(motion, room)
+    return Board(
+        motion=motion,
+        follower=_drawn_follower(task),
+        rotation=task.rotation,
+        limits=task.limits(),
+        prime_radius=task.cam.prime_radius,
+        roller_radius=getattr(task.follower, "roller_radius", 0.0),
+        roller_rule=roller_rule(getattr(task.follower, "roller_rule", DEFAULT_RULE)),
+        divisions=drawing.divisions,
+        ordinate=ordinate,
+        poles=drawing.poles or chosen_poles(motion, room, ordinate),
+        mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
+        rounding=drawing.rounding,
+        profile_room=profile_room(drawing.format, drawing.frame, drawing.orientation),
+    )
+
+
+def _drawn_follower(task: Task) -> DrawnFollower:
+    """The follower of the task, as it is drawn."""
+    table = task.follower
+    if isinstance(table, TranslatingTable):
+        return DrawnTranslating(table.offset)
+    if isinstance(table, OscillatingTable):
+        return DrawnOscillating(table.arm, table.distance)
+    return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A solved task.
+
+    Attributes
+    ----------
+    task : as given
+    chain : the drawn side, whose constructions are drawn when they are first asked for
+    cam : the exact side, with the sizes that the drawing proposed and the design adopted
+    """
+
+    task: Task
+    chain: Chain
+    cam: Cam
+
+    @property
+    def drawn(self) -> Mapping[str, Construction]:
+        """The constructions by name, in order."""
+        return self.chain
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """Drawn against exact."""
+        return Comparison(self.chain, self.cam)
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
+        said = cautions(self.cam, self.chain.board, self.comparison.least[0])
+        return [self.tell(caution) for caution in (*said, *less_round(self.chain))]
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in the language of the task."""
+        return self.task.drawing.tell
+
+    @cached_property
+    def spring(self) -> SpringDesign | None:
+        """What the task's spring does, if it has one."""
+        spring, speed = self.task.spring, self.task.speed_rpm
+        if spring is None or speed is None:
+            return None
+        return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""
+        return {
+            "graphcam": __version__,
+            "task": self.task.to_dict(),
+            "cam": {
+                "prime_radius": self.cam.prime_radius,
+                **self._follower_sizes(),
+                "rotation": self.cam.rotation,
+            },
+            "scales": self._scales(),
+            "quantities": plain_quantities(self.comparison.quantities),
+            "stations": self._stations(),
+            **({"spring": self.spring.to_dict()} if self.spring else {}),
+            "files": dict.fromkeys(FILES),
+        }
+
+    def _follower_sizes(self) -> dict[str, float | None]:
+        if isinstance(self.cam.follower, FlatFaced):
+            return {"offset": None, "roller_radius": None}
+        follower = self.cam.follower
+        arm: dict[str, float | None] = {"arm": follower.arm} if isinstance(follower, Oscillating) else {}
+        place = {self.chain.board.follower.place_name: self.chain.place}
+        return {**arm, **place, "roller_radius": self.chain.roller_radius}
+
+    @property
+    def _lift(self) -> tuple[float, str]:
+        """How many units of a lift in files one of the API is, and their name: an arm's lift is in degrees there."""
+        return (math.degrees(1), "deg") if self.chain.board.follower.unit == "rad" else (1.0, "mm")
+
+    def _scales(self) -> dict[str, Any]:
+        readings, (factor, unit) = self.chain["integration"].readings, self._lift
+        scales = {name: float(np.ravel(readings[name].scale)[0]) for name in ("s", "v", "a")}
+        return {
+            "phi": {"per_mm": math.degrees(self.chain.board.mu_phi.per_mm), "unit": "deg"},
+            "s": {"per_mm": factor * scales["s"], "unit": unit},
+            "v": {"per_mm": scales["v"], "unit": readings["v"].unit},
+            "a": {"per_mm": scales["a"], "unit": readings["a"].unit},
+        }
+
+    def _stations(self) -> list[dict[str, Any]]:
+        stations, (factor, _) = self.chain.board.stations, self._lift
+        exact, drawn = self.comparison.exact_stations, self.comparison.drawn_stations
+        s, v, a, _ = exact.values
+        alpha = np.where(np.isnan(drawn["alpha"]), np.nan, exact.pressure_angle)  # a flat face has none
+        pairs = {
+            "s": (factor * drawn["s"], factor * s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
+        }  # fmt: skip
+        pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
+        return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)

@@ -1,0 +1,185 @@
+"""What a solution says of a spring: contact over the turn, forces, the force plan, a view and a table of the sheet."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphcam.constructions.axes import degrees, phase_symbol
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.force_plan import force_plan, round_scale
+from graphcam.drafting.euclid import UP
+from graphcam.drafting.ink import Arrow, Caption, Construction, Dots, Label, Line, Mark, Role, Segments, Step, View, say
+from graphcam.given.follower import Translating
+from graphcam.given.motion import FULL_TURN
+from graphcam.given.spring_load import SpringLoad
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
+from graphcam.mechanism.forces import CamForces
+from graphcam.mechanism.one_sided import ValueAt
+from graphcam.sheets.tables import Table
+from graphcam.words import sequence
+
+CONTACT = View("contact", say("Contact force ξ"), across="contact phi", up="contact force")
+WIDTH = 120.0
+"""A turn is this long on paper [mm]."""
+OVERHANG = 6.0
+"""How far the axes run on beyond the curve [mm]."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpringDesign:
+    """A follower that a spring holds on the cam of a solution.
+
+    chain, cam : of the solution
+    given : the load without a preload that the task leaves open
+    open_preload : whether it does: then the least preload is taken
+    """
+
+    chain: Chain
+    cam: Cam
+    given: SpringLoad
+    open_preload: bool
+
+    @cached_property
+    def least(self) -> SpringPreload:
+        """The least preload that keeps contact."""
+        load = self.given
+        return spring_preload(self.cam.motion, load.mass, load.speed_rpm, load.stiffness)
+
+    @property
+    def needed(self) -> float:
+        """The least preload [N], none where contact is kept without one: a spring cannot pull."""
+        return max(0.0, self.least.preload)
+
+    @cached_property
+    def load(self) -> SpringLoad:
+        """The load with its preload; an open one is what is needed."""
+        return replace(self.given, preload=self.needed) if self.open_preload else self.given
+
+    @cached_property
+    def contact(self) -> Contact:
+        """The contact under this load."""
+        return Contact(self.cam.motion, self.load)
+
+    @cached_property
+    def greatest_normal(self) -> ValueAt:
+        """The greatest force along the contact normal [N]; of a flat face it is the force along the motion."""
+        if isinstance(self.cam.follower, Translating):
+            return CamForces(self.cam, self.load).greatest_normal()
+        return self.contact.greatest_force()
+
+    @cached_property
+    def force_plan(self) -> Construction | None:
+        """The force plan of a translating follower at the station of its velocity plan."""
+        if not isinstance(self.cam.follower, Translating):
+            return None
+        return force_plan(self.chain.pressure_angle, self.load, self.chain.pencil)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The results as plain data: N and degrees."""
+        least, greatest = self.contact.least_force(), self.greatest_normal
+        return {
+            "least_preload": {"value": self.needed, "unit": "N", "phi_deg": math.degrees(self.least.phi)},
+            "preload": {"value": self.load.preload, "unit": "N"},
+            "least_contact_force": _at(least),
+            "greatest_normal_force": _at(greatest),
+            "contact_lost_deg": [[math.degrees(phi) for phi in interval] for interval in self.contact.lost()],
+        }
+
+    def steps(self) -> list[tuple[str, Step]]:
+        """What is drawn of it: the contact function, and the force plan."""
+        plan = self.force_plan.steps() if self.force_plan else []
+        return [("contact", contact_view(self.contact)), *(("force_plan", step) for step in plan)]
+
+    def table(self) -> Table:
+        """The load and its results for the sheet."""
+        least, greatest, load = self.contact.least_force(), self.greatest_normal, self.load
+        lost = [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+        rows = (
+            (say("moving mass"), say("{mass:g} kg", mass=load.mass), ""),
+            (say("stiffness c"), say("{stiffness:g} N/mm", stiffness=load.stiffness), ""),
+            (say("preload F₀"), _newtons(load.preload), say("least") if self.open_preload else say("given")),
+            (say("least preload"), _newtons(self.needed), say("at {phi}", phi=degrees(self.least.phi))),
+            (say("least contact force"), _newtons(_clean(least.value)), at_side(least)),
+            (say("greatest normal force"), _newtons(greatest.value), at_side(greatest)),
+            (say("contact"), say("lost, {where}", where=sequence(lost, "; ")) if lost else say("kept"), ""),
+        )
+        given = 2 if self.open_preload else 3
+        found = frozenset((row, column) for row in range(given, len(rows)) for column in (1, 2))
+        return Table(say("Spring"), (say("quantity"), say("value"), ""), rows, found)
+
+
+def at_side(found: ValueAt) -> Caption:
+    """At which cam angle, and on which side of it where it is a jump."""
+    if found.side == "left":
+        return say("just before {phi}", phi=degrees(found.phi))
+    return say("just after {phi}", phi=degrees(found.phi))
+
+
+def _newtons(force: float) -> Caption:
+    return say("{force:.4g} N", force=force)
+
+
+def contact_view(contact: Contact) -> Step:
+    """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
+    curve, motion = contact.curve(), contact.motion
+    mu_force, mu_phi = round_scale(float(np.abs(curve.force).max())), FULL_TURN / WIDTH
+    points = curve.phi / mu_phi + UP * curve.force / mu_force.per_mm
+    low, high = min(0.0, float(points.imag.min())), max(0.0, float(points.imag.max()))
+    ends = np.append(motion.starts, FULL_TURN) / mu_phi
+    least = contact.least_force()
+    bottom = least.phi / mu_phi + UP * least.value / mu_force.per_mm
+    axes: list[Mark] = [
+        Arrow(0j, WIDTH + OVERHANG + 0j, Role.SCALE),
+        Arrow(low * UP, (high + OVERHANG) * UP, Role.SCALE),
+        Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
+        Label(WIDTH + OVERHANG + 0j, "φ", towards=1 - 1j),
+        Label((high + OVERHANG) * UP, say("ξ, N"), towards=-1 + 0j),
+        *(
+            Label(complex((a + b) / 2), phase_symbol(motion, k), towards=-UP, small=True)
+            for k, (a, b) in enumerate(pairwise(ends))
+        ),
+    ]
+    marks: list[Mark] = [
+        *axes,
+        Line(points, Role.RESULT),
+        Dots(np.array([bottom]), Role.LIMIT),
+        Label(bottom, _newtons(_clean(least.value)), towards=-UP),
+    ]  # fmt: skip
+    for start, end in contact.lost():
+        marks += [Line(np.array([a, b]) / mu_phi + 0j, Role.LIMIT) for a, b in _in_turn(start, end)]
+    caption = (
+        say(
+            "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is "
+            "negative, as marked on the axis, the cam would have to pull: contact is lost.",
+            mu=mu_force.per_mm,
+        )
+        if contact.lost()
+        else say(
+            "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. It is "
+            "nowhere negative: contact is kept.",
+            mu=mu_force.per_mm,
+        )
+    )
+    view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", mu=mu_force.per_mm))
+    return Step(say("The contact function"), caption, view, tuple(marks), given=tuple(axes))
+
+
+def _in_turn(start: float, end: float) -> list[tuple[float, float]]:
+    """An interval that may run over the end of the turn, in parts inside it."""
+    return [(start, end)] if end <= FULL_TURN else [(start, FULL_TURN), (0.0, end - FULL_TURN)]
+
+
+def _at(found: ValueAt) -> dict[str, Any]:
+    return {"value": found.value, "unit": "N", "phi_deg": math.degrees(found.phi), "side": found.side}
+
+
+def _clean(force: float) -> float:
+    """A force without the rounding that is left where the least preload makes it zero."""
+    return round(force, 9) + 0.0

@@ -1,0 +1,287 @@
+"""What a roller does on a cam of circular arcs: lift, velocity, acceleration and their jumps, from the arcs themselves.
+
+A roller of radius R rolls its centre on the arcs moved outwards by R.  Each such arc passes through a point Q with the
+inner unit normal n and the curvature kappa, so its points X = r u(phi) satisfy kappa |X - Q|^2/2 = (X - Q).n, or with
+c = n + kappa Q (kappa times the centre)
+
+    kappa r^2/2 + B r + E = 0,    B = -u.c,    E = kappa |Q|^2/2 + Q.n,
+
+which holds for the flattest arc as well.  With u'' = -u, differentiated by phi:
+
+    r' = -B' r/S,    r'' = (B r - (S' + B') r')/S,    r''' = (3 B r' + B' r - 3 S' r'')/S,
+
+where S = kappa r + B = sqrt(1 - B'^2) is the cosine of the pressure angle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphcam.errors import DesignError
+from graphcam.given.impact import ROUNDING, Jump
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
+from graphcam.given.three_arcs import Point
+from graphcam.mechanism.arcs import ThreeArcCam
+from graphcam.mechanism.kinematics import Complexes, Values
+
+FIT = 1e-3
+"""How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
+SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
+"""Fractions of an arc between which a quantity is taken to have one extreme at most."""
+NAMES = ("AG", "GF", "FD")
+"""The arcs of the flank, in the order in which the rise meets them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Arcs that the trace point follows, in the terms of the equation above: kappa [1/mm], c and E [mm], each (k,)."""
+
+    curvature: Floats
+    centre: Complexes
+    power: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class ArcMotion:
+    """The motion s(phi) of a central translating follower; call it with cam angles [rad] for (s, v, a, j).
+
+    The rise runs over the arcs AG, GF and FD, the return over their mirror image; between them the outer circle holds
+    the follower for the angle ``dwell``, and for the rest of the turn the base circle.  phi = 0 where the rise begins.
+
+    Parameters
+    ----------
+    cam : a sound root of :func:`~graphcam.mechanism.arcs.three_arc_cam`
+    roller_radius : mm, 0 for a knife edge
+    dwell : rad
+
+    Raises
+    ------
+    DesignError : the root is not sound, the given A or D misses its arc, the arcs do not follow one another around the
+        cam, the phases take more than a turn, or the pressure angle reaches 90 degrees
+
+    >>> from graphcam.mechanism.arcs import three_arc_cam
+    >>> motion = ArcMotion(three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))[0], 10.0, 0.5)
+    >>> s, v, a, j = motion(motion.breaks[1], side="left")
+    >>> round(float(s), 4), round(float(v), 4), round(float(a), 4)
+    (3.4297, 15.1134, 36.4642)
+    >>> [round(jump.size, 3) for jump in motion.jumps[:4]]
+    [30.092, -25.181, -96.294, 91.469]
+    """
+
+    cam: ThreeArcCam
+    roller_radius: float = 0.0
+    dwell: float = 0.0
+    sigma: int = field(init=False, repr=False)
+    """+1 for a cam that turns counter-clockwise on the rise from A to D, -1 for clockwise"""
+    arcs: Arcs = field(init=False, repr=False)
+    """the rise's three arcs, the outer circle and the base circle"""
+    edges: Floats = field(init=False, repr=False)
+    """(8,) cam angles [rad] where the arcs begin: of the rise, the outer circle, the return, the base circle"""
+
+    def __post_init__(self) -> None:
+        for quantity, value in (("roller radius", self.roller_radius), ("dwell", self.dwell)):
+            if not (math.isfinite(value) and value >= 0):
+                raise DesignError(quantity, value, "a finite number of 0 or more")
+        if not self.cam.sound:
+            raise DesignError("root", "not sound", "a sound one", self.cam.why)
+        _check_fit(self.cam)
+        outward = _outward_normals(self.cam)
+        at = {name: complex(*getattr(self.cam, name)) for name in "AGFD"}
+        object.__setattr__(self, "sigma", _check_turning(outward))
+        r0, r1 = (abs(at[name]) + self.roller_radius for name in "AD")
+        trace: Complexes = np.array(
+            [at[name] + self.roller_radius * n for name, n in zip("AGFD", outward, strict=True)]
+        )
+        radii = np.array([self.cam.rho2, self.cam.rho3, self.cam.rho1]) + self.roller_radius
+        # The first arc is known best where it leaves the base circle, the last where it reaches the outer one.
+        kappa, known, inward = 1 / radii, trace[[0, 1, 3]], -outward[[0, 1, 3]]
+        power = kappa * np.abs(known) ** 2 / 2 + (known * np.conj(inward)).real
+        arcs = Arcs(
+            np.array([*kappa, 1 / r1, 1 / r0]),
+            np.array([*(inward + kappa * known), 0, 0]),
+            np.array([*power, -r1 / 2, -r0 / 2]),
+        )
+        object.__setattr__(self, "arcs", arcs)
+        turned = self.sigma * np.angle(trace[0] * np.conj(trace))
+        _check_pressure(outward, trace)
+        rise = float(turned[3])
+        if not 0 < turned[1] < turned[2] < rise:
+            raise DesignError("rise", f"{np.degrees(turned[1:]).round(4).tolist()} degrees at G, F and D",
+                              "growing angles", "move G or C1")  # fmt: skip
+        if 2 * rise + self.dwell > FULL_TURN + CLOSURE:
+            raise DesignError("rise, dwell and return", f"{math.degrees(2 * rise + self.dwell):.6g} degrees",
+                              "at most a turn", "shorten the dwell")  # fmt: skip
+        down = 2 * rise + self.dwell - turned[::-1]
+        object.__setattr__(self, "edges", np.concatenate([turned, down]))
+
+    @property
+    def breaks(self) -> Floats:
+        """The cam angles [rad] where one arc takes over from another, 0 among them."""
+        return np.unique(self.edges[self.edges < FULL_TURN - CLOSURE])
+
+    @property
+    def rise(self) -> float:
+        """The angle of the rise, and of the return [rad]."""
+        return float(self.edges[3])
+
+    @property
+    def prime_radius(self) -> float:
+        """The least distance of the trace point from the cam centre [mm]."""
+        return float(1 / self.arcs.curvature[4])
+
+    @property
+    def lift(self) -> float:
+        """The whole lift [mm]."""
+        return float(1 / self.arcs.curvature[3]) - self.prime_radius
+
+    def __call__(self, phi: ArrayLike, side: Side = "right") -> Values:
+        """(s, v, a, j) at cam angles phi [rad], any real numbers, each shaped like phi; NaN stays NaN.
+
+        Where one arc takes over from another, the value of the named side.
+        """
+        arc, psi, direction = self._place(phi, side)
+        r, r1, r2, r3 = self._radius(arc, psi)
+        return r - self.prime_radius, direction * r1, r2, direction * r3
+
+    def at(self, arc: NDArray[np.intp], u: Floats) -> tuple[Floats, Values]:
+        """The cam angle [rad] and (s, v, a, j) at the fraction u of an arc of the rise, both its ends seen from inside.
+
+        arc : 0 for AG, 1 for GF, 2 for FD, as many as there are u
+        """
+        psi = self.edges[arc] + (self.edges[arc + 1] - self.edges[arc]) * u
+        r, v, a, j = self._radius(arc, psi)
+        return psi, (r - self.prime_radius, v, a, j)
+
+    def pressure_angle(self, phi: ArrayLike) -> Floats:
+        """alpha [rad] between the contact normal and the follower's motion: tan(alpha) = v/(r0 + s)."""
+        s, v, _, _ = self(phi)
+        return np.arctan2(v, self.prime_radius + s)
+
+    def pitch_curve(self, phi: ArrayLike) -> Floats:
+        """(..., 2) the trace point's path on the cam [mm]."""
+        s, *_ = self(phi)
+        z = self._start * np.exp(-1j * self.sigma * wrap(phi)) * (self.prime_radius + s)
+        return np.stack([z.real, z.imag], axis=-1)
+
+    @property
+    def jumps(self) -> list[Jump]:
+        """The soft impacts: where the acceleration jumps [mm/rad^2]; the velocity jumps nowhere, for arcs touch."""
+        phi = self.breaks
+        before, after = self(phi, "left")[2], self(phi, "right")[2]
+        jumped = np.abs(after - before) > ROUNDING * np.abs(before).max()
+        columns = (column[jumped].tolist() for column in (phi, before, after))
+        return [Jump(*row) for row in zip(*columns, strict=True)]
+
+    def max_velocity(self) -> tuple[float, float]:
+        """The greatest |v| [mm/rad] of the turn and where on the rise [rad]."""
+        return self._greatest(lambda r: r[1], slope=lambda r: r[2])
+
+    def max_acceleration(self) -> tuple[float, float]:
+        """The greatest |a| [mm/rad^2] of the turn, of both sides at a jump, and where on the rise [rad]."""
+        return self._greatest(lambda r: r[2], slope=lambda r: r[3])
+
+    def max_pressure_angle(self) -> tuple[float, float]:
+        """The greatest pressure angle [rad] and where on the rise [rad]; on the return it is the same, negative."""
+        return self._greatest(lambda r: np.arctan2(r[1], r[0]), slope=lambda r: r[2] * r[0] - r[1] ** 2)
+
+    # --- how it is found ---------------------------------------------------------------------------------------------
+
+    @property
+    def _start(self) -> complex:
+        a = complex(*self.cam.A)
+        return a / abs(a)
+
+    def _place(self, phi: ArrayLike, side: Side) -> tuple[NDArray[np.intp], Floats, Floats]:
+        """The arc of each cam angle, the angle at which the rise is on the same place of it, and the way it runs."""
+        if side not in ("right", "left"):
+            raise DesignError("side", side, "'right' or 'left'")
+        flat = wrap(phi)
+        if side == "left":
+            flat = np.where(flat == 0, FULL_TURN, flat)
+        piece = np.searchsorted(self.edges, flat, side=side) - 1
+        back = piece >= 4
+        arc = np.array([0, 1, 2, 3, 2, 1, 0, 4])[piece]
+        psi = np.where(back, self.edges[-1] - flat, flat)
+        return arc, psi, np.where(back, -1.0, 1.0)
+
+    def _radius(self, arc: NDArray[np.intp], psi: Floats) -> Values:
+        """r, r', r'', r''' of the trace point on an arc, at the angle psi from the start of the rise."""
+        kappa, e = self.arcs.curvature[arc], self.arcs.power[arc]
+        seen = self.arcs.centre[arc] * np.conj(self._start * np.exp(-1j * self.sigma * psi))
+        b, b1 = -seen.real, self.sigma * seen.imag
+        s = np.sqrt((1 - b1) * (1 + b1))
+        # Of the two forms of the root the one without a difference of what is almost equal.
+        far = b > 0
+        r = np.where(far, -2 * e / np.where(far, b + s, 1.0), (s - b) / kappa)
+        r1 = -b1 * r / s
+        s1 = kappa * r1 + b1
+        r2 = (b * r - (s1 + b1) * r1) / s
+        return r, r1, r2, (3 * b * r1 + b1 * r - 3 * s1 * r2) / s
+
+    def _greatest(self, value: Callable[[Values], Floats], slope: Callable[[Values], Floats]) -> tuple[float, float]:
+        """The value of greatest magnitude on the rise: at an end of an arc, or where its slope vanishes."""
+        from scipy.optimize.elementwise import find_root
+
+        def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
+            return slope(self._radius(arc, psi))
+
+        arc = np.arange(3)
+        start, end = self.edges[:3], self.edges[1:4]
+        psi = start[:, None] + (end - start)[:, None] * SAMPLES
+        signs = np.sign(slope_at(psi, arc[:, None]))
+        on, left = np.nonzero(signs[:, :-1] * signs[:, 1:] < 0)
+        inner = find_root(slope_at, (psi[on, left], psi[on, left + 1]), args=(on,)).x if on.size else []
+        arcs, psi = np.concatenate([arc, arc, on]), np.concatenate([start, end, inner])
+        values = value(self._radius(arcs, psi))
+        k = int(np.argmax(np.abs(values)))
+        return float(abs(values[k])), float(psi[k])
+
+
+def _outward_normals(cam: ThreeArcCam) -> Complexes:
+    """Unit normals away from the cam in A, G, F and D."""
+    a, g, f, d, c1, c2 = (complex(*getattr(cam, name)) for name in ("A", "G", "F", "D", "C1", "C2"))
+    normals: Complexes = np.array([a / abs(a), (g - c2) / cam.rho2, (f - c1) / cam.rho1, d / abs(d)])
+    return normals
+
+
+def _check_fit(cam: ThreeArcCam) -> None:
+    """That the given A and D lie where their arcs touch the circles about the cam centre."""
+    if not np.dot(cam.A, cam.A - cam.C2) > 0:
+        raise DesignError("C2", _shown(cam.C2), "so that the second arc goes around the cam centre", "move C2")
+    for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
+        found, given = getattr(cam, name), getattr(cam.given, name)
+        if not np.all(np.isfinite(found)):
+            raise DesignError(centre, _shown((0, 0)), f"on the line from the cam centre to {name}", f"move {centre}")
+        if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
+            raise DesignError(
+                name, _shown(given), f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre",
+                f"make {name} and {centre} agree, or leave {centre} out",
+            )  # fmt: skip
+
+
+def _shown(point: Point) -> str:
+    return f"({point[0]:.6g}, {point[1]:.6g})"
+
+
+def _check_turning(outward: Complexes) -> int:
+    """That the normal turns the same way along every arc from A to D; returns sigma, +1 for turning clockwise."""
+    turning = np.angle(outward[1:] * np.conj(outward[:-1]))
+    sigma = -1 if turning.sum() > 0 else 1
+    for name, angle in zip(NAMES, -sigma * turning, strict=True):
+        if not angle > 0:
+            raise DesignError(f"angle of the arc {name}", f"{math.degrees(angle):.4g} degrees",
+                              "greater than 0, in the sense from A to D", "move G or C1")  # fmt: skip
+    return sigma
+
+
+def _check_pressure(outward: Complexes, trace: Complexes) -> None:
+    """That the follower is never pushed across its guide: on an arc it is not, if at neither end of it."""
+    for name, n, z in zip("AGFD", outward.tolist(), trace.tolist(), strict=True):
+        if not (n * z.conjugate()).real > 0:
+            raise DesignError("pressure angle", f"90 degrees or more at {name}", "less than 90 degrees", "move G or C1")

@@ -1,0 +1,159 @@
+"""Many cams of one kind: rise, dwell, return and dwell, with every size a number or one for each cam."""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, fields
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from graphcam.errors import DesignError, nearest
+from graphcam.given.follower import FlatFaced, Translating, sense
+from graphcam.given.laws import LAWS, Floats
+from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.mechanism.cam import Cam
+
+Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
+
+NUMBERS = (
+    "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius", "offset", "roller_radius",
+)  # fmt: skip
+"""The sizes of a design."""
+KINDS = ("translating", "flat-faced")
+
+
+@dataclass(frozen=True, eq=False)
+class Designs:
+    """Cams with a rise, a high dwell, a return, and a low dwell for the rest of the turn.
+
+    Every field but the follower is one value for all cams or an array of n; what differs in length does not fit.
+
+    Parameters
+    ----------
+    lift, prime_radius, offset, roller_radius : mm
+    rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
+    rise_law, return_law : names of :data:`graphcam.LAWS`
+    rotation : "ccw" or "cw"
+    follower : "translating", or "flat-faced", which has neither offset nor roller
+
+    Raises
+    ------
+    DesignError : the lengths differ, a law, rotation or follower is unknown, or a flat face has an offset or a roller.
+        A number that no cam can have is no error here: that cam's extremes are NaN
+
+    >>> designs = Designs(lift=30, rise_angle=2.0, return_angle=1.5, prime_radius=[40, 50, 60], rise_law="cycloidal")
+    >>> len(designs), designs.cam(1).prime_radius
+    (3, 50.0)
+    """
+
+    lift: Any
+    rise_angle: Any
+    return_angle: Any
+    prime_radius: Any
+    dwell_angle: Any = 0.0
+    offset: Any = 0.0
+    roller_radius: Any = 0.0
+    rise_law: Any = "3-4-5"
+    return_law: Any = "3-4-5"
+    rotation: Any = "ccw"
+    follower: Literal["translating", "flat-faced"] = "translating"
+
+    def __post_init__(self) -> None:
+        for name in NUMBERS:
+            object.__setattr__(self, name, _numbers(name, getattr(self, name)))
+        for name, known in (("rise_law", LAWS), ("return_law", LAWS), ("rotation", ("ccw", "cw"))):
+            object.__setattr__(self, name, _words(name, getattr(self, name), known))
+        _words("follower", self.follower, KINDS)
+        sizes = {array.size for array in self._columns.values() if array.ndim}
+        if len(sizes) > 1:
+            raise DesignError(
+                "number of designs", " and ".join(map(str, sorted(sizes))), "the same in every array",
+                "give one number for all cams, or one for each",
+            )  # fmt: skip
+        if self.follower == "flat-faced":
+            for name in ("offset", "roller_radius"):
+                if np.any(getattr(self, name)):
+                    raise DesignError(name, "given", "left out for a flat-faced follower")
+
+    @property
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        """The fields that may differ from cam to cam."""
+        return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "follower"}
+
+    def __len__(self) -> int:
+        return max(array.size for array in self._columns.values())
+
+    def part(self, which: Part) -> Designs:
+        """Some of the cams, by a slice, by their numbers or by a mask.
+
+        >>> len(Designs(30, 2.0, 1.5, prime_radius=np.arange(40, 60)).part(slice(0, 5)))
+        5
+        """
+        some = copy(self)  # what was checked need not be checked again
+        for name, column in self._columns.items():
+            if column.ndim:
+                object.__setattr__(some, name, column[which])
+        return some
+
+    def column(self, name: str) -> NDArray[Any]:
+        """(n,) the values of one field; those that do not differ are not stored n times."""
+        return np.broadcast_to(getattr(self, name), len(self))
+
+    @property
+    def sigma(self) -> Floats:
+        """(n,) the sense in which each cam turns, +1 or -1."""
+        return np.where(self.column("rotation") == "ccw", 1.0, -1.0)
+
+    @property
+    def low_dwell(self) -> Floats:
+        """(n,) the angle of the low dwell [rad]; 0 for what rounding leaves, negative where the phases do not fit."""
+        rest = FULL_TURN - (self.column("rise_angle") + self.column("dwell_angle") + self.column("return_angle"))
+        return np.where(np.abs(rest) <= CLOSURE, 0.0, rest)
+
+    @property
+    def possible(self) -> NDArray[np.bool_]:
+        """(n,) where lift and angles make a motion: all finite, of the right sign, and within a turn."""
+        lift, rise, back, dwell = map(self.column, ("lift", "rise_angle", "return_angle", "dwell_angle"))
+        return (lift > 0) & (lift < np.inf) & (rise > 0) & (back > 0) & (dwell >= 0) & (self.low_dwell >= 0)
+
+    def cam(self, k: int) -> Cam:
+        """One of the cams.
+
+        Raises
+        ------
+        DesignError : there can be no such cam
+        """
+        sizes = {name: float(self.column(name)[k]) for name in NUMBERS}
+        names = {name: str(self.column(name)[k]) for name in ("rise_law", "return_law", "rotation")}
+        low = float(self.low_dwell[k])
+        phases: list[Phase] = [Rise(sizes["lift"], sizes["rise_angle"], names["rise_law"])]
+        phases += [Dwell(sizes["dwell_angle"])] if sizes["dwell_angle"] else []
+        phases += [Return(sizes["lift"], sizes["return_angle"], names["return_law"])]
+        phases += [Dwell(low)] if low else []
+        flat = self.follower == "flat-faced"
+        follower = FlatFaced() if flat else Translating(sizes["offset"], sizes["roller_radius"])
+        return Cam(Motion(phases), follower, sizes["prime_radius"], "ccw" if sense(names["rotation"]) > 0 else "cw")
+
+
+def _numbers(name: str, values: ArrayLike) -> Floats:
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise DesignError(name, values, "a number, or one for each cam") from None
+    return _one_axis(name, array)
+
+
+def _words(name: str, values: ArrayLike, known: tuple[str, ...]) -> NDArray[np.str_]:
+    array = np.asarray(values)
+    for word in np.unique(array).tolist():
+        if word not in known:
+            raise DesignError(name, word, "a name that graphcam knows", nearest(str(word), known))
+    return _one_axis(name, array)
+
+
+def _one_axis(name: str, array: NDArray[Any]) -> NDArray[Any]:
+    if array.ndim > 1:
+        raise DesignError(name, f"an array of shape {array.shape}", "a number, or one for each cam", "ravel() it")
+    return array

@@ -1,0 +1,263 @@
+"""The cam itself: pitch curve, working profile, pressure angle, curvature, and their extremes.
+
+It is the same for every follower; what differs stands in the follower's
+:class:`~graphcam.mechanism.kinematics.Kinematics`, as values of the frame that are seen here from the turning cam.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError
+from graphcam.given.circular import sine_cosine
+from graphcam.given.follower import FlatFaced, Follower, Rotation, sense
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import Motion, wrap
+from graphcam.given.pieces import chunks
+from graphcam.mechanism.followers import kinematics
+from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross
+from graphcam.mechanism.stationary import Places, stationary_places
+
+if TYPE_CHECKING:
+    from graphcam.mechanism.undercut import Undercut
+
+
+@dataclass(frozen=True, eq=False)
+class CamPoints:
+    """A cam at places that belong to phases; every array is shaped like the places.
+
+    phi : cam angle [rad];  values : (s, v, a, j);  pitch, profile : (..., 2) cam coordinates [mm]
+    pressure_angle : signed [rad];  curvature : of the pitch curve, positive where convex [1/mm]
+    """
+
+    phi: Floats
+    values: Values
+    pitch: Floats
+    profile: Floats
+    pressure_angle: Floats
+    curvature: Floats
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """The extremes of a cam, each as (value, phi) to full precision; equal ones are told by the first.
+
+    pressure_angle_rise, pressure_angle_return : the signed value [rad] of greatest magnitude in any rise, any return
+    min_convex_radius : the least radius of curvature [mm] of the convex parts of the pitch curve; at a jump of the
+        acceleration both one-sided values count.  Of a flat-faced follower the least rho = r0 + s + a, signed: at 0
+        the profile has a cusp, below 0 it cannot be cut
+    min_convex_radius_moving : the same over the rises and returns alone; (inf, nan) if nothing there is convex
+    """
+
+    pressure_angle_rise: tuple[float, float]
+    pressure_angle_return: tuple[float, float]
+    min_convex_radius: tuple[float, float]
+    min_convex_radius_moving: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Cam:
+    """A disk cam that gives the motion to the follower.
+
+    Parameters
+    ----------
+    motion : displacement over one revolution
+    follower : translating, oscillating or flat-faced; of a flat-faced one pitch curve and profile are the same curve
+    prime_radius : r0 [mm], the least radius of the pitch curve
+    rotation : "ccw" or "cw"
+
+    Raises
+    ------
+    DesignError : a length is not positive, the offset, the arm or the roller does not fit the prime radius, an arm's
+        centre distance is left open, or the rotation is unknown
+
+    A roller larger than the least radius of curvature is no error here: the profile is then the whole envelope, with
+    its loops; :meth:`undercuts` finds them.  So it is with a flat face on too small a cam.
+
+    >>> from math import degrees, radians
+    >>> from graphcam.given.follower import Translating
+    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
+    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> cam.pitch_curve(0).round(4).tolist()
+    [10.0, 48.9898]
+    >>> cam.profile(0).round(4).tolist()
+    [7.6, 37.2322]
+    >>> round(degrees(cam.pressure_angle(radians(60))), 4), cam.pitch_curvature(radians(150)).round(6).tolist()
+    (14.7586, 0.01256)
+    >>> cam.at(phase=2, u=[0.0, 1.0]).pitch.round(4).tolist()
+    [[-10.0, -78.9898], [-37.4264, 33.1552]]
+    >>> value, phi = cam.extremes().pressure_angle_rise
+    >>> round(degrees(value), 4), round(degrees(phi), 4)
+    (14.9781, 55.8179)
+    """
+
+    motion: Motion
+    follower: Follower
+    prime_radius: float
+    rotation: Rotation = "ccw"
+    sigma: int = field(init=False, repr=False)
+    """+1 for a counter-clockwise cam, -1 for a clockwise one"""
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
+            raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
+        if not self.roller_radius < self.prime_radius:
+            raise DesignError(
+                "roller radius", self.roller_radius, f"smaller than the prime radius of {self.prime_radius} mm",
+                "take a smaller roller or enlarge the prime radius",
+            )  # fmt: skip
+        object.__setattr__(self, "sigma", sense(self.rotation))
+        _ = self._kinematics  # says at once what does not fit
+
+    @property
+    def roller_radius(self) -> float:
+        """Radius of the follower's roller [mm], 0 for a knife edge or a flat face."""
+        return 0.0 if isinstance(self.follower, FlatFaced) else self.follower.roller_radius
+
+    @cached_property
+    def _kinematics(self) -> Kinematics:
+        return kinematics(self.follower, self.prime_radius, self.sigma, self.motion.lift)
+
+    def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
+        return self._in_chunks(self._pitch, phi, side, 2)
+
+    def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """(..., 2) the working profile on the cam [mm]: the pitch curve moved inwards by the roller radius."""
+        return self._in_chunks(lambda turned, values: self._curves(turned, values)[1], phi, side, 2)
+
+    def pressure_angle(self, phi: ArrayLike) -> Floats:
+        """alpha [rad] between the contact normal and the trace point's motion, positive on an ordinary rise."""
+        return self._pressure_angle(self.motion(phi))
+
+    def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
+        return self._in_chunks(lambda _, values: self._kinematics.curvature(values), phi, side)
+
+    def curves(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats]:
+        """Pitch curve, profile (..., 2) [mm] and curvature of the pitch curve [1/mm] together, in half the time."""
+        phi = np.asarray(phi, dtype=np.float64)
+        flat, n = phi.ravel(), phi.size
+        pitch, profile, curvature = np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
+        for here in chunks(n):
+            turned = wrap(flat[here])
+            pitch[here], profile[here], curvature[here] = self._curves(turned, self.motion(turned, side))
+        return pitch.reshape((*phi.shape, 2)), profile.reshape((*phi.shape, 2)), curvature.reshape(phi.shape)
+
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints:
+        """All of this at the fraction u of a phase, so that an end of a phase is seen from inside.
+
+        phase : index of the phase, one or as many as there are u
+        """
+        phi, values = self.motion.angle_at(phase, u), self.motion.at(phase, u, side)
+        pitch, profile, curvature = self._curves(phi, values)
+        return CamPoints(phi, values, pitch, profile, self._pressure_angle(values), curvature)
+
+    def extremes(self) -> Extremes:
+        """Greatest pressure angles and least convex radii of curvature, found as roots of their derivatives."""
+        steep = stationary_places(self.motion, self._pressure_angle_slope)
+        sharp = stationary_places(self.motion, self._kinematics.curvature_slope)
+        direction = np.array([phase.direction for phase in self.motion.phases])
+        return Extremes(
+            self._steepest(steep.where(direction[steep.phase] > 0)),
+            self._steepest(steep.where(direction[steep.phase] < 0)),
+            self._sharpest(sharp),
+            self._sharpest(sharp.where(direction[sharp.phase] != 0)),
+        )
+
+    def undercuts(self) -> list[Undercut]:
+        """What is lost of the profile where the roller is too large, in order; an empty list if the cam is sound.
+
+        A flat face undercuts a cam that is too small.
+
+        Raises
+        ------
+        DesignError : the loops cannot be told apart
+
+        >>> from math import degrees, radians
+        >>> from graphcam.given.follower import Translating
+        >>> from graphcam.given.motion import Dwell, Return, Rise
+        >>> motion = Motion([Rise(30, radians(60)), Dwell(radians(90)), Return(30, radians(90)), Dwell(radians(120))])
+        >>> lost, = Cam(motion, Translating(offset=5, roller_radius=20), prime_radius=30).undercuts()
+        >>> [round(degrees(phi), 2) for phi in lost.cusps], [round(x, 4) for x in lost.crossing[2:]]
+        ([42.22, 54.12], [35.6465, 17.6731])
+        """
+        from graphcam.mechanism.undercut import undercuts
+
+        return undercuts(self)
+
+    def trimmed_profile(self, n: int) -> Floats:
+        """(n, 2) the closed profile that can be cut [mm]: what is lost left out, and the corners there included.
+
+        The first point is the lowest place; between corners the steps of the cam angle are about equal.
+
+        Raises
+        ------
+        DesignError : there are too few points for the corners, or as for :meth:`undercuts`
+        """
+        from graphcam.mechanism.undercut import trimmed_profile
+
+        return trimmed_profile(self, n).points
+
+    def _steepest(self, places: Places) -> tuple[float, float]:
+        alpha = self._pressure_angle(places.values)
+        k = np.argmax(np.abs(alpha))
+        return float(alpha[k]), float(places.phi[k])
+
+    def _sharpest(self, places: Places) -> tuple[float, float]:
+        radius = self._kinematics.convex_radius(places.values)
+        k = np.argmin(radius)
+        return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
+
+    def _in_chunks(
+        self, values_of: Callable[[Floats, Values], Floats], phi: ArrayLike, side: Side, *row: int
+    ) -> Floats:
+        """What follows from the angle and (s, v, a, j), with the shape ``row`` at each angle."""
+        phi = np.asarray(phi, dtype=np.float64)
+        flat, out = phi.ravel(), np.empty((phi.size, *row))
+        for here in chunks(phi.size):
+            turned = wrap(flat[here])
+            out[here] = values_of(turned, self.motion(turned, side))
+        return out.reshape((*phi.shape, *row))
+
+    # What follows from (s, v, a, j) alone, whatever the angle or the phase they came from.
+
+    def _curves(self, phi: Floats, values: Values) -> tuple[Floats, Floats, Floats]:
+        """Points of the pitch curve and of the profile, and the pitch curve's curvature."""
+        point, normal, curvature = self._kinematics.path(values)
+        axes, r = self._axes(phi), self.roller_radius
+        return _seen(point, axes), _seen((point[0] - r * normal[0], point[1] - r * normal[1]), axes), curvature
+
+    def _axes(self, phi: Floats) -> Pair:
+        """Cosine and sine of sigma phi, by which the frame turns as it is seen from the cam."""
+        sine, cosine = sine_cosine(phi)
+        return cosine, self.sigma * sine
+
+    def _pitch(self, phi: Floats, values: Values) -> Floats:
+        z = self._kinematics.point(values)
+        return _seen((z.real, z.imag), self._axes(phi))
+
+    def _pressure_angle(self, values: Values) -> Floats:
+        (along, across), _ = self._kinematics.pressure(values)
+        return np.arctan2(across, along)
+
+    def _pressure_angle_slope(self, values: Values) -> Floats:
+        """Of the sign of alpha'."""
+        return pair_cross(*self._kinematics.pressure(values))
+
+
+def _seen(vector: Pair, axes: Pair) -> Floats:
+    """(..., 2) the cam coordinates of vectors of the frame."""
+    (x, y), (c, s) = vector, axes
+    out = np.empty((*np.shape(y), 2))
+    np.add(x * c, y * s, out=out[..., 0])
+    np.subtract(y * c, x * s, out=out[..., 1])
+    return out

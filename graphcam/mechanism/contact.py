@@ -1,0 +1,171 @@
+"""Whether a spring keeps a follower on its cam: the contact function xi(phi), its extremes, and where it is negative.
+
+xi = m (a omega^2 + v eps) + F0 + c s is the force along the motion with which the cam bears the follower; where it
+would be negative the cam would have to pull, and the follower leaves it.
+
+Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.spring_load import SpringLoad
+from graphcam.mechanism.one_sided import ROUNDING, ValueAt, greatest
+from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
+
+
+class SpringPreload(NamedTuple):
+    """The least preload [N] that keeps contact, and the cam angle [rad] where it is needed.
+
+    It is the supremum of -(m (a omega^2 + v eps) + c s) over the turn.  If it is negative, contact is kept even by a
+    spring without preload.
+    """
+
+    preload: float
+    phi: float
+
+
+@dataclass(frozen=True, eq=False)
+class ContactCurve:
+    """The contact function over the turn: dense points (n,) in order, at a jump one on either side.
+
+    phi : rad;  force : xi [N]
+    """
+
+    phi: Floats
+    force: Floats
+
+
+def spring_preload(
+    motion: Motion, mass: float, speed_rpm: float, stiffness: float, acceleration: float = 0.0
+) -> SpringPreload:
+    """The least preload that keeps a translating follower on its cam over the whole turn: sup -(m a omega^2 + ...).
+
+    mass : kg;  speed_rpm : of the cam [rpm];  stiffness : of the spring [N/mm]
+    acceleration : of the cam [rad/s^2], 0 at a constant speed
+    returns : preload [N], negative if none is needed, and the cam angle [rad]; it may be needed on one side of a jump
+        only (:meth:`Contact.least_force` names the side), and of equal places the first is named
+
+    >>> from math import degrees, radians
+    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> angle = radians(45)
+    >>> motion = Motion([Rise(30, angle, "cosine"), Dwell(angle), Return(30, angle, "cosine"), Dwell(5 * angle)])
+    >>> preload, phi = spring_preload(motion, mass=0.2, speed_rpm=550, stiffness=3)
+    >>> round(preload, 4), degrees(phi)
+    (69.2296, 45.0)
+    """
+    load = SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration)
+    least = Contact(motion, load).least_force()
+    return SpringPreload(-least.value, least.phi)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A translating follower that a load presses on its cam.
+
+    >>> from math import degrees, radians
+    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> angle = radians(45)
+    >>> motion = Motion([Rise(30, angle, "cosine"), Dwell(angle), Return(30, angle, "cosine"), Dwell(5 * angle)])
+    >>> contact = Contact(motion, SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=60))
+    >>> [round(x, 4) for x in contact.least_force()[:2]], contact.least_force().side
+    ([-9.2296, 0.7854], 'left')
+    >>> [[round(degrees(phi), 2) for phi in interval] for interval in contact.lost()]
+    [[39.2, 45.0], [90.0, 95.8]]
+    """
+
+    motion: Motion
+    load: SpringLoad
+
+    def least_force(self) -> ValueAt:
+        """The least xi over the turn [N], both sides of every jump included; of equal ones the first."""
+        value, phi, side = self._greatest(-1)
+        return ValueAt(-value, phi, side)
+
+    def greatest_force(self) -> ValueAt:
+        """The greatest xi over the turn [N], both sides of every jump included; of equal ones the first."""
+        return self._greatest(+1)
+
+    def lost(self) -> list[tuple[float, float]]:
+        """The intervals of phi [rad] in which the cam would have to pull, in order.
+
+        An end beyond 2 pi lies in the next turn.  In these intervals the cam's motion cannot be followed; a follower
+        that has left the cam comes back to it later than the interval ends.
+        """
+        found: list[tuple[float, float]] = []
+        for start, end in (self._interval(*ends) for ends in self._stretches()):
+            if not start < end:
+                continue
+            if found and start - found[-1][1] <= ROUNDING * FULL_TURN:
+                found[-1] = found[-1][0], end
+            else:
+                found.append((start, end))
+        whole_turns = len(found) > 1 and found[0][0] == 0 and FULL_TURN - found[-1][1] <= ROUNDING * FULL_TURN
+        if whole_turns:
+            (_, first_end), (last_start, _) = found.pop(0), found.pop()
+            found.append((last_start, first_end + FULL_TURN))
+        return found
+
+    def curve(self, parts: int = 60) -> ContactCurve:
+        """xi over the turn, with ``parts`` points on every smooth piece and both its ends."""
+        phase, u0, u1 = smooth_pieces(self.motion)
+        share = np.linspace(0, 1, parts + 1)
+        u = u0[:, None] * (1 - share) + u1[:, None] * share
+        phase = np.repeat(phase[:, None], parts + 1, axis=1)
+        force = self._force(phase, u)
+        force[:, -1] = self._force(phase[:, -1], u[:, -1], "left")
+        return ContactCurve(self.motion.angle_at(phase, u).ravel(), force.ravel())
+
+    def force(self, places: Places) -> Floats:
+        """xi at places that belong to phases [N]."""
+        return self.load.force(places.values, self._direction[places.phase])
+
+    @property
+    def _direction(self) -> Floats:
+        return np.array([float(phase.direction) for phase in self.motion.phases])
+
+    def _force(self, phase: NDArray[np.intp], u: Floats, side: Side = "right") -> Floats:
+        return self.load.force(self.motion.at(phase, u, side), self._direction[phase])
+
+    def _greatest(self, sign: int) -> ValueAt:
+        places = stationary_places(self.motion, self.load.slope)
+        size = float(self.load.size(places.values).max())
+        return greatest(self.motion, self.load.slope, lambda places: sign * self.force(places), size)
+
+    def _stretches(self) -> list[tuple[int, float, float]]:
+        """(phase, u, u) of stretches in which xi is monotonous, in order."""
+        phase, u0, u1 = smooth_pieces(self.motion)
+        places = stationary_places(self.motion, self.load.slope)
+        roots, root_phase = places.u[2 * phase.size :], places.phase[2 * phase.size :]
+        stretches: list[tuple[int, float, float]] = []
+        for k, low, high in zip(phase, u0, u1, strict=True):
+            inside = np.unique(roots[(root_phase == k) & (low < roots) & (roots < high)])
+            ends = [float(low), *map(float, inside), float(high)]
+            stretches += [(int(k), a, b) for a, b in pairwise(ends)]
+        return stretches
+
+    def _interval(self, phase: int, low: float, high: float) -> tuple[float, float]:
+        """Where xi is negative in a stretch [rad]; empty if it begins and ends at the same angle."""
+        from scipy.optimize import brentq
+
+        def xi(u: float) -> float:
+            # From inside: beyond the end of the stretch the force may have jumped.
+            return float(self._force(np.array([phase]), np.array([u]), "left" if u == high else "right")[0])
+
+        first, last = xi(low), xi(high)
+        slack = ROUNDING * max(float(self.load.size(self.motion.at(phase, u)).max()) for u in (low, high))
+        start, end = low, high
+        if min(first, last) >= -slack:
+            end = low
+        elif first * last < 0:
+            root = float(brentq(xi, low, high, xtol=ROUNDING, rtol=ROUNDING))  # pyright: ignore[reportArgumentType]
+            start, end = (root, high) if last < 0 else (low, root)
+        return float(self.motion.angle_at(phase, start)), float(self.motion.angle_at(phase, end))

@@ -1,0 +1,212 @@
+"""The working profile as a curve c(phi), which may run backwards where the roller is too large.
+
+It is parallel to the pitch curve at the roller radius r, so c' = p' (1 - r kappa): where the pitch curve is more
+sharply bent than the roller, c runs backwards, between two cusps.  At a smooth cusp c' passes through zero.  Where the
+acceleration jumps, so does the curvature, and c may turn back from one speed to another: the profile then meets
+itself with a common tangent but without slowing down.
+
+The curve is followed once round from a place at which the follower stands lowest.  That place always stays on the
+cam: the cam's centre is nowhere nearer to the pitch curve than there, so the roller circle about it touches the
+profile and no other roller circle reaches in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import FULL_TURN
+from graphcam.mechanism.followers import kinematics
+from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
+from graphcam.mechanism.stationary import smooth_pieces, stationary_places
+
+if TYPE_CHECKING:
+    from graphcam.mechanism.cam import Cam
+
+Indices = NDArray[np.intp]
+
+CUSP = 1e-12
+"""A roller that misses the least radius of curvature by no more than this part of it makes one cusp, and no loop."""
+JUMP = 1e-9
+"""A speed that changes at a break by more than this part of the prime radius jumps there."""
+SMALL_LOOP = 0.2
+"""Up to this cam angle [rad] the way round a loop is integrated, beyond it is a difference of two points."""
+ROUNDING = 4 * float(np.finfo(np.float64).eps)
+"""What a coordinate may be off by, as a part of the point's distance from the cam centre."""
+GAUSS_NODES, GAUSS_WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(16))
+
+
+@dataclass(frozen=True)
+class Backward:
+    """A stretch of the profile that runs backwards.
+
+    begin, end : its cusps [rad];  begin_jumps, end_jumps : whether the speed jumps there rather than pass through zero
+    """
+
+    begin: float
+    end: float
+    begin_jumps: bool
+    end_jumps: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """The profile of a cam over one turn, from the lowest place on.
+
+    Cam angles run from ``edges[0]`` to ``edges[-1]``, a full turn later, and may exceed 2 pi.
+    """
+
+    cam: Cam
+
+    @cached_property
+    def _pieces(self) -> tuple[Indices, Floats, Floats]:
+        """Phase, and the fractions of it at both ends, of every smooth piece from the lowest place on."""
+        phase, u0, u1 = smooth_pieces(self.cam.motion)
+        lowest = int(np.argmin(self.cam.motion.at(phase, u0)[0]))
+        return np.roll(phase, -lowest), np.roll(u0, -lowest), np.roll(u1, -lowest)
+
+    @cached_property
+    def edges(self) -> Floats:
+        """(p + 1,) cam angles at which the p smooth pieces begin, and the last one ends."""
+        phase, u0, _ = self._pieces
+        phi = self.cam.motion.angle_at(phase, u0)
+        phi = np.where(phi < phi[0], phi + FULL_TURN, phi)
+        return np.append(phi, phi[0] + FULL_TURN)
+
+    @cached_property
+    def _kinematics(self) -> Kinematics:
+        cam = self.cam
+        return kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
+
+    # --- values: all take cam angles and the pieces they belong to, so that a break is seen from a named side ---------
+
+    def piece(self, phi: Floats | float, side: Side = "right") -> Indices:
+        """The smooth piece that cam angles belong to; at an edge that of the named side."""
+        return np.clip(np.searchsorted(self.edges, phi, side=side) - 1, 0, self.edges.size - 2)
+
+    def values(self, phi: Floats | float, piece: Indices | int) -> Values:
+        """(s, v, a, j)."""
+        phase, u0, u1 = (part[piece] for part in self._pieces)
+        share = (phi - self.edges[piece]) / (self.edges[np.asarray(piece) + 1] - self.edges[piece])
+        u = np.clip(u0 + (u1 - u0) * share, u0, u1)
+        left, right = (self.cam.motion.at(phase, u, side) for side in ("left", "right"))
+        s, v, a, j = (np.where(u < u1, r, x) for r, x in zip(right, left, strict=True))
+        return s, v, a, j
+
+    def point(self, phi: Floats | float, piece: Indices | int) -> Complexes:
+        """c [mm], x + i y on the cam."""
+        values = self.values(phi, piece)
+        at = self._kinematics.point(values) - self.cam.roller_radius * self._kinematics.normal(values)
+        return at * self._turned(phi)
+
+    def tangent(self, phi: Floats | float, piece: Indices | int) -> Complexes:
+        """The unit tangent, along which the profile runs where it runs forwards."""
+        return -1j * self.cam.sigma * self._kinematics.normal(self.values(phi, piece)) * self._turned(phi)
+
+    def velocity(self, phi: Floats | float, piece: Indices | int) -> Complexes:
+        """c' [mm/rad]."""
+        return self.speed(phi, piece) * self.tangent(phi, piece)
+
+    def speed(self, phi: Floats | float, piece: Indices | int) -> Floats:
+        """|c'| [mm/rad], negative where the profile runs backwards."""
+        return self._kinematics.speed(self.values(phi, piece), self.cam.roller_radius)
+
+    def curvature(self, phi: Floats | float, piece: Indices | int) -> Floats:
+        """Curvature kappa of the pitch curve [1/mm]."""
+        return self._kinematics.curvature(self.values(phi, piece))
+
+    def support(self, phi: Floats | float, piece: Indices | int) -> Floats:
+        """c.n [mm], how far the profile's tangent passes from the cam centre; negative if on the wrong side."""
+        values = self.values(phi, piece)
+        along_normal = (np.conj(self._kinematics.normal(values)) * self._kinematics.point(values)).real
+        return along_normal - self.cam.roller_radius
+
+    def margin(self, phi: Floats | float, piece: Indices | int) -> Floats:
+        """(rho - r)/r: by which part the pitch curve's radius of curvature exceeds the roller's, inf in hollows.
+
+        With a flat face it is rho/r0.
+        """
+        cam = self.cam
+        radius = self._kinematics.convex_radius(self.values(phi, piece)) - cam.roller_radius
+        return radius / (cam.roller_radius or cam.prime_radius)
+
+    def _turned(self, phi: Floats | float) -> Complexes:
+        return np.exp(-1j * self.cam.sigma * np.asarray(phi))
+
+    def way(self, begin: float, end: float) -> complex:
+        """c(end) - c(begin) [mm], which keeps its digits however small the loop between: there by integration of c'."""
+        there, here = self.point(end, self.piece(end)), self.point(begin, self.piece(begin))
+        if end - begin > SMALL_LOOP:
+            return complex(there - here)
+        inner = self.edges[(begin < self.edges) & (self.edges < end)]
+        ends = np.concatenate([[begin], inner, [end]])
+        width = np.diff(ends)[:, None]
+        phi = (ends[:-1] + ends[1:])[:, None] / 2 + width * GAUSS_NODES
+        piece = self.piece(begin) + np.arange(width.size)
+        velocity = self.velocity(phi, np.repeat(piece[:, None], GAUSS_NODES.size, axis=1))
+        way = complex(np.sum(velocity * GAUSS_WEIGHTS * width))
+        # Where the difference finds another way, the nodes were too few for what the curve does between them.
+        return way if abs(way - (there - here)) <= ROUNDING * (abs(there) + abs(here)) else complex(there - here)
+
+    # --- cusps -------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _nodes(self) -> tuple[Floats, Indices]:
+        """Cam angle and piece of both ends of every piece and of the places of stationary curvature, in order.
+
+        Between neighbours the curvature is monotonous, so there is one cusp at most.
+        """
+        places = stationary_places(self.cam.motion, self._kinematics.curvature_slope)
+        phi: list[Floats] = []
+        for k, (phase, u0, u1) in enumerate(zip(*self._pieces, strict=True)):
+            inner = np.unique(places.u[(places.phase == phase) & (u0 < places.u) & (places.u < u1)])
+            share = np.concatenate([[0.0], (inner - u0) / (u1 - u0), [1.0]])
+            ends = self.edges[k], self.edges[k + 1]
+            phi.append(ends[0] * (1 - share) + ends[1] * share)
+        return np.concatenate(phi), np.repeat(np.arange(len(phi)), [part.size for part in phi])
+
+    @cached_property
+    def backward(self) -> list[Backward]:
+        """The stretches that run backwards, in order; not those that are a cusp within tolerance."""
+        phi, piece = self._nodes
+        behind = self.speed(phi, piece) < 0
+        turns = np.flatnonzero(behind[:-1] != behind[1:])
+        cusps = self._cusps(turns)
+        jumps = self._jumps(turns)
+        margin = self.margin(phi, piece)
+        return [
+            Backward(float(cusps[k]), float(cusps[k + 1]), bool(jumps[k]), bool(jumps[k + 1]))
+            for k in range(0, turns.size, 2)
+            if margin[turns[k] + 1 : turns[k + 1] + 1].min() < -CUSP
+        ]
+
+    @cached_property
+    def touching(self) -> list[float]:
+        """The cam angles at which the roller has the curve's own radius, within tolerance: cusps without a loop."""
+        phi, piece = self._nodes
+        just = phi[np.abs(self.margin(phi, piece)) <= CUSP]
+        just = just[[not any(b.begin - JUMP <= x <= b.end + JUMP for b in self.backward) for x in just]]
+        apart = np.diff(just, prepend=-np.inf) > JUMP
+        return [float(x) for x in just[apart]]
+
+    def _cusps(self, before: Indices) -> Floats:
+        """The cam angles between a node and the next at which the profile turns back."""
+        from scipy.optimize.elementwise import find_root
+
+        phi, piece = self._nodes
+        cusps, inside = phi[before], piece[before] == piece[before + 1]
+        if inside.any():
+            low = before[inside]
+            root = find_root(self.speed, (phi[low], phi[low + 1]), args=(piece[low],))
+            cusps[inside] = root.x
+        return cusps
+
+    def _jumps(self, before: Indices) -> NDArray[np.bool_]:
+        phi, piece = self._nodes
+        change = np.abs(self.speed(phi[before + 1], piece[before + 1]) - self.speed(phi[before], piece[before]))
+        return (piece[before] != piece[before + 1]) & (change > JUMP * self.cam.prime_radius)

@@ -1,0 +1,228 @@
+"""The forces on a translating follower: at the contact, in the guide, and the torque on the cam.
+
+The roller turns freely, so the cam pushes along the contact normal, at the pressure angle alpha to the motion, with F.
+Two bearings guide the stem; the nearer one lies b above the roller's centre, the farther one l above the nearer.
+The stem is thin, the roller light.  Equilibrium across the motion, of moments about the roller's centre, and along the
+motion under the load Q:
+
+    N1 - N2 = F sin alpha                          N1 b = N2 (b + l)
+    N1 = F sin alpha (l + b)/l                     N2 = F sin alpha b/l
+    F cos alpha = Q +- mu (|N1| + |N2|)            + on a rise, - on a return: friction acts against the motion
+
+so with g = mu (1 + 2 b/l) the normal force is F = Q/(cos alpha -+ g |sin alpha|).  On a rise it grows without bound as
+tan alpha approaches 1/g: the follower jams.  Of the work on a rise the part 1 - g |tan alpha| lifts the load.
+
+Sources: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6, tan alpha_max = B/(mu (2 A + B)) for the overhang A
+and the length B of the bearing.  The cam's torque is F cos alpha ds/dphi, by virtual work.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError
+from graphcam.given.follower import Translating
+from graphcam.given.guide import Guide
+from graphcam.given.laws import Floats, Side
+from graphcam.given.spring_load import SpringLoad
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.followers import kinematics
+from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.one_sided import ValueAt, greatest
+from graphcam.mechanism.stationary import Places
+
+NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
+"""A guide without friction."""
+
+
+def transmission_angle(pressure_angle: ArrayLike) -> Floats:
+    """The angle between the contact normal and the line across the motion: pi/2 - |alpha| [rad].
+
+    >>> round(math.degrees(transmission_angle(math.radians(-30))), 9)
+    60.0
+    """
+    return np.asarray(math.pi / 2 - np.abs(pressure_angle))
+
+
+def grip(guide: Guide, s: Floats | float = 0.0) -> Floats:
+    """g = mu (1 + 2 b/l), the friction in the guide over the side force, with the follower s mm up: b = overhang - s.
+
+    >>> float(grip(Guide(friction=0.1, overhang=40, length=80)))
+    0.2
+    """
+    return np.asarray(guide.friction * (1 + 2 * (guide.overhang - s) / guide.length))
+
+
+def jamming_angle(guide: Guide, s: Floats | float = 0.0) -> Floats:
+    """The pressure angle [rad] at which the guide jams on a rise: tan alpha = l/(mu (2 b + l)); pi/2 without friction.
+
+    >>> round(math.degrees(jamming_angle(Guide(friction=0.1, overhang=40, length=80))), 4)
+    78.6901
+    """
+    return np.arctan2(1.0, grip(guide, s))
+
+
+@dataclass(frozen=True, eq=False)
+class Forces:
+    """The forces at places of a cam; every array is shaped like the places.  Negative: the cam would have to pull.
+
+    phi : rad;  load : Q, along the motion [N]
+    normal : F, along the contact normal [N]; NaN where the guide jams
+    along, side : F cos(alpha), which drives the follower, and F sin(alpha), which presses it against the guide [N]
+    near, far : N1 and N2 of the bearings, in the sense that they balance a positive side force [N]
+    friction : of both bearings together [N]
+    torque : on the cam [N mm], positive where it must be driven
+    efficiency : part of the work that passes the guide; NaN where nothing moves
+    """
+
+    phi: Floats
+    load: Floats
+    normal: Floats
+    along: Floats
+    side: Floats
+    near: Floats
+    far: Floats
+    friction: Floats
+    torque: Floats
+    efficiency: Floats
+
+
+@dataclass(frozen=True)
+class CamForces:
+    """The forces between a cam and a translating follower under a load, in a guide.
+
+    Raises
+    ------
+    DesignError : the follower is not a translating one, or it rises beyond the nearer bearing
+
+    >>> from math import degrees, radians
+    >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
+    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
+    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> forces = CamForces(cam, SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
+    >>> at = forces.at(phase=0, u=0.5)
+    >>> float(at.load.round(3)), float(at.normal.round(3)), float(at.side.round(3))
+    (160.0, 165.459, 42.15)
+    >>> most = forces.greatest_normal()
+    >>> round(most.value, 3), round(degrees(most.phi), 3)
+    (221.756, 120.0)
+    """
+
+    cam: Cam
+    load: SpringLoad
+    guide: Guide = field(default=NO_GUIDE)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.cam.follower, Translating):
+            raise DesignError("follower", self.cam.follower.kind, "'translating'", "forces are worked out for it alone")
+        if self.guide.friction and self.guide.overhang < self.cam.motion.lift:
+            raise DesignError(
+                "overhang", self.guide.overhang, f"the lift of {self.cam.motion.lift:g} mm or more",
+                "place the nearer bearing higher: the roller's centre rises towards it",
+            )  # fmt: skip
+
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Forces:
+        """The forces at the fraction u of a phase, so that an end of a phase is seen from inside.
+
+        phase : index of the phase, one or as many as there are u
+        """
+        motion = self.cam.motion
+        values, direction = motion.at(phase, u, side), self._direction[np.asarray(phase, dtype=np.intp)]
+        s, v, _, _ = values
+        cosine, sine, _ = self._angle(values)
+        load = self.load.force(values, direction)
+        normal = self._normal(values, direction)
+        across, leverage = normal * sine, (self.guide.overhang - s) / self.guide.length
+        slip = grip(self.guide, s) * np.abs(sine) / cosine
+        with np.errstate(invalid="ignore"):
+            works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
+        return Forces(
+            motion.angle_at(phase, u), load, normal, normal * cosine, across, across * (1 + leverage),
+            across * leverage, grip(self.guide, s) * np.abs(across), normal * cosine * v,
+            np.where(direction == 0, np.nan, works),
+        )  # fmt: skip
+
+    def greatest_normal(self) -> ValueAt:
+        """The greatest normal force over the turn [N], both sides of every jump included.
+
+        Raises
+        ------
+        DesignError : the guide jams on a rise
+        """
+        self._check_jamming()
+        return greatest(self.cam.motion, self.normal_slope, self.normal)
+
+    def least_efficiency(self) -> ValueAt:
+        """The least efficiency of the guide over the rises; at 0 or below it jams."""
+        worst = greatest(self.cam.motion, self._slip_slope, self._slip_on_rises)
+        return ValueAt(1 - worst.value, worst.phi, worst.side)
+
+    # --- for other quantities of the contact -------------------------------------------------------------------------
+
+    def normal(self, places: Places) -> Floats:
+        """F at places that belong to phases [N]."""
+        return self._normal(places.values, self._direction[places.phase])
+
+    def normal_inside(self, values: Values) -> Floats:
+        """F [N] inside a phase, where v has the sense of the motion, from (s, v, a, j)."""
+        return self._normal(values, np.sign(values[1]))
+
+    def normal_slope(self, values: Values) -> Floats:
+        """dF/dphi [N/rad] inside a phase, from (s, v, a, j)."""
+        # F = Q/D
+        direction = np.sign(values[1])
+        cosine, sine, turning = self._angle(values)
+        share, share_slope = self._share(values, direction)
+        q, q_slope = self.load.force(values, direction), self.load.slope(values)
+        d = cosine - share * np.abs(sine)
+        d_slope = -(sine + share * np.sign(sine) * cosine) * turning - share_slope * np.abs(sine)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return (q_slope * d - q * d_slope) / d**2
+
+    def _normal(self, values: Values, direction: Floats) -> Floats:
+        cosine, sine, _ = self._angle(values)
+        share, _ = self._share(values, direction)
+        d = cosine - share * np.abs(sine)
+        return self.load.force(values, direction) / np.where(d > 0, d, np.nan)
+
+    def _share(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
+        """g with the sense of the motion, and its slope."""
+        return direction * grip(
+            self.guide, values[0]
+        ), -2 * direction * self.guide.friction / self.guide.length * values[1]
+
+    def _slip_on_rises(self, places: Places) -> Floats:
+        cosine, sine, _ = self._angle(places.values)
+        slip = grip(self.guide, places.values[0]) * np.abs(sine) / cosine
+        return np.where(self._direction[places.phase] > 0, slip, np.nan)
+
+    def _slip_slope(self, values: Values) -> Floats:
+        """Of the sign of (g |tan alpha|)'."""
+        cosine, sine, turning = self._angle(values)
+        share, share_slope = self._share(values, np.ones_like(values[0]))
+        return share_slope * np.abs(sine) * cosine + share * np.sign(sine) * turning
+
+    def _check_jamming(self) -> None:
+        efficiency, phi, _ = self.least_efficiency()
+        if efficiency <= 0:
+            alpha, limit = self.cam.pressure_angle(phi), jamming_angle(self.guide, self.cam.motion(phi)[0])
+            raise DesignError(
+                "pressure angle", f"{math.degrees(alpha):.4g} degrees",
+                f"less than the {math.degrees(limit):.4g} degrees at which the guide jams",
+                "enlarge the prime radius, lengthen the guide or bring it nearer to the cam",
+            )  # fmt: skip
+
+    @property
+    def _direction(self) -> Floats:
+        return np.array([float(phase.direction) for phase in self.cam.motion.phases])
+
+    def _angle(self, values: Values) -> tuple[Floats, Floats, Floats]:
+        """cos and sin of the pressure angle, and its slope by phi."""
+        cam = self.cam
+        q, q1 = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift).pressure(values)
+        size = np.hypot(*q)
+        return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2

@@ -1,0 +1,238 @@
+"""Contact stress between roller and cam: Hertz's line contact, for one place and over the revolution.
+
+With 1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 and 1/R = 1/R1 + 1/R2, a force F over the width w flattens a strip of the
+half-width sqrt(4 F R/(pi w E')) under the peak pressure sqrt(F E'/(pi w R)).
+
+Source: K. L. Johnson, *Contact Mechanics* (1985), chapter 4.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats, Side
+from graphcam.mechanism.followers import kinematics
+from graphcam.mechanism.forces import CamForces
+from graphcam.mechanism.kinematics import RollerKinematics, Values
+from graphcam.mechanism.one_sided import ValueAt, greatest
+from graphcam.mechanism.stationary import Places
+
+STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
+"""Young's modulus [MPa] and Poisson's ratio of steel."""
+
+
+class LineContact(NamedTuple):
+    """Peak pressure [MPa] and half-width of the flattened strip [mm]."""
+
+    peak_pressure: float
+    half_width: float
+
+
+def hertz_line_contact(
+    force: float,
+    width: float,
+    radius1: float,
+    radius2: float,
+    young1: float = STEEL_YOUNG,
+    young2: float = STEEL_YOUNG,
+    poisson1: float = STEEL_POISSON,
+    poisson2: float = STEEL_POISSON,
+) -> LineContact:
+    """The peak pressure between two cylinders with parallel axes, and the half-width of their contact.
+
+    force : N, 0 or more;  width : of the contact along the axes [mm]
+    radius1, radius2 : mm; a concave one is negative, a flat one infinite
+    young1, young2 : MPa;  poisson1, poisson2 : from 0 to 0.5
+
+    Raises
+    ------
+    DesignError : a value cannot be, or a hollow is no wider than what lies in it: they touch in no single line
+
+    >>> pressure, half_width = hertz_line_contact(1000, 20, 30, 15)
+    >>> round(pressure, 6), round(half_width, 9)
+    (424.431865, 0.074996698)
+    >>> round(hertz_line_contact(1000, 20, radius1=-20, radius2=15).peak_pressure, 6)
+    173.273583
+    """
+    if not (math.isfinite(force) and force >= 0):
+        raise DesignError("force", force, "a finite number of 0 N or more")
+    if not (math.isfinite(width) and width > 0):
+        raise DesignError("width", width, "a finite number greater than 0 mm")
+    stiffness, bend = contact_modulus(young1, young2, poisson1, poisson2), _relative_curvature(radius1, radius2)
+    load = force / width / math.pi
+    return LineContact(math.sqrt(load * stiffness * bend), 2 * math.sqrt(load / stiffness / bend))
+
+
+def contact_modulus(young1: float, young2: float, poisson1: float, poisson2: float) -> float:
+    """E' [MPa] of two materials.
+
+    >>> round(contact_modulus(206000, 206000, 0.3, 0.3), 3)
+    113186.813
+    """
+    for quantity, value in (("young1", young1), ("young2", young2)):
+        if not (math.isfinite(value) and value > 0):
+            raise DesignError(quantity, value, "a finite number greater than 0 MPa")
+    for quantity, value in (("poisson1", poisson1), ("poisson2", poisson2)):
+        if not 0 <= value <= 0.5:
+            raise DesignError(quantity, value, "from 0 to 0.5")
+    return 1 / ((1 - poisson1**2) / young1 + (1 - poisson2**2) / young2)
+
+
+def _relative_curvature(radius1: float, radius2: float) -> float:
+    """1/R1 + 1/R2 [1/mm]."""
+    for quantity, value in (("radius1", radius1), ("radius2", radius2)):
+        if math.isnan(value) or value == 0:
+            raise DesignError(quantity, value, "a radius in mm, negative for a hollow, infinite for a plane")
+    if math.isinf(radius1) or math.isinf(radius2):
+        bend = 1 / radius1 + 1 / radius2
+    else:
+        # The sum first: of a roller in a hollow that is hardly wider it is exact, the difference of quotients is not.
+        bend = (radius1 + radius2) / radius1 / radius2
+    if not bend > 0:
+        raise DesignError(
+            "radii", f"{radius1:g} and {radius2:g} mm", "such that they touch in one line",
+            "a hollow must be wider than what lies in it",
+        )  # fmt: skip
+    return bend
+
+
+@dataclass(frozen=True)
+class RollerContact:
+    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
+
+    Raises
+    ------
+    DesignError : a value cannot be
+    """
+
+    width: float
+    young1: float = STEEL_YOUNG
+    young2: float = STEEL_YOUNG
+    poisson1: float = STEEL_POISSON
+    poisson2: float = STEEL_POISSON
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.width) and self.width > 0):
+            raise DesignError("width", self.width, "a finite number greater than 0 mm")
+        _ = self.modulus
+
+    @property
+    def modulus(self) -> float:
+        """E' [MPa]."""
+        return contact_modulus(self.young1, self.young2, self.poisson1, self.poisson2)
+
+
+@dataclass(frozen=True, eq=False)
+class Stresses:
+    """The contact at places of a cam; every array is shaped like the places.
+
+    phi : rad;  force : normal [N]
+    profile_radius : rho - roller radius of the working profile [mm]: positive convex, negative concave, inf flat
+    peak_pressure : MPa, 0 without contact;  half_width : mm; both NaN where the roller undercuts the profile
+    """
+
+    phi: Floats
+    force: Floats
+    profile_radius: Floats
+    peak_pressure: Floats
+    half_width: Floats
+
+
+@dataclass(frozen=True)
+class ContactStress:
+    """The stress between the roller and the working profile of a cam under forces.
+
+    The profile's radius is rho - r, so 1/R = 1/(rho - r) + 1/r = 1/(r (1 - kappa r)) on convex, flat and concave
+    profiles alike.  The hollows that a roller leaves are wider than itself.
+
+    Raises
+    ------
+    DesignError : the follower has no roller
+
+    >>> from math import degrees, radians
+    >>> from graphcam.given.follower import Translating
+    >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
+    >>> from graphcam.given.spring_load import SpringLoad
+    >>> from graphcam.mechanism.cam import Cam
+    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
+    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> forces = CamForces(cam, SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
+    >>> stress, phi, _ = ContactStress(forces, RollerContact(width=15)).greatest()
+    >>> round(stress, 3), round(degrees(phi), 3)
+    (228.67, 189.467)
+    """
+
+    forces: CamForces
+    contact: RollerContact
+
+    def __post_init__(self) -> None:
+        if not self.forces.cam.roller_radius > 0:
+            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm",
+                              "a knife edge has no line contact")  # fmt: skip
+
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
+        """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
+        forces = self.forces.at(phase, u, side)
+        kappa = self._kinematics.curvature(self.forces.cam.motion.at(phase, u, side))
+        room, r = 1 - kappa * self._roller, self._roller
+        sound = np.where(room > 0, room, np.nan)
+        load = np.maximum(forces.normal, 0) / self.contact.width / math.pi
+        with np.errstate(divide="ignore"):
+            radius = room / kappa
+        return Stresses(
+            forces.phi, forces.normal, radius, np.sqrt(load * self.contact.modulus / (r * sound)),
+            2 * np.sqrt(load * r * sound / self.contact.modulus),
+        )  # fmt: skip
+
+    def greatest(self) -> ValueAt:
+        """The greatest peak pressure over the turn [MPa], both sides of every jump included.
+
+        Raises
+        ------
+        DesignError : the roller undercuts the profile, the guide jams, or nothing presses
+        """
+        cam = self.forces.cam
+        rho, _ = cam.extremes().min_convex_radius
+        if not self._roller < rho:
+            raise DesignError(
+                "roller radius", self._roller, f"less than the least radius of curvature of {rho:.6g} mm",
+                "take a smaller roller or enlarge the prime radius",
+            )  # fmt: skip
+        if self.forces.greatest_normal().value <= 0:
+            raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
+        squared, phi, side = greatest(cam.motion, self.slope, self._squared)
+        return ValueAt(math.sqrt(squared), phi, side)
+
+    def least_width(self, permitted: float) -> float:
+        """The width [mm] at which the greatest peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
+        if not (math.isfinite(permitted) and permitted > 0):
+            raise DesignError("permitted stress", permitted, "a finite number greater than 0 MPa")
+        return self.contact.width * (self.greatest().value / permitted) ** 2
+
+    def slope(self, values: Values) -> Floats:
+        """Of the sign of the peak pressure's slope, that is of (F/(1 - kappa r))', from (s, v, a, j)."""
+        kin, r = self._kinematics, self._roller
+        kappa_slope = kin.curvature_slope(values) / kin.speed(values, inset=0.0) ** 5
+        room = 1 - kin.curvature(values) * r
+        return self.forces.normal_slope(values) * room + self.forces.normal_inside(values) * r * kappa_slope
+
+    @property
+    def _roller(self) -> float:
+        return self.forces.cam.roller_radius
+
+    @property
+    def _kinematics(self) -> RollerKinematics:
+        cam = self.forces.cam
+        found = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
+        assert isinstance(found, RollerKinematics)
+        return found
+
+    def _squared(self, places: Places) -> Floats:
+        room = 1 - self._kinematics.curvature(places.values) * self._roller
+        return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * self._roller * room)

@@ -1,0 +1,164 @@
+"""What a cam needs to know of its follower: each kind of follower has one file that says it.
+
+The trace point z(phi) of the frame, a complex number, is seen from the turning cam as p = z exp(-i sigma phi).  With
+
+    p'   = q1 exp(-i sigma phi),  q1 = z' - i sigma z
+    p''  = q2 exp(-i sigma phi),  q2 = z'' - 2 i sigma z' - z
+    p''' = q3 exp(-i sigma phi),  q3 = z''' - 3 i sigma z'' - 3 z' + i sigma z
+
+normal and curvature are the same for every follower with a roller or a knife edge.  The curve runs against the cam's
+sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where the cam is convex,
+-sigma (q1 x q2)/|q1|^3.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import Floats
+
+Complexes = NDArray[np.complexfloating[Any, Any]]
+Pair = tuple[Floats | float, Floats | float]
+"""The x and y of plane vectors; real, because numpy takes its time with complex arrays."""
+Values = tuple[Floats, Floats, Floats, Floats]
+"""(s, v, a, j)"""
+
+
+class Kinematics(Protocol):
+    """One kind of follower on one cam; points and vectors of the frame are complex numbers, x + i y.
+
+    Everything follows from (s, v, a, j), whatever the angle or the phase they came from.
+    """
+
+    def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
+        """The point [mm] whose path on the cam is the pitch curve, the unit normal away from the cam, the curvature."""
+        ...
+
+    def point(self, values: Values) -> Complexes:
+        """The point [mm] whose path on the cam is the pitch curve."""
+        ...
+
+    def normal(self, values: Values) -> Complexes:
+        """The unit normal of the pitch curve there, away from the cam."""
+        ...
+
+    def pressure(self, values: Values) -> tuple[Pair, Pair]:
+        """A vector q whose argument is the pressure angle, and q'."""
+        ...
+
+    def speed(self, values: Values, inset: float) -> Floats:
+        """How far the curve parallel to the pitch curve, ``inset`` mm inside of it, runs on [mm/rad].
+
+        Negative where it runs backwards.  Forwards is against the cam's sense, along -i sigma times the normal.
+        """
+        ...
+
+    def curvature(self, values: Values) -> Floats:
+        """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
+        ...
+
+    def curvature_slope(self, values: Values) -> Floats:
+        """Of the sign of kappa', and zero with it."""
+        ...
+
+    def convex_radius(self, values: Values) -> Floats:
+        """The radius of curvature [mm] that a design keeps from becoming too small; inf where it does not matter."""
+        ...
+
+
+@dataclass(frozen=True)
+class RollerKinematics(ABC):
+    """A follower with a roller or a knife edge: what follows from its trace point.
+
+    sigma : the sense in which the cam turns
+    """
+
+    sigma: int
+
+    @abstractmethod
+    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
+        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
+
+    def derivatives(self, values: Values) -> tuple[Pair, Pair, Pair]:
+        """q1, q2, q3 of the module's docstring."""
+        z, z1, z2, z3 = self.trace(values)
+        return self._first(z, z1), self._second(z, z1, z2), self._third(z, z1, z2, z3)
+
+    def _first(self, z: Pair, z1: Pair) -> Pair:
+        return z1[0] + self.sigma * z[1], z1[1] - self.sigma * z[0]
+
+    def _second(self, z: Pair, z1: Pair, z2: Pair) -> Pair:
+        twice = 2 * self.sigma
+        return z2[0] - z[0] + twice * z1[1], z2[1] - z[1] - twice * z1[0]
+
+    def _third(self, z: Pair, z1: Pair, z2: Pair, z3: Pair) -> Pair:
+        (x, y), i = z, self.sigma
+        return z3[0] - 3 * z1[0] + i * (3 * z2[1] - y), z3[1] - 3 * z1[1] - i * (3 * z2[0] - x)
+
+    def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
+        """The trace point [mm], the unit normal of the pitch curve away from the cam, and its curvature [1/mm]."""
+        z, q1, factor, kappa = self._bend(values)
+        return z, (-q1[1] * factor, q1[0] * factor), kappa
+
+    def _bend(self, values: Values) -> tuple[Pair, Pair, Floats, Floats]:
+        """z, q1, sigma/|q1| and the curvature."""
+        z, z1, z2, _ = self.trace(values)
+        q1, q2 = self._first(z, z1), self._second(z, z1, z2)
+        squared = _dot(q1, q1)
+        factor = self.sigma / np.sqrt(squared)
+        return z, q1, factor, pair_cross(q2, q1) * factor / squared
+
+    def point(self, values: Values) -> Complexes:
+        """The trace point [mm]."""
+        x, y = self.trace(values)[0]
+        return x + 1j * np.asarray(y)
+
+    def normal(self, values: Values) -> Complexes:
+        """The unit normal of the pitch curve, away from the cam."""
+        _, (x, y), _ = self.path(values)
+        return x + 1j * np.asarray(y)
+
+    def speed(self, values: Values, inset: float) -> Floats:
+        """|p'| (1 - inset kappa) [mm/rad]."""
+        q1, q2, _ = self.derivatives(values)
+        squared = _dot(q1, q1)
+        return np.sqrt(squared) + inset * self.sigma * pair_cross(q1, q2) / squared
+
+    def curvature(self, values: Values) -> Floats:
+        """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
+        return self._bend(values)[3]
+
+    def curvature_slope(self, values: Values) -> Floats:
+        """Of the sign of kappa'."""
+        q1, q2, q3 = self.derivatives(values)
+        # (q1 x q2)' = q1 x q3, and |q1|' = q1.q2/|q1|
+        return -self.sigma * (pair_cross(q1, q3) * _dot(q1, q1) - 3 * pair_cross(q1, q2) * _dot(q1, q2))
+
+    def convex_radius(self, values: Values) -> Floats:
+        """1/kappa [mm] where the pitch curve is convex, else inf: a roller fits into any hollow of a sound cam."""
+        kappa = self.curvature(values)
+        return np.divide(1.0, kappa, out=np.full_like(kappa, np.inf), where=kappa > 0)
+
+
+def cross(a: Complexes, b: Complexes) -> Floats:
+    """The z component of the vector product of two plane vectors."""
+    return a.real * b.imag - a.imag * b.real
+
+
+def pair_cross(a: Pair, b: Pair) -> Floats:
+    """The same of vectors in two parts, x and y."""
+    return np.asarray(a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a: Complexes, b: Complexes) -> Floats:
+    """The scalar product of two plane vectors."""
+    return a.real * b.real + a.imag * b.imag
+
+
+def _dot(a: Pair, b: Pair) -> Floats:
+    return np.asarray(a[0] * b[0] + a[1] * b[1])

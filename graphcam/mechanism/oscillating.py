@@ -1,0 +1,96 @@
+"""The oscillating follower: the trace point swings about a pivot at (c, 0) on an arm of the length l.
+
+Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4; for the angle of a triangle W. Kahan,
+*Miscalculating Area and Angles of a Needle-like Triangle* (2014).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.errors import DesignError
+from graphcam.given.circular import sine_cosine
+from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
+
+
+@dataclass(frozen=True)
+class OscillatingKinematics(RollerKinematics):
+    """z = c - l exp(-i psi), with psi = psi0 + s the angle between the arm and the line of centres.
+
+    sigma : the sense in which the cam turns;  arm, distance, prime_radius : l, c and r0 [mm]
+    swing : the greatest s [rad]
+
+    Raises
+    ------
+    DesignError : arm and distance do not close a triangle with the prime radius, or the arm swings beyond the line of
+        centres
+    """
+
+    arm: float
+    distance: float
+    prime_radius: float
+    swing: float
+
+    def __post_init__(self) -> None:
+        arm, distance, r0 = self.arm, self.distance, self.prime_radius
+        if not abs(distance - arm) < r0 < distance + arm:
+            raise DesignError(
+                "prime radius", r0, f"between {abs(distance - arm):g} and {distance + arm:g} mm, "
+                f"where the arm of {arm:g} mm meets it from a centre distance of {distance:g} mm",
+                "change the prime radius, the arm or the centre distance",
+            )  # fmt: skip
+        if not self.psi0 + self.swing < math.pi:
+            raise DesignError(
+                "lift", f"{math.degrees(self.swing):g} degrees",
+                f"less than the {math.degrees(math.pi - self.psi0):g} degrees from the low rest to the stretched arm",
+                "make the lift or the prime radius smaller, or the centre distance or the arm longer",
+            )  # fmt: skip
+
+    @property
+    def psi0(self) -> float:
+        """The angle between the arm and the line of centres at the low rest [rad].
+
+        >>> round(math.degrees(OscillatingKinematics(+1, arm=125, distance=150, prime_radius=61, swing=0.2).psi0), 2)
+        23.45
+        """
+        return angle_between(self.distance, self.arm, self.prime_radius)
+
+    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
+        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
+        s, v, a, j = values
+        sine, cosine = sine_cosine((self.psi0 + s) / 2)
+        # By the half angle, because c and l cos(psi) may be nearly equal.
+        x, y = (self.distance - self.arm) + 2 * self.arm * sine * sine, 2 * self.arm * sine * cosine
+        # (k + i m) l exp(-i psi), with l cos(psi) = c - x
+        forth, back = self.arm * (cosine - sine) * (cosine + sine), -y
+        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth)
+                      for k, m in ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v)))  # fmt: skip
+        return (x, y), z1, z2, z3
+
+    def pressure(self, values: Values) -> tuple[Pair, Pair]:
+        """q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)), whose argument is the pressure angle, and q'.
+
+        It is the pitch curve's outer normal -i sigma exp(i sigma phi) p' seen along the trace point's motion
+        i exp(-i psi), drawn from the end of the segment l v, which is laid off along the arm, to the cam centre.
+        """
+        s, v, a, _ = values
+        arm, c, psi = self.arm, self.distance, self.psi0 + s
+        across = (arm - c) + self.sigma * arm * v + 2 * c * np.sin(psi / 2) ** 2
+        sine, turning = np.sin(psi), c * v
+        return (c * sine, across), (turning * np.cos(psi), turning * sine + self.sigma * arm * a)
+
+
+def angle_between(a: float, b: float, opposite: float) -> float:
+    """The angle [rad] between two sides of a triangle, from the three sides; NaN if they do not close.
+
+    >>> math.degrees(angle_between(3, 4, 5))
+    90.0
+    """
+    # Kahan's half-angle form: the law of cosines loses the digits of small angles.
+    a, b = max(a, b), min(a, b)
+    rest = opposite - (a - b) if b >= opposite else b - (a - opposite)
+    above, below = ((a - b) + opposite) * rest, (a + (b + opposite)) * ((a - opposite) + b)
+    return 2 * math.atan2(math.sqrt(above), math.sqrt(below)) if above >= 0 and below >= 0 else math.nan

@@ -1,0 +1,85 @@
+"""Where a quantity of the motion can have its extremes: the ends of the smooth pieces, and the roots of its slope."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import Dwell, Motion
+from graphcam.mechanism.kinematics import Values
+
+_CLOSEST = np.logspace(-12, -4, 25)
+# Fractions of a piece: dense at its ends, where a small prime radius or a steep limit moves the extremes to.
+SAMPLES = np.concatenate([_CLOSEST, np.sin(np.linspace(0, np.pi / 2, 97)[1:-1]) ** 2, 1 - _CLOSEST[::-1]])
+"""Fractions of a smooth piece between which a quantity is taken to have one extreme at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Places of a motion that belong to phases.
+
+    phase, u, phi : (n,) index of the phase, fraction of it, cam angle [rad];  values : (s, v, a, j), each (n,)
+    """
+
+    phase: NDArray[np.intp]
+    u: Floats
+    phi: Floats
+    values: Values
+
+    def where(self, chosen: NDArray[np.bool_]) -> Places:
+        """Some of the places."""
+        s, v, a, j = (value[chosen] for value in self.values)
+        return Places(self.phase[chosen], self.u[chosen], self.phi[chosen], (s, v, a, j))
+
+
+def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Places:
+    """Both ends of every smooth piece, with the values from inside, and the inner roots of the slope.
+
+    slope : the derivative of the quantity by phi, or anything of its sign, as a function of (s, v, a, j)
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Return, Rise
+    >>> motion = Motion([Rise(30, pi, "cosine"), Return(30, pi, "cosine")])
+    >>> stationary_places(motion, slope=lambda values: values[2]).u.round(12).tolist()  # where v is greatest
+    [0.0, 0.0, 1.0, 1.0, 0.5, 0.5]
+    """
+    phase, u0, u1 = smooth_pieces(motion)
+    phase_r, u_r = _roots(motion, slope, phase, u0, u1)
+    begin, end, inner = motion.at(phase, u0, "right"), motion.at(phase, u1, "left"), motion.at(phase_r, u_r)
+    s, v, a, j = (np.concatenate(parts) for parts in zip(begin, end, inner, strict=True))
+    all_phases, all_u = np.concatenate([phase, phase, phase_r]), np.concatenate([u0, u1, u_r])
+    return Places(all_phases, all_u, motion.angle_at(all_phases, all_u), (s, v, a, j))
+
+
+def smooth_pieces(motion: Motion) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Where a motion is smooth: (p,) phase, and the fractions of it where the piece begins and ends."""
+    pieces = [
+        (k, u0, u1)
+        for k, phase in enumerate(motion.phases)
+        for u0, u1 in pairwise((0.0, *(() if isinstance(phase, Dwell) else phase.normalised.breaks), 1.0))
+    ]
+    phase, u0, u1 = zip(*pieces, strict=True)
+    return np.array(phase), np.array(u0), np.array(u1)
+
+
+def _roots(
+    motion: Motion, slope: Callable[[Values], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
+) -> tuple[NDArray[np.intp], Floats]:
+    from scipy.optimize.elementwise import find_root
+
+    def slope_at(u: Floats, phase: NDArray[np.intp]) -> Floats:
+        return slope(motion.at(phase, u))
+
+    moving = np.array([phase.direction != 0 for phase in motion.phases])[phase]  # in a dwell nothing changes
+    phase, u0, u1 = phase[moving], u0[moving], u1[moving]
+    u = u0[:, None] + (u1 - u0)[:, None] * SAMPLES
+    sign = np.sign(slope_at(u, phase[:, None]))
+    on_root = np.nonzero(sign == 0)
+    piece, left = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
+    bracketed = find_root(slope_at, (u[piece, left], u[piece, left + 1]), args=(phase[piece],)).x if piece.size else []
+    return np.concatenate([phase[piece], phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])

@@ -1,0 +1,102 @@
+"""Sliders, and what stands in their place where no kernel runs: a few positions of the slider side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any, Protocol
+
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+
+
+class Shown(Protocol):
+    """What a notebook shows of a position: a picture, or several things under one another."""
+
+    @property
+    def html(self) -> str:
+        """As part of a web page."""
+        ...
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A quantity to be moved.
+
+    label : what it is called beside the slider
+    values : its positions
+    start : the one at which it begins
+    shown : the positions that the page shows where there is no slider; by default the start alone
+    """
+
+    label: str
+    values: Sequence[Any]
+    start: Any
+    shown: Sequence[Any] = ()
+
+
+@dataclass(frozen=True)
+class Exploration:
+    """What :func:`explore` shows: sliders in a running notebook, still pictures on a page."""
+
+    draw: Callable[..., Shown]
+    sliders: dict[str, Slider]
+
+    @property
+    def html(self) -> str:
+        """The still pictures: each slider's ``shown`` positions while the others stand at their start."""
+        start = {name: slider.start for name, slider in self.sliders.items()}
+        moved = [(name, value) for name, slider in self.sliders.items() for value in slider.shown]
+        if not moved:
+            return self.draw(**start).html
+        cells = [self._still(name, value, start) for name, value in moved]
+        return f'<div class="stills">{"".join(cells)}</div>'
+
+    def _still(self, name: str, value: Any, start: dict[str, Any]) -> str:
+        says = f"{self.sliders[name].label}: {value}"
+        return f'<div class="still"><p>{escape(says)}</p>{self.draw(**{**start, name: value}).html}</div>'
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        still = {"text/html": self.html, "text/plain": "Sliders: " + ", ".join(s.label for s in self.sliders.values())}
+        widget = self._widget()
+        # A front end without sliders takes the page.
+        return still if widget is None else {WIDGET_VIEW: _view(widget), **still}
+
+    def _widget(self) -> Any:
+        try:
+            import ipywidgets
+        except ImportError:  # an extra, and the stills say the same
+            return None
+        picture = ipywidgets.HTML(self.draw(**{name: slider.start for name, slider in self.sliders.items()}).html)
+        controls = {
+            name: ipywidgets.SelectionSlider(
+                options=list(slider.values), value=slider.start, description=slider.label, continuous_update=False,
+                style={"description_width": "initial"}, layout={"width": "32em"},
+            )
+            for name, slider in self.sliders.items()
+        }  # fmt: skip
+
+        def redraw(_: Any) -> None:
+            picture.value = self.draw(**{name: control.value for name, control in controls.items()}).html
+
+        for control in controls.values():
+            control.observe(redraw, "value")
+        return ipywidgets.VBox([*controls.values(), picture])
+
+
+def _view(widget: Any) -> dict[str, Any]:
+    return {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
+
+
+def explore(draw: Callable[..., Shown], **sliders: Slider) -> Exploration:
+    """Move quantities and see the drawing change.
+
+    draw : makes what is shown of the sliders' values, by their names
+
+    >>> from graphcam.notebooks.picture import Picture
+    >>> parts = Slider("parts", range(4, 25, 4), 12, shown=(4, 12))
+    >>> shown = explore(lambda n: Picture("<svg/>", f"{n} parts"), n=parts)
+    >>> shown.html.count("<img"), 'alt="4 parts"' in shown.html
+    (2, True)
+    """
+    return Exploration(draw, sliders)

@@ -1,0 +1,68 @@
+"""A notebook as a web page of its own: formulas as MathML, figures inside, nothing that is fetched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from nbconvert.exporters import HTMLExporter
+from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
+from nbformat import NotebookNode
+from traitlets.config import Config
+
+from graphcam.notebooks.extra import needed
+
+TEMPLATES = Path(__file__).parent / "templates"
+SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
+"""What a page shows of an output, the first that there is; of sliders it shows the stills."""
+
+
+class _Renderer(IPythonRenderer):
+    """Markdown with formulas as MathML, which browsers draw without a script."""
+
+    def block_math(self, body: str) -> str:
+        return _mathml(body, "block")
+
+    def inline_math(self, body: str) -> str:
+        return _mathml(body, "inline")
+
+    def latex_environment(self, name: str, body: str) -> str:
+        return _mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
+
+
+def _mathml(latex: str, display: str) -> str:
+    return needed("latex2mathml.converter", "a page with formulas").convert(latex.strip(), display=display)
+
+
+def markdown_page(source: str) -> str:
+    r"""Markdown as HTML, its formulas as MathML.
+
+    >>> "<math" in markdown_page(r"The angle $\\alpha$"), "$" in markdown_page(r"The angle $\\alpha$")
+    (True, False)
+    """
+    return MarkdownWithMath(renderer=_Renderer(escape=False, exclude_anchor_links=True)).render(source)
+
+
+def _exporter() -> HTMLExporter:
+    """nbconvert's exporter with graphcam's template, plain colours for code, and stills for sliders."""
+    config = Config(
+        NbConvertBase={"display_data_priority": SHOWN},
+        CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
+    )
+    exporter = HTMLExporter(config=config, template_name="graphcam", extra_template_basedirs=[str(TEMPLATES)])
+    exporter.register_filter("markdown2html", markdown_page)
+    return exporter
+
+
+def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
+    """An executed notebook as a page.
+
+    language : of the page, "en" or "ru"
+
+    Raises
+    ------
+    MissingExtraError : the libraries of the extra ``notebooks`` are not installed
+    """
+    page, _ = _exporter().from_notebook_node(
+        notebook, resources={"metadata": {"title": title, "name": title}, "language_code": language}
+    )
+    return page

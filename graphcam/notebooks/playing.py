@@ -1,0 +1,31 @@
+"""The step player inside a notebook."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+from graphcam.main_job.arcs import AnySolution
+from graphcam.main_job.kinds import sheet_of
+from graphcam.main_job.player import player_of
+
+if TYPE_CHECKING:
+    from IPython.display import HTML
+
+HEIGHT = 720
+"""Of the frame in which the player stands, in pixels of a page."""
+
+
+def player(solution: AnySolution) -> HTML:
+    """The step player of a solution as a frame that holds the whole page: nothing is fetched.
+
+    >>> from graphcam.main_job import solve
+    >>> from graphcam.task_file import builtin_task
+    >>> player(solve(builtin_task())).data.startswith('<div class="player"><iframe')
+    True
+    """
+    from IPython.display import HTML
+
+    page = escape(player_of(solution, sheet_of(solution)))
+    frame = f'<iframe title="Step player" style="width: 100%; height: {HEIGHT}px" srcdoc="{page}"></iframe>'
+    return HTML(f'<div class="player">{frame}</div>')

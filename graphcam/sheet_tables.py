@@ -1,0 +1,83 @@
+"""What every task file has: the tables about the sheet, and how values are checked and written back."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from typing import Any, Literal, get_args
+
+from graphcam.errors import DesignError
+from graphcam.language import ENGLISH, language, languages
+from graphcam.words import Tell
+
+Format = Literal["A1", "A2", "A3", "A4"]
+Frame = Literal["gost", "iso"]
+Orientation = Literal["landscape", "portrait"]
+
+
+def positive(quantity: str, value: float | None, unit: str) -> None:
+    """Check a number that may be left out."""
+    if value is not None and not (math.isfinite(value) and value > 0):
+        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}")
+
+
+def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
+    """Check a word."""
+    if value not in known:
+        raise DesignError(quantity, value, "one of " + ", ".join(known))
+
+
+@dataclass(frozen=True)
+class TitleTable:
+    """``[title]``: what the title block says; the number of the sheet and of the sheets comes by itself.
+
+    scale : None is the scale of the cam's profile
+    """
+
+    name: str = "Cam mechanism"
+    organisation: str = ""
+    author: str = ""
+    checked: str = ""
+    group: str = ""
+    document: str = ""
+    mass: str = ""
+    scale: str | None = None
+
+    def __post_init__(self) -> None:
+        for key in dataclasses.fields(self):
+            if not ((text := getattr(self, key.name)) or "").isprintable():
+                raise DesignError(key.name, text, "printable text on one line")
+
+
+@dataclass(frozen=True)
+class SheetTable:
+    """The part of ``[drawing]`` that is about the sheet."""
+
+    format: Format = "A1"
+    frame: Frame = "gost"
+    orientation: Orientation = field(default="landscape", kw_only=True)
+    language: str = ENGLISH.name
+
+    def __post_init__(self) -> None:
+        one_of("format", self.format, get_args(Format))
+        one_of("frame", self.frame, get_args(Frame))
+        one_of("orientation", self.orientation, get_args(Orientation))
+        one_of("language", self.language, languages())
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in the language of the sheet."""
+        return language(self.language).text
+
+
+def plain(value: Any) -> Any:
+    """A table and all in it as dictionaries, lists, numbers and text; what is None is left out."""
+    if isinstance(value, tuple):
+        return [plain(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
+    if not dataclasses.is_dataclass(value):
+        return value
+    keys = [item.name for item in dataclasses.fields(value) if item.init]
+    # The kind comes first, as one reads it in a file.
+    keys.sort(key=lambda key: key != "kind")
+    return {key: plain(part) for key in keys if (part := getattr(value, key)) is not None}

@@ -1,0 +1,188 @@
+"""DXF for real CAD programs, by ezdxf: R2010, the whole sheet in model space, 1 unit = 1 mm of paper.
+
+The profile of entities is narrow on purpose, because every program reads it: LINE, LWPOLYLINE, CIRCLE, ARC, SOLID, TEXT
+and one clamped non-rational SPLINE for the cam; a layer for every step and role.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import ezdxf
+import numpy as np
+from ezdxf import options, units
+from ezdxf.enums import TextEntityAlignment
+from numpy.typing import NDArray
+
+from graphcam.drafting.ink import Points
+from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Group, Heads, Stroke, Strokes, Text
+from graphcam.sheets.smooth import clamped_spline
+from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES, Style
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+    from ezdxf.layouts import BaseLayout
+
+BETWEEN_PAGES = 40.0
+"""Several pages stand side by side, so far apart, mm."""
+LETTERS = "lc_opengost-br"
+"""LibreCAD takes the name of the text style for its font; this one of its fonts has Cyrillic, Greek and primes."""
+LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
+    CENTER: ("CENTER", "Center ____ _ ____ _"),
+    DASHED: ("DASHED", "Dashed __ __ __"),
+}
+COLOURS = {GREY: 8, ACCENT: 1}
+"""Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
+ALIGNED = {
+    "left": TextEntityAlignment.LEFT, "center": TextEntityAlignment.CENTER, "right": TextEntityAlignment.RIGHT,
+}  # fmt: skip
+
+DrawGroup = Callable[["Document", Group, str, float], None]
+"""Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
+
+
+def write_dxf(drawing: Drawing, path: str | os.PathLike[str]) -> None:
+    """All pages of a drawing, side by side in the model space of one file."""
+    with repeatable():
+        document = sheet_document(drawing)
+        draw_pages(document, drawing, draw_group)
+        document.saveas(path)
+
+
+def write_spline(
+    control: NDArray[np.floating[Any]], knots: NDArray[np.floating[Any]], path: str | os.PathLike[str], layer: str
+) -> None:
+    """One clamped cubic B-spline in a file of its own, 1 unit = 1 mm.
+
+    control : (m, 2) [mm];  knots : (m + 4,)
+    """
+    with repeatable():
+        document = _empty()
+        low, high = control.min(axis=0).tolist(), control.max(axis=0).tolist()
+        _set_extents(document, (*low, 0.0), (*high, 0.0))
+        document.layers.add(layer)
+        _add_spline(document.modelspace(), control.tolist(), knots.tolist(), {"layer": layer})
+        middle = (low[0] + high[0]) / 2, (low[1] + high[1]) / 2
+        document.set_modelspace_vport(height=1.1 * (high[1] - low[1]), center=middle)
+        document.saveas(path)
+
+
+@contextmanager
+def repeatable() -> Generator[None]:
+    """No dates and no random identifiers, so that the same drawing makes the same file."""
+    former = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        options.write_fixed_meta_data_for_testing = former
+
+
+def _empty() -> Document:
+    document = ezdxf.new("R2010", setup=False)
+    document.units = units.MM
+    document.header["$MEASUREMENT"] = 1
+    return document
+
+
+def sheet_document(drawing: Drawing) -> Document:
+    """A document with the size, line types and letters of a drawing, and nothing drawn."""
+    document = _empty()
+    document.header["$LTSCALE"] = 1.0
+    document.header["$LWDISPLAY"] = 1
+    # LibreCAD prints an empty page where this is 0.
+    document.header["$PSVPSCALE"] = 1.0
+    first = drawing.pages[0]
+    total = sum(page.width for page in drawing.pages) + BETWEEN_PAGES * (len(drawing.pages) - 1)
+    _set_extents(document, (0.0, 0.0, 0.0), (total, first.height, 0.0))
+    document.modelspace().reset_limits((0.0, 0.0), (total, first.height))
+    document.paperspace().page_setup(size=(first.width, first.height), margins=(0, 0, 0, 0), units="mm")
+    for pattern, (name, description) in LINETYPES.items():
+        signed = [mm if k % 2 == 0 else -mm for k, mm in enumerate(pattern)]
+        document.linetypes.add(name, [sum(pattern), *signed], description=description)
+    document.styles.add(LETTERS, font="DejaVuSans.ttf")
+    document.set_modelspace_vport(height=first.height, center=(total / 2, first.height / 2))
+    return document
+
+
+def draw_pages(document: Document, drawing: Drawing, draw_group: DrawGroup) -> None:
+    """Every group of every page, the pages side by side."""
+    left = 0.0
+    for number, page in enumerate(drawing.pages, 1):
+        for group in page.groups:
+            prefix = f"p{number}-" if len(drawing.pages) > 1 else ""
+            draw_group(document, group, prefix, left)
+        left += page.width + BETWEEN_PAGES
+
+
+def _set_extents(document: Document, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
+    """Where the drawing lies.  ezdxf puts the model space's into the header, but for places that are the origin."""
+    document.modelspace().reset_extents(low, high)
+    document.header["$EXTMIN"], document.header["$EXTMAX"] = low, high
+
+
+def draw_group(document: Document, group: Group, prefix: str, left: float) -> None:
+    """Every entity of a group on the layer of its role, moved ``left`` mm to the right."""
+    for entity in group.entities:
+        draw(document.modelspace(), entity, layer(document, group, prefix, entity.role), left)
+
+
+def layer(document: Document, group: Group, prefix: str, role: str) -> str:
+    """The name of the layer of a group and role; it is made if it is not there yet."""
+    # A name of a layer may hold letters, digits, hyphens and underscores in every program.
+    name = prefix + re.sub(r"[^\w-]+", "-", group.name) + f"-{role}"
+    if name not in document.layers:
+        style = STYLES[role]
+        document.layers.add(name, color=COLOURS.get(style.colour, 7), linetype=_linetype(style),
+                            lineweight=round(100 * style.width))  # fmt: skip
+    return name
+
+
+def _linetype(style: Style) -> str:
+    return LINETYPES[style.pattern][0] if style.pattern else "CONTINUOUS"
+
+
+def draw(space: BaseLayout, entity: Entity, layer: str, left: float) -> None:
+    """One entity of the drawing, moved ``left`` mm to the right, as what CAD programs know."""
+    on = {"layer": layer}
+    match entity:
+        case Strokes(starts=starts, ends=ends):
+            for start, end in zip(_xy(starts, left), _xy(ends, left), strict=True):
+                space.add_line(start, end, dxfattribs=on)
+        case Stroke(points=points, closed=closed):
+            space.add_lwpolyline(_xy(points, left), close=closed, dxfattribs=on)
+        case Curve(points=points):
+            control, knots = clamped_spline(points)
+            _add_spline(space, _xy(control, left), knots, on)
+        case Circles(centres=centres, radius=radius):
+            for centre in _xy(centres, left):
+                space.add_circle(centre, radius, dxfattribs=on)
+        case Arc(centre=centre, radius=radius, start=start, end=end):
+            space.add_arc(
+                (centre.real + left, centre.imag), radius, math.degrees(start), math.degrees(end), dxfattribs=on
+            )
+        case Heads(corners=corners):
+            for triangle in corners:
+                space.add_solid(_xy(triangle, left), dxfattribs=on)
+        case Text():
+            text = space.add_text(entity.text, height=entity.height, rotation=math.degrees(entity.angle),
+                                  dxfattribs=on | {"style": LETTERS})  # fmt: skip
+            text.set_placement((entity.at.real + left, entity.at.imag), align=ALIGNED[entity.align])
+
+
+def _add_spline(
+    space: BaseLayout, control: Sequence[Sequence[float]], knots: Sequence[float], on: dict[str, str]
+) -> None:
+    spline = space.add_spline(degree=3, dxfattribs=on)
+    spline.control_points, spline.knots = control, knots
+    # Neither closed nor rational nor planar: flags that some programs misread.
+    spline.dxf.flags = 0
+
+
+def _xy(points: Points, left: float) -> list[tuple[float, float]]:
+    return [(point.real + left, point.imag) for point in points.tolist()]

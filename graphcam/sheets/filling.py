@@ -1,0 +1,260 @@
+"""Filling pages: which views and tables stand on which page, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import count, product
+
+from graphcam.drafting.scale import STANDARD_RATIOS
+from graphcam.sheets.box import Box
+from graphcam.sheets.formats import Format
+from graphcam.sheets.frame import taken
+from graphcam.sheets.packing import Preference, Room
+from graphcam.sheets.panels import Panel, apart, clusters, stand
+from graphcam.sheets.preferences import bottom_left, bottom_right, high, left, middle, top, top_left, top_right
+from graphcam.sheets.tables import Block
+
+BORDER = 4.0
+"""Free margin along the frame, mm."""
+BETWEEN = 6.0
+"""Between things that do not belong together, mm."""
+GAPS = (12.0, 6.0, 2.0, -2.0)
+"""Between diagrams that stand together, mm: the widest is taken that needs no further page."""
+WITHIN = (0, 1, 3)
+"""How many small views may stand in the empty parts of diagrams where that saves a page."""
+ONE_PAGE = ("A1",)
+"""Formats on which diagrams one under the other are never parted, and those side by side only to keep full size."""
+
+
+@dataclass(eq=False)
+class Leaf:
+    """A page while it is being filled: its free room, and the empty parts of diagrams, where tables may stand."""
+
+    room: Room
+    parts: list[Room] = field(default_factory=list[Room])
+    views: dict[str, tuple[Panel, complex]] = field(default_factory=dict[str, tuple[Panel, complex]])
+    blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
+
+    def put_views(self, run: Sequence[Panel], origins: Sequence[complex]) -> None:
+        """Put views at their origins."""
+        for box in _footprint(run, origins):
+            self.take(box)
+        for panel, origin in zip(run, origins, strict=True):
+            self.views[panel.view.name] = panel, origin
+            if len(run) > 1:
+                self.parts.append(panel.empty(origin))
+
+    def put_block(self, block: Block, by: complex) -> None:
+        """Put a table or notes."""
+        self.take(block.box.moved(by))
+        self.blocks.append((block, by))
+
+    def inside(self, boxes: Sequence[Box]) -> complex | None:
+        """By how much to move boxes into an empty part of a diagram; None if there is none."""
+        found = (part.find(boxes, high) for part in self.parts)
+        return next((by for by in found if by is not None), None)
+
+    def take(self, box: Box) -> None:
+        """Take a box and a margin about it."""
+        for room in (self.room, *self.parts):
+            room.take(box.grown(BETWEEN))
+
+    @property
+    def empty(self) -> float:
+        """The free part of the page."""
+        return 1.0 - float(self.room.full.mean())
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to fill pages.
+
+    gaps : between the views of each run [mm]
+    pages : so many pages are filled evenly; of 0 the first is filled before the next is begun
+    within : how many small views stand in the empty parts of diagrams, as tables do
+    """
+
+    gaps: tuple[float, ...]
+    pages: int = 0
+    within: int = 0
+
+
+def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
+    """Put all views and blocks on as few pages as they need.
+
+    ways_of_blocks : the same tables and notes in letters of different heights, the best first
+    """
+    # The largest first; the small ones find room between.
+    groups = sorted(clusters(views), key=lambda group: -sum(p.box.width * p.box.height for p in group))
+    runs = [run for group in groups for run in _runs(sheet, group)]
+    # Which of the gaps each run has room for, the widest first; tries that come to the same are made once.
+    fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
+    spreads = list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
+    best: list[Leaf] = []
+    for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
+        leaves = _filled(sheet, runs, blocks, Way(gaps, within=within))
+        if not best or len(leaves) < len(best):
+            best = leaves
+        if len(best) == 1:
+            return best
+    return _evened(sheet, runs, ways_of_blocks, spreads, best)
+
+
+def _evened(
+    sheet: Format,
+    runs: Sequence[list[Panel]],
+    ways_of_blocks: Sequence[Sequence[Block]],
+    spreads: Sequence[tuple[float, ...]],
+    best: list[Leaf],
+) -> list[Leaf]:
+    """The same on as many pages, the emptiest of them as full as it can be."""
+    for blocks, gaps in product(ways_of_blocks, spreads):
+        leaves = _filled(sheet, runs, blocks, Way(gaps, pages=len(best)))
+        if len(leaves) <= len(best) and _emptiest(leaves) < _emptiest(best) - 1e-9:
+            best = leaves
+    return best
+
+
+def _emptiest(leaves: Sequence[Leaf]) -> float:
+    return max(leaf.empty for leaf in leaves)
+
+
+def _filled(sheet: Format, runs: Sequence[list[Panel]], blocks: Sequence[Block], way: Way) -> list[Leaf]:
+    """Put runs of views, and then blocks, on as many pages as it takes."""
+    leaves = [_blank(sheet) for _ in range(way.pages)]
+    alone = [run for run in runs if len(run) == 1]
+    largest = max(alone, key=lambda run: run[0].box.width * run[0].box.height, default=None)
+    within = way.within
+    for run, gap in zip(runs, way.gaps, strict=True):
+        origins = stand(run, gap)
+        boxes = _footprint(run, origins)
+        # Views that share an axis stand on it or on different pages; what was parted on a large page finds room there.
+        allowed = [
+            leaf
+            for leaf in leaves
+            if sheet.name in ONE_PAGE or not any(_shares(p, (v for v, _ in leaf.views.values())) for p in run)
+        ]
+        if within and len(run) == 1 and run is not largest and (found := _inside(allowed, boxes)):
+            leaf, by = found
+            within -= 1
+        else:
+            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, _preferred(sheet, run, runs, largest))
+        if leaf not in leaves:
+            leaves.append(leaf)
+        leaf.put_views(run, [origin + by for origin in origins])
+    for block in blocks:
+        leaf, by = _place_block(sheet, _in_turn(leaves, way), block, way)
+        if leaf not in leaves:
+            leaves.append(leaf)
+        leaf.put_block(block, by)
+    return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
+
+
+def _in_turn(leaves: Sequence[Leaf], way: Way) -> list[Leaf]:
+    """The pages in the order in which they are tried."""
+    return sorted(leaves, key=lambda leaf: -leaf.empty) if way.pages else list(leaves)
+
+
+def _place_block(sheet: Format, leaves: Sequence[Leaf], block: Block, way: Way) -> tuple[Leaf, complex]:
+    # Where pages are filled evenly, the emptiest is taken before an empty part of another.
+    for some in ([leaf] for leaf in leaves) if way.pages else (leaves,):
+        if found := _inside(some, [block.box]):
+            return found
+        if way.pages and (by := some[0].room.find([block.box], bottom_right)) is not None:
+            return some[0], by
+    return _find(sheet, leaves, [block.box], bottom_right)
+
+
+def _inside(leaves: Sequence[Leaf], boxes: Sequence[Box]) -> tuple[Leaf, complex] | None:
+    """The first page with an empty part of a diagram for boxes which stand together, and by how much to move them."""
+    found = ((leaf, leaf.inside(boxes)) for leaf in leaves)
+    return next(((leaf, by) for leaf, by in found if by is not None), None)
+
+
+def _find(sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preference: Preference) -> tuple[Leaf, complex]:
+    """The first page that has room for boxes which stand together, or a new one, and by how much to move them."""
+    for leaf in leaves:
+        if (by := leaf.room.find(boxes, preference)) is not None:
+            return leaf, by
+    blank = _blank(sheet)
+    by = blank.room.find(boxes, preference)
+    # What is larger than a page has been reduced before.
+    assert by is not None
+    return blank, by
+
+
+def _blank(sheet: Format) -> Leaf:
+    return Leaf(Room(sheet.content.grown(-BORDER), taken(sheet, BORDER)))
+
+
+def _preferred(
+    sheet: Format, run: Sequence[Panel], runs: Sequence[Sequence[Panel]], largest: Sequence[Panel] | None
+) -> Preference:
+    """Where views would rather stand: diagrams at the upper left, the largest drawing where it leaves most room."""
+    if len(runs) == 1:
+        return middle
+    if len(run) > 1:
+        return top_left
+    if run is not largest:
+        return bottom_right
+    if sheet.name in ONE_PAGE:
+        return bottom_left if sheet.upright else top_right
+    return top if sheet.upright else left
+
+
+# --- what stands together --------------------------------------------------------------------------------------------
+
+
+def _reductions() -> Iterator[float]:
+    yield from (ratio for ratio in STANDARD_RATIOS if ratio <= 1)
+    # Beyond the standard series: powers of ten go on for ever.
+    yield from (10.0**-k for k in count(3))
+
+
+def _runs(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
+    """The views of each page: with others that they share an axis with, if these fit together, and little reduced."""
+    for factor in _reductions():
+        reduced = [replace(panel, factor=factor) for panel in group]
+        ways = [[reduced], _columns(reduced)] if sheet.name in ONE_PAGE else [_joined(sheet, reduced)]
+        for runs in ways:
+            if all(_fits(sheet, run, GAPS[-1]) for run in runs):
+                return runs
+    raise AssertionError("the reductions never end")
+
+
+def _columns(group: Sequence[Panel]) -> list[list[Panel]]:
+    """The views that stand one under the other, together."""
+    columns: dict[str, list[Panel]] = {}
+    for panel in group:
+        columns.setdefault(panel.view.across, []).append(panel)
+    return list(columns.values())
+
+
+def _joined(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
+    """As many views together as fit a page, each with one that it shares an axis with."""
+    runs: list[list[Panel]] = []
+    for panel in group:
+        # The last run first, so that neighbours stay neighbours.
+        joined = (run for run in reversed(runs) if _shares(panel, run))
+        if (run := next((run for run in joined if _fits(sheet, [*run, panel], GAPS[-1])), None)) is not None:
+            run.append(panel)
+        else:
+            runs.append([panel])
+    return runs
+
+
+def _shares(panel: Panel, others: Iterable[Panel]) -> bool:
+    """Whether a view shares an axis with one of the others."""
+    return any(panel.view.across == other.view.across or panel.view.up == other.view.up for other in others)
+
+
+def _fits(sheet: Format, run: Sequence[Panel], gap: float) -> bool:
+    origins = stand(run, gap)
+    # The margins of neighbours may overlap where room is scarce.
+    boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(run, origins, strict=True)]
+    return apart(boxes) and _blank(sheet).room.find(_footprint(run, origins), top_left) is not None
+
+
+def _footprint(run: Sequence[Panel], origins: Sequence[complex]) -> list[Box]:
+    return [box.moved(origin) for panel, origin in zip(run, origins, strict=True) for box in panel.footprint]

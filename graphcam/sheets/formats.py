@@ -1,0 +1,77 @@
+"""Sizes of paper by ISO 216, margins by ISO 5457 and GOST 2.301, sizes of lettering by ISO 3098 and GOST 2.304."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError, nearest
+from graphcam.sheets.box import Box
+
+SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
+"""Width and height of the sheets, mm, lying."""
+
+ORIENTATIONS = ("landscape", "portrait")
+
+MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
+"""Between the edge of the paper and the frame, mm: left, bottom, right, top."""
+
+
+@dataclass(frozen=True)
+class Lettering:
+    """Heights of capital letters, mm: titles, labels and dimensions, numbers of divisions and small print."""
+
+    title: float
+    label: float
+    small: float
+
+
+@dataclass(frozen=True)
+class Format:
+    """A sheet of paper with its frame.
+
+    name : "A1" to "A4";  frame : "gost" or "iso";  orientation : "landscape" or "portrait"
+
+    Raises
+    ------
+    DesignError : there is no such format, frame or orientation
+
+    >>> Format("A3", "iso").content
+    Box(left=20.0, bottom=10.0, right=410.0, top=287.0)
+    >>> Format("A3", "iso", "portrait").size
+    (297.0, 420.0)
+    """
+
+    name: str
+    frame: str
+    orientation: str = "landscape"
+
+    def __post_init__(self) -> None:
+        if self.name not in SIZES:
+            raise DesignError("format", self.name, f"one of {', '.join(SIZES)}", nearest(self.name, SIZES))
+        if self.frame not in MARGINS:
+            raise DesignError("frame", self.frame, f"one of {', '.join(MARGINS)}", nearest(self.frame, MARGINS))
+        if self.orientation not in ORIENTATIONS:
+            known = f"one of {', '.join(ORIENTATIONS)}"
+            raise DesignError("orientation", self.orientation, known, nearest(self.orientation, ORIENTATIONS))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper, mm."""
+        width, height = SIZES[self.name]
+        return (height, width) if self.upright else (width, height)
+
+    @property
+    def upright(self) -> bool:
+        """Whether the sheet stands on its short side."""
+        return self.orientation == "portrait"
+
+    @property
+    def content(self) -> Box:
+        """The inside of the frame."""
+        (width, height), (left, bottom, right, top) = self.size, MARGINS[self.frame]
+        return Box(left, bottom, width - right, height - top)
+
+    @property
+    def lettering(self) -> Lettering:
+        """The heights of letters: A3 and A4 are held in the hand, A1 and A2 hang on a wall."""
+        return Lettering(5.0, 3.5, 2.5) if self.name in ("A1", "A2") else Lettering(3.5, 2.5, 2.5)

@@ -1,0 +1,164 @@
+"""The sheet: every view, table and note finds its place on a page, and every label in its view.
+
+Diagrams that share an axis stand exactly one under the other or side by side.  A1 takes everything on one page; on the
+smaller formats, and where there is too much, further pages follow.  On A1 what stands side by side is parted before
+anything is shown reduced.  What does not fit even on a page of its own is shown reduced, together with all that shares
+an axis with it.
+
+An unfinished sheet is laid out and lettered as the finished one and then drawn in part, so that one laid over the other
+agrees line for line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from graphcam.drafting.ink import Step
+from graphcam.sheets.expand import Drawn, Placement, expand
+from graphcam.sheets.filling import BORDER, ONE_PAGE, Leaf, fill
+from graphcam.sheets.formats import Format
+from graphcam.sheets.frame import frame as empty_sheet
+from graphcam.sheets.frame import title_box
+from graphcam.sheets.lettered import lettered, shading_parted
+from graphcam.sheets.model import Drawing, Entity, Group, Page
+from graphcam.sheets.packing import MESH
+from graphcam.sheets.panels import panels
+from graphcam.sheets.tables import Block, Table, notes_block, table_block
+from graphcam.sheets.title_block import TitleBlock
+from graphcam.words import Tell
+
+NOTES_WIDTH = 180.0
+"""Of the notes, mm, at most."""
+HEADING = 12.0
+"""Of the title of a view, mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """What stands together on sheets of its own.
+
+    steps : (number, name of the construction, step), in order; the number stays with the step in every part
+    notes : sentences that are numbered on the sheet
+    """
+
+    steps: tuple[tuple[int, str, Step], ...]
+    tables: tuple[Table, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def told(self, tell: Tell) -> Part:
+        """The same part with every text as ``tell`` says it."""
+        steps = tuple((number, name, step.told(tell)) for number, name, step in self.steps)
+        return Part(steps, tuple(table.told(tell) for table in self.tables), tuple(map(tell, self.notes)))
+
+
+def compose(
+    steps: Sequence[tuple[str, Step]],
+    tables: Sequence[Table],
+    title: TitleBlock,
+    paper: str = "A1",
+    frame: str = "gost",
+    notes: Sequence[str] = (),
+    orientation: str = "landscape",
+) -> Drawing:
+    """Lay the steps of constructions, tables and notes out on sheets.
+
+    steps : (name of the construction, step), in order
+    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
+
+    Each page has a group "frame", perhaps "tables" and "titles", and one for every step drawn on it, "step-03 name".
+
+    Raises
+    ------
+    DesignError : there is no such format, frame or orientation
+    """
+    numbered = tuple((number, name, step) for number, (name, step) in enumerate(steps, 1))
+    return compose_parts([Part(numbered, tuple(tables), tuple(notes))], title, Format(paper, frame, orientation))
+
+
+def compose_parts(
+    parts: Sequence[Part], title: TitleBlock, sheet: Format, upto: int | None = None, tell: Tell = str
+) -> Drawing:
+    """Lay parts out, each on sheets of its own.
+
+    upto : number of the last step that is drawn; of the later ones only what is given is drawn, and neither answers in
+        tables nor notes.  None for a finished sheet.
+    tell : says all texts in the language of the sheets
+    """
+    parts = [part.told(tell) for part in parts]
+    laid_out = [(part, leaf) for part in parts for leaf in _in_order(part, _leaves(sheet, part, tell))]
+    of = len(laid_out)
+    pages = [_page(sheet, leaf, part, empty_sheet(sheet, title, k, of, tell), upto)
+             for k, (part, leaf) in enumerate(laid_out, 1)]  # fmt: skip
+    return Drawing(title.name, tuple(pages))
+
+
+def profile_room(paper: str, frame: str, orientation: str = "landscape") -> tuple[float, float]:
+    """Width and height [mm] for the cam's profile, rollers included, labels and title not."""
+    sheet = Format(paper, frame, orientation)
+    inside, block = sheet.content.grown(-BORDER), title_box(sheet)
+    if paper in ONE_PAGE and not sheet.upright:
+        # To the right of 360 mm of cam angle and the poles; above the combined diagram and the details.
+        return inside.width - 424.0, inside.height - 170.0
+    if paper in ONE_PAGE:
+        # Below the diagrams, left of the title block.
+        return inside.width - block.width, inside.height - 480.0
+    above = inside.width, inside.height - block.height - HEADING
+    beside = inside.width - block.width, inside.height - HEADING
+    return max(above, beside, key=min)
+
+
+def _leaves(sheet: Format, part: Part, tell: Tell) -> list[Leaf]:
+    """The pages of a part."""
+    views = panels((step for _, _, step in part.steps), sheet.lettering, tell)
+    heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
+    return fill(sheet, views, [_blocks(sheet, part, height) for height in heights])
+
+
+def _blocks(sheet: Format, part: Part, height: float) -> list[Block]:
+    # Room is found on a grid: a cell is lost at either edge.
+    room = sheet.content.width - 2 * BORDER - 2 * MESH
+    blocks = [_fitted(table, height, room) for table in part.tables]
+    if part.notes:
+        blocks.append(notes_block(part.notes, height, min(NOTES_WIDTH, room)))
+    return blocks
+
+
+def _fitted(table: Table, height: float, room: float) -> Block:
+    """A table in letters of the height, or in smaller ones where it would be wider than the sheet."""
+    block = table_block(table, height)
+    return block if block.box.width <= room else table_block(table, height * room / block.box.width)
+
+
+def _in_order(part: Part, leaves: Sequence[Leaf]) -> list[Leaf]:
+    """The pages in the order of the first step on each; those without a view come last."""
+
+    def first(leaf: Leaf) -> int:
+        return min((number for number, _, step in part.steps if step.view.name in leaf.views), default=len(part.steps))
+
+    return sorted(leaves, key=first)
+
+
+def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: int | None) -> Page:
+    """Draw all that a page holds; the labels last, when every line stands."""
+    titles = Group("titles", tuple(e for panel, origin in leaf.views.values() for e in panel.title(origin)))
+    answered = [e for block, at in leaf.blocks for e in block.drawn(at)]
+    # Of every step what is given, and what is not; of each its number, and whether it is shown.
+    drawn: list[Drawn] = []
+    of: list[tuple[int, bool]] = []
+    for number, _, step in part.steps:
+        if step.view.name in leaf.views:
+            panel, origin = leaf.views[step.view.name]
+            for marks, shown in ((step.given, bool(step.given)), (step.own, upto is None or number <= upto)):
+                drawn.append(expand(marks, Placement(origin, panel.factor), panel.letters))
+                of.append((number, shown))
+    finished = lettered(drawn, [*empty.entities, *answered, *titles.entities], sheet.content)
+    tables = answered if upto is None else [e for block, at in leaf.blocks for e in block.drawn(at, answered=False)]
+    shown = [(number, entities) for (number, shown), entities in zip(of, finished, strict=True) if shown]
+    entities: dict[int, list[Entity]] = {}
+    for (number, _), parted in zip(shown, shading_parted([some for _, some in shown]), strict=True):
+        entities.setdefault(number, []).extend(parted)
+    names = {number: f"step-{number:02d} {name}" for number, name, _ in part.steps}
+    groups = [empty, *([Group("tables", tuple(tables))] if tables else []), titles]
+    groups += [Group(names[number], tuple(of_step)) for number, of_step in entities.items()]
+    return Page(*sheet.size, sheet.content, tuple(groups))

@@ -1,0 +1,184 @@
+"""The neutral drawing: pages of lines, circles, arcs and texts in millimetres of paper, before any file format.
+
+Everything that has a meaning (dimensions, arrows, hatching, labels) has been turned into these few entities, so that
+every output holds the same ones.  Points are complex numbers, x to the right and y up, from the lower left corner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from graphcam.drafting.ink import Points
+from graphcam.sheets.box import Box
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A polyline through points (n,); ``closed`` joins the last to the first."""
+
+    points: Points
+    role: str
+    closed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Strokes:
+    """Separate straight lines from ``starts`` (n,) to ``ends`` (n,)."""
+
+    starts: Points
+    ends: Points
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A closed smooth curve through dense points (n,), the first not repeated."""
+
+    points: Points
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class Circles:
+    """Whole circles of one radius about ``centres`` (n,); ``opaque`` ones hide what lies beneath them."""
+
+    centres: Points
+    radius: float
+    role: str
+    opaque: bool = False
+
+
+@dataclass(frozen=True)
+class Arc:
+    """The part of a circle counter-clockwise from ``start`` to ``end`` [rad]."""
+
+    centre: complex
+    radius: float
+    start: float
+    end: float
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class Heads:
+    """Filled triangles with corners (n, 3): the heads of arrows."""
+
+    corners: Points
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class Length:
+    """What a dimension measures: from ``start`` to ``end``, its line through ``foot``; the ``lines`` that draw it."""
+
+    start: complex
+    end: complex
+    foot: complex
+    lines: tuple[Entity, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Angle:
+    """An angle that is measured: between two directions [rad] at ``centre``, and the ``lines`` that draw it."""
+
+    centre: complex
+    radius: float
+    start: float
+    end: float
+    lines: tuple[Entity, ...]
+
+
+@dataclass(frozen=True)
+class Text:
+    """A line of text whose base line starts, is centred or ends (``align``) at ``at``.
+
+    height : of a capital letter, mm
+    align : "left", "center" or "right"
+    angle : of the base line, rad
+    of : the dimension that it is the text of
+    field : of the title block, that it is the entry of: a name such as "author"
+    """
+
+    at: complex
+    text: str
+    height: float
+    align: str = "left"
+    angle: float = 0.0
+    role: str = "text"
+    of: Length | Angle | None = None
+    field: str = ""
+
+
+Entity = Stroke | Strokes | Curve | Circles | Arc | Heads | Text
+
+
+def count(entity: Entity) -> int:
+    """How many entities of a CAD program the entity makes.
+
+    >>> import numpy as np
+    >>> count(Strokes(np.array([0, 1j]), np.array([5, 5 + 1j]), "construction"))
+    2
+    """
+    match entity:
+        case Strokes(starts=items) | Circles(centres=items) | Heads(corners=items):
+            return len(items)
+        case _:
+            return 1
+
+
+@dataclass(frozen=True)
+class Group:
+    """Entities that appear together: a step of a construction, the frame, the tables.
+
+    name : unique on its page; the first word is an identifier ("step-03 integration")
+    """
+
+    name: str
+    entities: tuple[Entity, ...]
+
+    @property
+    def key(self) -> str:
+        """The first word of the name.
+
+        >>> Group("step-03 integration", ()).key
+        'step-03'
+        """
+        return self.name.split(" ", 1)[0]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A sheet of paper, ``width`` x ``height`` mm, and its groups, the later ones over the earlier.
+
+    frame : the box that the drawing must not leave
+    """
+
+    width: float
+    height: float
+    frame: Box
+    groups: tuple[Group, ...]
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """The pages of a drawing and its title."""
+
+    title: str
+    pages: tuple[Page, ...]
+
+
+def moved(entity: Entity, by: complex) -> Entity:
+    """The entity moved ``by`` x + iy."""
+    match entity:
+        case Strokes():
+            return replace(entity, starts=entity.starts + by, ends=entity.ends + by)
+        case Stroke() | Curve():
+            return replace(entity, points=entity.points + by)
+        case Circles():
+            return replace(entity, centres=entity.centres + by)
+        case Arc():
+            return replace(entity, centre=entity.centre + by)
+        case Heads():
+            return replace(entity, corners=entity.corners + by)
+        case Text():
+            return replace(entity, at=entity.at + by)

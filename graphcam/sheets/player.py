@@ -1,0 +1,184 @@
+"""The step player: one page of HTML that shows a drawing step by step, and lets a mechanism turn, without a network.
+
+The page holds the sheets as SVG with one group for each step, the words and readings of the steps, and what turns; the
+templates stand in ``data/player``.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.sheets.box import Box, around_all
+from graphcam.sheets.fonts import font_file
+from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
+from graphcam.sheets.player_svg import group_svg, roles_css
+from graphcam.sheets.sampling import box_of
+
+WORDS: Mapping[str, Caption] = {
+    "construction": say("Construction"),
+    "mechanism": say("Mechanism"),
+    "contents": say("Contents"),
+    "readings": say("Readings"),
+    "drawing": say("The drawing"),
+    "steps": say("Steps"),
+    "step": say("Step"),
+    "first": say("First step"),
+    "previous": say("Previous step"),
+    "next": say("Next step"),
+    "last": say("Last step"),
+    "chapter_back": say("Previous construction"),
+    "chapter_on": say("Next construction"),
+    "closer": say("Closer"),
+    "farther": say("Farther away"),
+    "whole": say("Whole sheet"),
+    "follow": say("Follow the step"),
+    "sheet": say("Sheet"),
+    "print": say("Print the sheet"),
+    "theme": say("Light or dark"),
+    "keyboard": say("Keys: ← → steps, Page Up and Page Down constructions, Home and End, + − 0 zoom, M mechanism"),
+    "all_values": say("All values"),
+    "place": say("station"),
+    "paper": say("on paper"),
+    "value": say("value"),
+    "play": say("Turn"),
+    "pause": say("Stop"),
+    "angle": say("Cam angle φ"),
+    "speed": say("Turns a minute"),
+    "pressure_angle": say("Pressure angle α"),
+    "displacement": say("Displacement s"),
+    "velocity": say("Velocity v"),
+    "normal": say("normal"),
+    "motion": say("motion"),
+    "noscript": say("Without JavaScript the finished sheet is shown."),
+}
+"""What the page itself says."""
+MARGIN = 8.0
+"""Around what a step shows when it is looked at closely [mm]."""
+
+
+@dataclass(frozen=True)
+class ReadingText:
+    """A reading as it is shown: how it came about, and the value; of many values a table (place, on paper, value)."""
+
+    title: str
+    taken: str
+    value: str
+    table: tuple[tuple[str, str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Slide:
+    """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing."""
+
+    chapter: str
+    view: str
+    title: str
+    caption: str
+    readings: tuple[ReadingText, ...] = ()
+
+
+def player(
+    drawing: Drawing,
+    slides: Sequence[Slide],
+    mechanism: Mapping[str, Any] | None,
+    words: Mapping[str, str],
+    language: str,
+) -> str:
+    """The page.
+
+    slides : one for each step of the drawing, in order
+    mechanism : what turns, see ``data/player/mechanism.js``; None for a drawing that nothing turns in
+    words : what the page itself says, by the names of :data:`WORDS`
+    """  # fmt: skip
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(
+        loader=PackageLoader("graphcam", "data/player"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+
+    def whole(name: str) -> Markup:
+        return Markup((_FOLDER / name).read_text(encoding="utf-8"))
+
+    data = {"steps": _places(drawing, slides), "mechanism": mechanism, "words": dict(words)}
+    said = [drawing.title, *words.values(), *(text for slide in slides for text in _texts(slide))]
+    return environment.get_template("page.html").render(
+        title=drawing.title,
+        language=language,
+        words=words,
+        pages=[_page(page) for page in drawing.pages],
+        slides=slides,
+        chapters=[(name, [k for k, _ in run]) for name, run in groupby(enumerate(slides), key=lambda s: s[1].chapter)],
+        style=whole("player.css") + Markup(roles_css()),
+        scripts=[whole("player.js"), *([whole("mechanism.js")] if mechanism else [])],
+        mechanism=mechanism,
+        font=_font([*said, *_lettering(drawing)]),
+        # No text of a drawing may end the script that holds it.
+        data=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
+    )
+
+
+_FOLDER = Path(__file__).parents[1] / "data" / "player"
+
+
+def _page(page: Page) -> dict[str, Any]:
+    from markupsafe import Markup
+
+    groups = [(group.key, _is_step(group), Markup(group_svg(group, page.height))) for group in page.groups]
+    return {"width": f"{page.width:g}", "height": f"{page.height:g}", "groups": groups}
+
+
+def _is_step(group: Group) -> bool:
+    return group.key.startswith("step-")
+
+
+def _places(drawing: Drawing, slides: Sequence[Slide]) -> list[dict[str, Any]]:
+    """For each step its group, its page, and the box of its view there: x, y from the upper left corner, size [mm]."""
+    found: list[dict[str, Any]] = []
+    for k, slide in enumerate(slides, 1):
+        key = f"step-{k:02d}"
+        number = next(n for n, page in enumerate(drawing.pages) if any(group.key == key for group in page.groups))
+        page = drawing.pages[number]
+        same = {f"step-{n:02d}" for n, other in enumerate(slides, 1) if other.view == slide.view}
+        boxes = [box_of(group.entities) for group in page.groups if group.key in same]
+        box = around_all([box for box in boxes if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
+        left, top = max(0.0, box.left), max(0.0, page.height - box.top)
+        width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
+        found.append({"group": key, "page": number, "box": [round(x, 1) for x in (left, top, width, height)]})
+    return found
+
+
+def _texts(slide: Slide) -> Iterable[str]:
+    yield from (slide.chapter, slide.title, slide.caption)
+    for reading in slide.readings:
+        yield from (reading.title, reading.taken, reading.value)
+
+
+def _lettering(drawing: Drawing) -> Iterable[str]:
+    entities: Iterable[Entity] = (e for page in drawing.pages for group in page.groups for e in group.entities)
+    return (entity.text for entity in entities if isinstance(entity, Text))
+
+
+def _font(texts: Iterable[str]) -> str:
+    """The typeface by which the sheet was lettered, with the characters of these texts alone: base64 of a WOFF."""
+    from fontTools import subset
+
+    # Widths were measured without kerning and ligatures.
+    options = subset.Options(flavor="woff", layout_features=[], recalc_timestamp=False, notdef_outline=True)
+    # The dates of the editor that it was drawn with.
+    options.drop_tables += ["FFTM"]
+    subsetter, written = subset.Subsetter(options), BytesIO()
+    subsetter.populate(text="".join(sorted(set("".join(texts)))))
+    with subset.load_font(str(font_file()), options) as font:
+        subsetter.subset(font)
+        subset.save_font(font, written, options)
+    return base64.b64encode(written.getvalue()).decode("ascii")

@@ -1,0 +1,114 @@
+"""Entities as points close to one another, and as straight pieces: what label placing and its check look at."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.drafting.ink import Points
+from graphcam.sheets.box import Box
+from graphcam.sheets.fonts import extent
+from graphcam.sheets.model import Arc, Circles, Curve, Entity, Heads, Stroke, Strokes, Text
+
+Floats = NDArray[np.float64]
+
+FLATNESS = 0.02
+"""A curve is replaced by chords that stay so close to it, mm."""
+
+
+def pieces(entity: Entity) -> tuple[Points, Points]:
+    """Starts and ends (n,) of straight pieces that follow the entity; a text has none."""
+    match entity:
+        case Strokes():
+            return entity.starts, entity.ends
+        case Stroke(points=points, closed=closed):
+            return (points, np.roll(points, -1)) if closed else (points[:-1], points[1:])
+        case Curve(points=points):
+            return points, np.roll(points, -1)
+        case Circles(centres=centres, radius=radius):
+            ring = _bow(radius, 0.0, 2 * math.pi)
+            return (centres[:, None] + ring[:-1]).ravel(), (centres[:, None] + ring[1:]).ravel()
+        case Arc(centre=centre, radius=radius, start=start, end=end):
+            bow = centre + _bow(radius, start, end)
+            return bow[:-1], bow[1:]
+        case Heads(corners=corners):
+            return corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        case Text():
+            return np.empty(0, dtype=np.complex128), np.empty(0, dtype=np.complex128)
+
+
+def _bow(radius: float, start: float, end: float) -> Points:
+    chord = 2 * math.acos(max(0.0, 1 - FLATNESS / radius)) if radius > FLATNESS else math.pi / 2
+    return (radius + 0j) * np.exp(1j * np.linspace(start, end, max(2, math.ceil((end - start) / chord) + 1)))
+
+
+def sampled(starts: Points, ends: Points, spacing: float) -> Points:
+    """Points on straight pieces, at most ``spacing`` apart, both ends included.
+
+    >>> sampled(np.array([0j]), np.array([1 + 0j]), 0.5).tolist()
+    [0j, (0.5+0j), (1+0j)]
+    """
+    starts, ends = np.ravel(starts), np.ravel(ends)
+    known = np.isfinite(starts) & np.isfinite(ends)
+    starts, ends = starts[known], ends[known]
+    parts = np.maximum(1, np.ceil(np.abs(ends - starts) / spacing)).astype(int)
+    of = np.repeat(np.arange(len(parts)), parts + 1)
+    first = np.cumsum(parts + 1) - (parts + 1)
+    share = (np.arange(len(of)) - first[of]) / parts[of]
+    return starts[of] + (ends - starts)[of] * share
+
+
+def corners(text: Text) -> Points:
+    """The four corners of a text's box, counter-clockwise from the lower left one."""
+    wide, below, above = extent(text.text, text.height)
+    left = {"left": 0.0, "center": -wide / 2, "right": -wide}[text.align]
+    box = np.array([left - 1j * below, left + wide - 1j * below, left + wide + 1j * above, left + 1j * above])
+    return text.at + box * cmath.rect(1.0, text.angle)
+
+
+def outline(entity: Entity) -> tuple[Points, Points]:
+    """Starts and ends (n,) of the straight pieces of an entity, or of a text's box."""
+    if isinstance(entity, Text):
+        box = corners(entity)
+        return box, np.roll(box, -1)
+    return pieces(entity)
+
+
+def within(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Floats, Floats]:
+    """The parts of lines (n,), from 0 at the start to 1 at the end, in a text's box (4 corners) with a margin.
+
+    A line has no part in it where the first number is not less than the second.
+
+    >>> low, high = within(np.array([0j]), np.array([10 + 0j]), np.array([4 - 1j, 6 - 1j, 6 + 1j, 4 + 1j]), 0.0)
+    >>> low.tolist(), high.tolist()
+    ([0.4], [0.6])
+    """
+    # Turned so that the box lies level, a line is clipped to two slabs.
+    turn = cmath.exp(-1j * cmath.phase(complex(box[1] - box[0])))
+    a, b, box = starts * turn, ends * turn, box * turn
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    for start, end, corner in ((a.real, b.real, box.real), (a.imag, b.imag, box.imag)):
+        # A line along the slab is all in it or all out: with the least of steps its ends lie far beyond 0 and 1.
+        step = np.where(end == start, np.finfo(float).tiny, end - start)
+        with np.errstate(over="ignore"):
+            enter, leave = (corner.min() - margin - start) / step, (corner.max() + margin - start) / step
+        low, high = np.maximum(low, np.minimum(enter, leave)), np.minimum(high, np.maximum(enter, leave))
+    return low, high
+
+
+def box_of(entities: Iterable[Entity]) -> Box | None:
+    """The box around entities; None if there is nothing to see."""
+    points = np.concatenate([np.empty(0, dtype=np.complex128), *(np.concatenate(outline(e)) for e in entities)])
+    points = points[np.isfinite(points)]
+    if not len(points):
+        return None
+    return around(points)
+
+
+def around(points: Points) -> Box:
+    """The box around at least one point."""
+    return Box(points.real.min().item(), points.imag.min().item(), points.real.max().item(), points.imag.max().item())

@@ -1,0 +1,75 @@
+"""How lines look: widths and types by ISO 128 and GOST 2.303, one style for each role."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphcam.drafting.ink import Role
+
+BOLD, MEDIUM, THIN = 0.7, 0.35, 0.18
+"""Widths of lines, mm: two steps of the standard series apart, so that a print keeps the hierarchy."""
+
+SOLID: tuple[float, ...] = ()
+DASHED = (3.0, 1.2)
+CENTER = (9.0, 1.4, 1.0, 1.4)
+"""Line types: dash, gap, dash, gap... in mm of paper."""
+
+BLACK, GREY, ACCENT = "#000000", "#5a5a5a", "#b3201c"
+"""Ink: results and curves, construction lines, limits.  All of them are dark enough to print in black and white."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """Width [mm], pattern [mm] and colour of a line."""
+
+    width: float
+    pattern: tuple[float, ...] = SOLID
+    colour: str = BLACK
+
+
+_FINISHED: dict[str, Style] = {
+    Role.CONSTRUCTION: Style(THIN, colour=GREY),
+    Role.HATCH: Style(THIN, colour=GREY),
+    Role.DIMENSION: Style(THIN),
+    Role.AXIS: Style(THIN, CENTER, GREY),
+    Role.HIDDEN: Style(THIN, DASHED, GREY),
+    Role.SCALE: Style(THIN),
+    Role.CURVE: Style(MEDIUM),
+    Role.LIMIT: Style(MEDIUM, colour=ACCENT),
+    Role.RESULT: Style(BOLD),
+    "frame": Style(BOLD),
+    "ruling": Style(THIN),
+    "gauge": Style(MEDIUM),
+    "table": Style(MEDIUM),
+    "text": Style(THIN),
+}
+
+FADED, CURRENT = "#9b9b9b", "#0b57a4"
+"""Ink of a drawing in progress: what stood before the current step, and what the step adds."""
+FORMER_STEP, CURRENT_STEP = "former", "current"
+
+
+def in_progress(role: str, stage: str) -> str:
+    """The role of a line in a drawing in progress, by the ``stage`` in which it was drawn.
+
+    >>> STYLES[in_progress(Role.RESULT, FORMER_STEP)].colour == FADED
+    True
+    """
+    return f"{stage} {role}"
+
+
+def _former(style: Style) -> Style:
+    return Style(min(style.width, MEDIUM), style.pattern, FADED)
+
+
+def _current(style: Style) -> Style:
+    # A limit keeps its accent: it is told by its colour.
+    return style if style.colour == ACCENT else Style(style.width, style.pattern, CURRENT)
+
+
+STYLES: dict[str, Style] = {
+    **_FINISHED,
+    **{in_progress(role, FORMER_STEP): _former(style) for role, style in _FINISHED.items()},
+    **{in_progress(role, CURRENT_STEP): _current(style) for role, style in _FINISHED.items()},
+}
+"""The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress."""

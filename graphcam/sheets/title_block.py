@@ -1,0 +1,160 @@
+"""Title blocks: form 1 of GOST 2.104 (185 x 55 mm) and a block by ISO 7200 (180 x 36 mm)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphcam.sheets.fonts import width, wrap
+from graphcam.sheets.model import Entity, Strokes, Text
+from graphcam.words import Caption, Tell, Words, say
+
+CAPTION, NARROW = 2.5, 2.0
+"""Heights of the captions of fields, and of narrow ones, mm."""
+LOWER = 0.95
+"""An entry that has to be broken into lines is lowered by this factor until they fit."""
+ONE_LINE = 0.7
+"""An entry is rather lowered by this factor than broken into lines."""
+SIZES = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}
+"""Width and height of the block of each frame, mm."""
+
+
+@dataclass(frozen=True)
+class TitleBlock:
+    """What is written into the title block; what is empty stays empty."""
+
+    name: str = ""
+    number: str = ""
+    organisation: str = ""
+    group: str = ""
+    author: str = ""
+    checked: str = ""
+    approved: str = ""
+    material: str = ""
+    mass: str = ""
+    scale: str = ""
+
+
+Ruling = tuple[float, float, float, float]
+"""A ruled line x1, y1, x2, y2, mm from the lower left corner of the block."""
+
+
+def rules(corner: complex, lines: list[Ruling], role: str) -> Strokes:
+    """Ruled lines of a block with its lower left ``corner``."""
+    ends = np.array(lines, dtype=np.float64)
+    return Strokes(corner + ends[:, 0] + 1j * ends[:, 1], corner + ends[:, 2] + 1j * ends[:, 3], role)
+
+
+def fitted(text: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
+    """A text in the middle of a field x1, y1, x2, y2 in at most ``height`` mm capitals.
+
+    It is lowered a little to stay on one line, else broken into lines and lowered as far as it takes; nothing is cut.
+    """
+    left, bottom, right, top = field
+    room, tall = right - left - 2.0, top - bottom - 1.0
+    # Widths are in proportion to heights.
+    one_line = min(height, room / width(text, 1.0)) if text else height
+    lines = [text]
+    if one_line >= ONE_LINE * height:
+        height = one_line
+    else:
+        lines = wrap(text, height, room)
+        while max(width(line, height) for line in lines) > room or _stacked(len(lines), height) > tall:
+            height *= LOWER
+            lines = wrap(text, height, room)
+    x = (left + right) / 2 if align == "center" else left + 1.0
+    # The first base line, so that the block of lines stands in the middle.
+    y = (bottom + top) / 2 + (len(lines) - 1) * 0.8 * height - height / 2
+    return [Text(complex(x, y - k * 1.6 * height), line, height, align) for k, line in enumerate(lines) if line]
+
+
+def _stacked(lines: int, height: float) -> float:
+    """How high so many lines are, mm, with room for the tails of letters."""
+    return 1.6 * lines * height
+
+
+def _shifted(texts: list[Text], corner: complex) -> list[Text]:
+    return [replace(text, at=corner + text.at) for text in texts]
+
+
+def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
+    """What a title says under a name, in a field; the texts know the name."""
+    return [replace(text, field=name) for text in fitted(getattr(title, name), field, height, align)]
+
+
+def title_block(
+    frame: str, corner: complex, title: TitleBlock, sheet: int, sheets: int, tell: Tell = str
+) -> list[Entity]:
+    """The block of a frame ("gost" or "iso") with its lower left ``corner``, on one sheet of several."""
+    form = _gost if frame == "gost" else _iso
+    bold, thin, texts = form(title, sheet, sheets, tell)
+    return [rules(corner, bold, "frame"), rules(corner, thin, "ruling"), *_shifted(texts, corner)]
+
+
+def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[Ruling], list[Ruling], list[Text]]:
+    bold: list[Ruling] = [
+        (0, 0, 185, 0), (185, 0, 185, 55), (185, 55, 0, 55), (0, 55, 0, 0),
+        (7, 30, 7, 55), (17, 0, 17, 55), (40, 0, 40, 55), (55, 0, 55, 55), (65, 0, 65, 55),
+        (0, 30, 65, 30), (0, 35, 65, 35), (65, 15, 185, 15), (65, 40, 185, 40), (135, 0, 135, 40),
+        (135, 35, 185, 35), (135, 20, 185, 20), (150, 20, 150, 40), (167, 20, 167, 40), (155, 15, 155, 20),
+    ]  # fmt: skip
+    thin: list[Ruling] = [(0, y, 65, y) for y in (5, 10, 15, 20, 25, 40, 45, 50)]
+    thin += [(140, 20, 140, 35), (145, 20, 145, 35)]
+    texts: list[Text] = []
+    columns = ((0, 7, say("Ch.")), (7, 17, say("Sheet")), (17, 40, say("Document no.")), (40, 55, say("Signed")),
+               (55, 65, say("Date")))  # fmt: skip
+    for left, right, caption in columns:
+        texts += fitted(tell(caption), (left, 30, right, 35), NARROW)
+    rows: tuple[tuple[Words, str], ...] = (
+        (say("Drawn"), "author"), (say("Checked"), "checked"), (say("Tech."), ""), ("", ""),
+        (say("Norms"), ""), (say("Approved"), "approved"),
+    )  # fmt: skip
+    for k, (caption, name) in enumerate(rows):
+        texts += fitted(tell(caption), (0, 25 - 5 * k, 17, 30 - 5 * k), CAPTION, align="left")
+        if name:
+            texts += entry(title, name, (17, 25 - 5 * k, 40, 30 - 5 * k), CAPTION, align="left")
+    for left, right, caption in ((135, 150, say("Stage")), (150, 167, say("Mass")), (167, 185, say("Scale"))):
+        texts += fitted(tell(caption), (left, 35, right, 40), CAPTION)
+    texts += entry(title, "number", (65, 40, 185, 55), 7.0)
+    texts += entry(title, "name", (65, 15, 135, 40), 5.0)
+    texts += entry(title, "material", (65, 0, 135, 15), 3.5)
+    texts += entry(title, "mass", (150, 20, 167, 35), 3.5)
+    texts += entry(title, "scale", (167, 20, 185, 35), 3.5)
+    texts += fitted(tell(say("Sheet {number}", number=sheet)), (135, 15, 155, 20), CAPTION)
+    texts += fitted(tell(say("Sheets {number}", number=sheets)), (155, 15, 185, 20), CAPTION)
+    owner = " ".join(filter(None, (title.organisation, title.group)))
+    texts += [replace(text, field="organisation") for text in fitted(owner, (135, 0, 185, 15), 3.5)]
+    return bold, thin, texts
+
+
+def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[Ruling], list[Ruling], list[Text]]:
+    fields: tuple[tuple[Caption, str, Ruling], ...] = (
+        (say("Responsible department"), "", (0, 27, 48, 36)),
+        (say("Checked by"), "checked", (48, 27, 84, 36)),
+        (say("Material"), "material", (84, 27, 120, 36)),
+        (say("Mass"), "mass", (120, 27, 138, 36)),
+        (say("Scale"), "scale", (138, 27, 156, 36)),
+        (say("Document status"), "", (156, 27, 180, 36)),
+        (say("Legal owner"), "organisation", (0, 9, 48, 27)),
+        # A field that ISO 7200 leaves to the owner: the group belongs to the school, and answers for nothing.
+        (say("Group"), "group", (0, 0, 48, 9)),
+        (say("Created by"), "author", (48, 13.5, 84, 27)),
+        (say("Approved by"), "approved", (48, 0, 84, 13.5)),
+        (say("Title"), "name", (84, 0, 138, 27)),
+        (say("Identification number"), "number", (138, 9, 180, 27)),
+        (say("Rev."), "", (138, 0, 147, 9)),
+        (say("Date"), "", (147, 0, 164, 9)),
+        (say("Sheet"), "", (164, 0, 180, 9)),
+    )
+    thin: list[Ruling] = []
+    texts: list[Text] = []
+    for caption, name, (left, bottom, right, top) in fields:
+        thin += [(left, bottom, right, bottom), (left, bottom, left, top)]
+        texts += fitted(tell(caption), (left, top - 3.6, right, top - 0.2), 1.8, align="left")
+        if name:
+            texts += entry(title, name, (left, bottom, right, top - 3.2), 5.0 if name == "name" else 3.5)
+    texts += fitted(f"{sheet}/{sheets}", (164, 0, 180, 9 - 3.2), 3.5)
+    bold: list[Ruling] = [(0, 0, 180, 0), (180, 0, 180, 36), (180, 36, 0, 36), (0, 36, 0, 0)]
+    # The outer sides are bold already.
+    return bold, [line for line in thin if not (line[1] == line[3] == 0 or line[0] == line[2] == 0)], texts

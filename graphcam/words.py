@@ -1,0 +1,88 @@
+"""Sentences as data: a template and its values, kept apart so that every language can say them in its own words.
+
+Templates are written in English, and literally where they are used, so that the tools of gettext find them.  A plain
+``str`` among the values is the same in every language: the name of a point, a formula's symbol, what a user wrote.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Caption:
+    """A text with numbers, symbols and other captions in it.
+
+    template : English, in the style of :meth:`str.format`
+    values : what stands in its places
+    context : tells apart templates that are alike in English but not in every language
+    plural : the template for any ``count`` but 1, if the two differ
+
+    >>> str(Caption("The pole distance is {h:.1f} mm.", {"h": 40}))
+    'The pole distance is 40.0 mm.'
+    """
+
+    template: str
+    values: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    context: str = ""
+    plural: str = ""
+    count: int = 1
+
+    def __str__(self) -> str:
+        template = self.plural if self.plural and self.count != 1 else self.template
+        return template.format(**self.values)
+
+
+Words = str | Caption
+"""A text: the same in every language, or not."""
+Tell = Callable[[Words], str]
+"""Says a text in a language, such as :meth:`graphcam.language.Language.text`; ``str`` says it in English."""
+
+
+def say(template: str, /, **values: Any) -> Caption:
+    """A caption from a template in the style of :meth:`str.format` and its values.
+
+    >>> str(say("Rise {number}", number=1))
+    'Rise 1'
+    """
+    return Caption(template, values)
+
+
+def say_in(context: str, template: str, /, **values: Any) -> Caption:
+    """A caption whose English words alone do not say which of their meanings is meant; ``context`` does.
+
+    >>> str(say_in("of a title block", "Sheet {number}", number=2))
+    'Sheet 2'
+    """
+    return Caption(template, values, context)
+
+
+def say_many(one: str, many: str, count: int, /, **values: Any) -> Caption:
+    """A caption for a number of things, which stands in its ``{count}``.
+
+    >>> str(say_many("{count} part", "{count} parts", 1)), str(say_many("{count} part", "{count} parts", 12))
+    ('1 part', '12 parts')
+    """
+    return Caption(one, {**values, "count": count}, "", many, count)
+
+
+def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
+    """Texts one after another.
+
+    >>> str(sequence([say("One."), say("Two.")], " "))
+    'One. Two.'
+    """
+    names = [f"item{k}" for k in range(len(items))]
+    return Caption(separator.join(f"{{{name}}}" for name in names), dict(zip(names, items, strict=True)))
+
+
+def joined(items: Sequence[Words]) -> Words:
+    """Texts as a sentence lists them.
+
+    >>> str(joined(["a", "b", "c"])), str(joined(["a"])), str(joined([]))
+    ('a, b and c', 'a', '')
+    """
+    *first, last = items or [""]
+    return say("{first} and {last}", first=sequence(first), last=last) if first else last

@@ -1,0 +1,213 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: Motion laws and the acceleration diagram
+# ---
+
+# %% [markdown]
+# # 1. Motion laws and the acceleration diagram
+#
+# **Aim.** At the end you can choose a motion law and say what it costs, and you can draw the acceleration diagram of a
+# whole revolution so that the follower comes back to where it started, before any scale is known.
+#
+# **You need** derivatives and areas under a curve; on paper a ruler, a pencil and a sheet of A3.
+# **Time:** 45 minutes, 20 of them with the pencil.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+import numpy as np
+
+import graphcam as gc
+from graphcam.notebooks import Question, Slider, changed, chart, drawing, explore, picture_of, show_steps, table
+
+# %% [markdown]
+# ## Background
+#
+# A cam turns steadily and lifts a follower. While the cam turns through the *phase angle* $\varPhi$ the follower rises
+# by the *lift* $h$; then it rests, returns, rests again. How it rises in between is our choice: the **motion law**. We
+# measure the progress of the phase by $u = \varphi/\varPhi$, from 0 to 1, and write the law as a function $f(u)$ that
+# rises from 0 to 1:
+#
+# $$ s = h\,f(u), \qquad v = \frac{ds}{d\varphi} = \frac{h}{\varPhi}\,f'(u), \qquad
+# a = \frac{d^2s}{d\varphi^2} = \frac{h}{\varPhi^2}\,f''(u). $$
+#
+# The derivatives are taken with respect to the cam angle, so $v$ is in mm per radian and $a$ in mm per radian². At the
+# angular velocity $\omega$ the follower's velocity is $\omega v$ and its acceleration $\omega^2 a$: the *shape* of the
+# motion belongs to the cam, the speed comes later.
+#
+# **Why begin with the acceleration?** Because the forces do. The follower's inertia is $m\,\omega^2 a$; where $a$
+# jumps, the force jumps, and the mechanism knocks. One speaks of
+#
+# - a **rigid impact** where the *velocity* jumps: the acceleration is infinite there;
+# - a **soft impact** where the *acceleration* jumps: the force does too, but stays finite;
+# - **no impact** where the acceleration is continuous.
+#
+# Three laws that every course begins with:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+u = np.linspace(0, 1, 401)
+shown = ("rectangular", "cosine", "cycloidal")
+figure, _ = chart("", "", 2.6)
+figure.clear()
+for axes, k, title in zip(figure.subplots(1, 3), range(3), ("s / h", "v Φ / h", "a Φ² / h"), strict=True):
+    for name, style in zip(shown, ("-", "--", "-."), strict=True):
+        axes.plot(u, gc.law(name)(u)[k], style, label=name)
+    axes.set_title(title)
+    axes.set_xlabel("u")
+    axes.grid(visible=True, color="#dddddd", linewidth=0.5)
+figure.axes[0].legend(fontsize=8)
+figure.tight_layout()
+picture_of(
+    figure,
+    "Three charts over u from 0 to 1 for the rectangular, cosine and cycloidal laws: displacement, velocity, acceleration."
+    " The rectangular acceleration is +4, then -4; the cosine falls from 4.9 to -4.9; the cycloidal is a full sine wave.",
+    "Displacement, velocity and acceleration of three laws; only the cycloidal acceleration begins and ends with zero",
+)
+
+# %% [markdown]
+# The rectangular law keeps the acceleration as small as it can be, and knocks three times. The cycloidal law does not
+# knock, and pays with an acceleration more than one and a half times as great. The price of a law is told by two
+# numbers, the greatest values of $f'$ and $f''$:
+#
+# $$ v_{\max} = C_v\,\frac{h}{\varPhi}, \qquad a_{\max} = C_a\,\frac{h}{\varPhi^2}. $$
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+laws = {name: gc.law(name) for name in gc.LAWS}
+jump = {True: "soft", False: "none"}
+ends = {name: max(abs(float(law(0.0)[2])), abs(float(law(1.0)[2]))) for name, law in laws.items()}
+table(
+    ("law", "$C_v$", "$C_a$", "impact"),
+    [(n, float(x.peak_velocity), float(x.peak_acceleration), jump[ends[n] > 1e-9]) for n, x in laws.items()],
+)
+
+# %% [markdown]
+# Read the table as a bargain: nobody beats $C_a = 4$, and whoever wants a smooth beginning pays in $C_a$; whoever
+# wants a small $C_v$, and with it, as we shall see, a small cam, takes the 2-3 law or the modified sine.
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+# f = u - sin(2πu)/(2π): the greatest f'' is 2π, and no law stays under 4.
+assert abs(laws["cycloidal"].peak_acceleration - 2 * np.pi) < 1e-9
+assert min(law.peak_acceleration for law in laws.values()) >= 4 - 1e-9
+
+# %% [markdown]
+# ## The diagram of a whole revolution
+#
+# Our task, the same in all the following notebooks, is the built-in coursework task:
+
+# %%
+task = gc.builtin_task()
+table(("phase", "angle, °", "lift, mm", "law"),
+      [(p.kind, p.angle, getattr(p, "lift", "–"), getattr(p, "law", "–")) for p in task.motion.phases], digits=0)
+
+# %% [markdown]
+# The lift is 30 mm up and 30 mm down. Now comes the trick that the schools teach. We do **not** compute accelerations
+# and divide them by a scale. We *choose* the length of the first ordinate, because it looks well on the sheet, and leave
+# the scale open. Only what follows must fit together:
+#
+# 1. Lay off one revolution on the axis: at 1° to the millimetre it is 360 mm long.
+# 2. Choose the greatest ordinate of the rise, $y_1 = 50$ mm.
+# 3. **Compute** the greatest ordinate of the return. Both movements end at rest and have the same lift, so the two
+#    accelerations must be in the ratio of $C_a h/\varPhi^2$:
+#
+# $$ \frac{y_2}{y_1} = \frac{C_{a2}\,h_2/\varPhi_2^{\,2}}{C_{a1}\,h_1/\varPhi_1^{\,2}}. $$
+#
+# It is the square of the angles that decides: the return has 60° where the rise has 80°, so with equal laws its ordinate
+# is $(80/60)^2 = 1.78$ times as long. If both ordinates are chosen freely, the displacement does not come back to the
+# axis, and no fairing with a French curve will hide it.
+#
+# 4. Plot the law in each phase. A rise begins with acceleration *upwards*, a return with acceleration *downwards*.
+# 5. Divide each phase into $n$ equal parts and erect the ordinate in the **middle** of every part. These middle
+#    ordinates are all that the next construction will use.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+solution = gc.solve(task)
+diagram = solution.drawn["acceleration"]
+show_steps(diagram)
+
+# %% [markdown]
+# The areas above and below the axis are equal in each phase: the velocity that the follower gains it must lose again.
+# That is the first thing an examiner looks at, and you can check it with the eye.
+#
+# ## Try it yourself
+#
+# A second task: a rise of 25 mm over **120°** by the **cosine** law, a dwell, a return over **90°** by the **cycloidal**
+# law. You choose 40 mm for the rise. How long is the greatest ordinate of the return?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+ordinate = Question(
+    40 * (2 * np.pi / 90**2) / (np.pi**2 / 2 / 120**2), 0.5, "mm of paper", "point 3, the ratio of the ordinates",
+    {"both ordinates cannot be chosen freely: the return's follows": 40.0,
+     "the phase angles enter with their squares": 40 * (2 * np.pi / 90) / (np.pi**2 / 2 / 120),
+     "the two laws have different Cₐ": 40 * (120 / 90) ** 2,
+     "the lifts are equal and the ratio of the angles is inverted": 40 * (2 * np.pi * 90**2) / (np.pi**2 / 2 * 120**2)},
+)
+second_ordinate = Question(
+    30.0, 0.5, "mm of paper", "the areas: a third of the phase times 60 mm equals two thirds of it times what you seek",
+    {"ν is turned round: braking lasts longer, so its ordinate is shorter": 120.0,
+     "with equal ordinates the areas would differ": 60.0},
+)
+
+# %% tags=["try-it"]
+your_ordinate = None  # mm of paper
+ordinate.check(your_ordinate)
+
+# %% [markdown]
+# Now a rectangular rise in *unequal* parts: the follower is accelerated for one third of the phase and braked for two
+# thirds. The ratio of the two ordinates is $\nu = a_1/a_2$. You drew the first one 60 mm long. How long is the second?
+# (Think of the two areas.)
+
+# %% tags=["try-it"]
+your_second_ordinate = None  # mm of paper
+second_ordinate.check(your_second_ordinate)
+
+# %% [markdown]
+# Move the law and watch the ordinates. The rise keeps its 50 mm; what the law changes is everything else.
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def with_law(name):
+    phases = tuple(changed(p, {"law": name}) if p.kind != "dwell" else p for p in task.motion.phases)
+    return drawing(gc.solve(changed(task, {"motion.phases": phases})).drawn["acceleration"])
+
+
+explore(with_law, name=Slider("law of rise and return", tuple(gc.LAWS), "cosine", ("cosine", "cycloidal", "2-3", "3-4-5")))
+
+# %% [markdown]
+# ## Drawn and exact
+#
+# What acceleration does a millimetre mean? We do not know yet: $\mu_a$ is found after two integrations, in notebook 2.
+# But the exact side knows, and the *lengths* can be compared already. With $\mu_a$ from the finished drawing:
+
+# %%
+mu_a = float(solution.drawn["integration"].readings["a"].scale)
+greatest = diagram.readings["greatest"].paper
+exact = [4 * 30 / np.radians(angle) ** 2 for angle in (80, 60)]
+table(("phase", "on paper, mm", "× μₐ", "exact, mm/rad²"), [
+    (name, float(y), float(y) * mu_a, a) for name, y, a in zip(("rise", "return"), greatest, exact, strict=True)
+])
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(greatest[1] - 50 * (80 / 60) ** 2) < 1e-9
+assert np.allclose(greatest * mu_a, exact, rtol=1e-9)
+
+# %% [markdown]
+# ## Where the error comes from
+#
+# The ordinates are *given*, not measured, so a perfect hand makes no error here. A real hand makes three: the ordinates
+# are laid off with a ruler (half a division is 0.5 mm, 1 % of 50 mm), the middle of a part is found with the eye, and
+# the curve is plotted through few points. The first one hurts most: an error of the return's ordinate by 1 % leaves the
+# displacement 1 % of the lift away from the axis at the end. Notebook 7 follows these errors through the whole chain.
+#
+# ## Questions
+#
+# 1. Why can no law have $C_a < 4$? (Consider the triangle under $f'$: it must enclose the area 1.)
+# 2. A cam for an engine valve runs at 3000 rpm, one for a sewing machine at 300 rpm. How much greater are the
+#    accelerations, and which law would you choose for each?
+# 3. The 2-3 law has the smallest $C_v$ of all and still a soft impact. Where does its acceleration jump?
+# 4. The task gives the return 30° instead of 60°. What happens to its ordinate, and what would you change on the sheet?

@@ -1,0 +1,202 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: "The velocity plan and the pressure angle"
+# ---
+
+# %% [markdown]
+# # 3. The velocity plan and the pressure angle
+#
+# **Aim.** At the end you can find the pressure angle at any station from three lengths, without the profile, and you will not be
+# caught by the sign of the offset or the direction of rotation again.
+#
+# **You need** the readings of displacement and velocity (notebook 2), vectors that are added head to tail.
+# On paper: A4, ruler, protractor. **Time:** 45 minutes, 20 of them with the pencil.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+from math import atan, degrees
+
+import numpy as np
+
+import graphcam as gc
+from graphcam.notebooks import Question, Slider, chart, compared, explore, picture_of, show_steps, table
+
+# %% [markdown]
+# ## Background
+#
+# The **pressure angle** $\alpha$ lies between the direction in which the cam pushes, the common normal of profile and roller, and
+# the direction in which the follower can move, its guide. A student who has drawn the profile can measure it there, but the
+# profile depends on the size of the cam, and the size is what we are looking for. We need $\alpha$ *before* the profile.
+#
+# Consider the point $B$, the roller's centre. It belongs to the follower, which moves with $\vec v_2$ along its guide. The point of
+# the *cam* that lies under it moves with $\vec v_1$, of the size $\omega\cdot AB$, square to the radius $AB$. The two differ by the sliding
+# $\vec v_{21}$ along the profile:
+#
+# $$ \vec v_2 = \vec v_1 + \vec v_{21}. $$
+#
+# Two directions and one whole vector are known: the **velocity plan** is a triangle that can be drawn.
+#
+# Now the trick. In the mechanism draw through the cam centre $A$ the perpendicular to the motion; it meets the normal of the
+# profile in $C$. The triangle $ABC$ has its sides square to the three vectors: $AB \perp \vec v_1$, $BC \perp \vec v_{21}$ (the normal and the
+# tangent), $AC \perp \vec v_2$. So the two triangles are similar, and
+#
+# $$ \frac{AC}{AB} = \frac{v_2}{v_1} = \frac{\omega\,ds/d\varphi}{\omega\,AB}
+# \quad\Longrightarrow\quad AC = \frac{ds}{d\varphi} = v. $$
+#
+# **The velocity diagram contains a length of the mechanism.** $C$ can be laid off with the dividers; the line $BC$ is the normal; and
+# the profile has not been used.
+#
+# In practice one draws the congruent triangle on the other side: lay the length $v$ off from $B$, square to the motion, **turned
+# from $\vec v_2$ by 90° in the sense of the cam's rotation**, to $D$. Then the angle of $DA$ with the motion is $\alpha$. In numbers
+#
+# $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad s_0 = \sqrt{r_0^2 - e^2}, $$
+#
+# with $\sigma = +1$ for a counter-clockwise cam and $-1$ for a clockwise one, and $e$ positive to the right.
+#
+# ## The construction
+#
+# The coursework cam, $r_0 = 44$ mm, $e = -10$ mm, clockwise, at the station of the greatest velocity of the rise.
+
+# %%
+task = gc.builtin_task()
+solution = gc.solve(task)
+plan = solution.drawn["pressure_angle"]
+show_steps(plan)
+
+# %% [markdown]
+# Then the angle is found at every station and plotted over the cam angle. The greatest values are what the limits are for.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["angle_diagram"])
+
+# %% [markdown]
+# At the jumps of the acceleration the curve has corners: the angle itself is continuous, its slope is not.
+#
+# ## The sign of the offset, tried out
+#
+# The follower's line may pass the cam centre on either side. On one side the rise gains and the return loses, on the other the
+# reverse. Which one? Look at $\tan\alpha = (v - \sigma e)/(s_0 + s)$: on the rise $v > 0$, and the angle shrinks if $\sigma e > 0$. So
+#
+# > **The favourable offset of the rise lies on the side to which the top of the cam does not run:** right of the centre for a
+# > counter-clockwise cam, left of it for a clockwise one.
+#
+# Try all four cases on one cam, $r_0 = 45$ mm, $|e| = 10$ mm, with a smooth law:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+motion = gc.Motion([
+    gc.Rise(30, np.radians(120), "3-4-5"), gc.Dwell(np.radians(60)),
+    gc.Return(30, np.radians(120), "3-4-5"), gc.Dwell(np.radians(60)),
+])
+cases = {}
+for rotation in ("ccw", "cw"):
+    for offset in (10.0, -10.0):
+        cam = gc.Cam(motion, gc.Translating(offset=offset), prime_radius=45, rotation=rotation)
+        extremes = cam.extremes()
+        cases[rotation, offset] = degrees(extremes.pressure_angle_rise[0]), degrees(extremes.pressure_angle_return[0])
+table(("rotation", "e, mm", "greatest α on the rise, °", "on the return, °"),
+      [(rotation, f"{offset:+g}", *angles) for (rotation, offset), angles in cases.items()], digits=2)
+
+# %% [markdown]
+# Rotation and offset enter only together, as $\sigma e$: turn the cam the other way *and* put the follower on the other side, and you
+# have the mirror image of the same mechanism. What the rise gains the return pays. With a spring (force closure) the return's angle
+# does not matter, and the offset costs nothing.
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert cases["ccw", 10.0] == cases["cw", -10.0]
+assert cases["ccw", 10.0][0] < cases["ccw", -10.0][0] - 10
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def angles(offset, rotation):
+    cam = gc.Cam(motion, gc.Translating(offset=float(offset)), prime_radius=45, rotation=rotation)
+    phi = np.radians(np.linspace(0, 360, 721))
+    figure, axes = chart("φ, °", "α, °", 2.6)
+    axes.plot(np.degrees(phi), np.degrees(cam.pressure_angle(phi)), color="#0b57a4")
+    for limit in (-30, 30):
+        axes.axhline(limit, color="#b3201c", linewidth=0.8)
+    axes.set_ylim(-50, 50)
+    return picture_of(figure, f"The pressure angle over the cam angle for an offset of {offset} mm and a cam that turns {rotation}, "
+                      "with lines at plus and minus 30 degrees.", "Pressure angle over a revolution, limits of 30°")
+
+
+explore(
+    angles,
+    offset=Slider("offset e, mm", (-20, -15, -10, -5, 0, 5, 10, 15, 20), 0, (-15, 15)),
+    rotation=Slider("rotation", ("ccw", "cw"), "ccw"),
+)
+
+# %% [markdown]
+# ## Try it yourself
+#
+# A cam turns **counter-clockwise**, $r_0 = 50$ mm, $e = +14$ mm. At a station of the rise $s = 12$ mm and $v = 36$ mm/rad. Construct
+# the angle: $B$ on the follower's line at the height $s_0 + s$ above the centre, $v$ from $B$ to the correct side, the angle of $DA$ with the
+# motion.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+s0 = (50**2 - 14**2) ** 0.5
+height = Question(
+    s0, 0.5, "mm", "the right triangle of r₀ and e",
+    {"s₀ is not the prime radius: the follower's line passes the centre at the distance e": 50.0, "e is a leg, not the hypotenuse": (50**2 + 14**2) ** 0.5},
+)
+angle = Question(
+    degrees(atan((36 - 14) / (s0 + 12))), 0.7, "degrees", "the side of D and the height of B",
+    {"v was laid off to the wrong side, or e has the wrong sign": degrees(atan((36 + 14) / (s0 + 12))),
+     "the displacement s is forgotten": degrees(atan((36 - 14) / s0)),
+     "the offset is forgotten in the horizontal leg": degrees(atan(36 / (s0 + 12))),
+     "the height is taken from r₀ instead of s₀": degrees(atan((36 - 14) / 62)),
+     "that is the transmission angle, 90° − α": 90 - degrees(atan((36 - 14) / (s0 + 12)))},
+)
+reverse = Question(
+    degrees(atan((36 + 14) / (s0 + 12))), 0.7, "degrees", "what changes with the sense of rotation: the side of D",
+    {"the angle does change with the rotation": degrees(atan((36 - 14) / (s0 + 12)))},
+)
+
+# %% tags=["try-it"]
+your_s0 = None  # mm
+height.check(your_s0)
+
+# %% tags=["try-it"]
+your_alpha = None  # degrees
+angle.check(your_alpha)
+
+# %% [markdown]
+# Now the same cam turns **clockwise**. What does the pressure angle become?
+
+# %% tags=["try-it"]
+your_alpha_clockwise = None  # degrees
+reverse.check(your_alpha_clockwise)
+
+# %% [markdown]
+# ## Drawn and exact
+
+# %%
+compared(solution, "max_pressure_angle_rise_deg", "max_pressure_angle_return_deg")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+rise = solution.comparison.quantities["max_pressure_angle_rise_deg"]
+assert abs(rise.exact - 29.68) < 0.005
+assert abs(rise.error) < 0.01
+
+# %% [markdown]
+# ## Where the error comes from
+#
+# A pressure angle is the quotient of two lengths. Let each be off by $\delta$ mm of paper; then $\alpha$ is off by about
+# $\delta\cos\alpha/\overline{AD}$ radians, where $\overline{AD}$ is the length on paper. At 75 mm and $\delta = 0.3$ mm that is 0.2°. The
+# protractor adds half a degree, more than all the rest: **compute $\alpha$ from the two measured legs** rather than measure the angle.
+#
+# The greatest angle lies *between* stations, so it is read from the faired curve. If you take the greatest of the plotted points you
+# are always on the unsafe side.
+#
+# ## Questions
+#
+# 1. Why is the profile not needed to find $\alpha$? Which of its properties is used all the same?
+# 2. Where does the pressure angle vanish during the rise of an offset follower, and what does the velocity plan look like there?
+# 3. Your neighbour's cam has 22.8° on the rise where you have 37.0°, with the same $r_0$ and $|e|$. What do you ask him?
+# 4. During a dwell the follower does not move. Is the pressure angle zero then?

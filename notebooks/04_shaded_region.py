@@ -1,0 +1,374 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: The shaded region and the least radius
+# ---
+
+# %% [markdown]
+# # 4. The shaded region and the least radius
+#
+# **Aim.** You find the smallest cam that never pushes too much sideways: you draw the combined diagram, shade the region
+# in which the cam centre may lie, and choose the centre. And you can say *why* the region lies where it lies.
+#
+# **You need** the displacement and velocity diagrams of notebook 2 (their readings are given below if you missed it) and
+# the idea of the pressure angle (it is repeated below). On paper: A4, ruler, protractor, dividers.
+# **Time:** 60 minutes, 30 of them with the pencil.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+from math import degrees, radians
+
+import numpy as np
+
+import graphcam as gc
+from graphcam.notebooks import (
+    Question,
+    Slider,
+    changed,
+    chart,
+    compared,
+    drawing,
+    explore,
+    picture_of,
+    show_steps,
+    table,
+)
+
+# %% [markdown]
+# ## What is asked
+#
+# The cam pushes the follower along the common normal of profile and roller. The follower can only move along its guide.
+# The angle between the two directions is the **pressure angle** $\alpha$. Only the share $\cos\alpha$ of the force
+# lifts; the share $\sin\alpha$ presses the follower against the side of its guide. At 30° that is half the force, and
+# not far beyond it the follower of a common guide jams. So the task sets a limit $[\alpha]$: usually 30° on the rise,
+# where the cam does work, and 60° to 80° on the return, where a spring pushes back.
+#
+# A large cam has small pressure angles, because the same lift is spread over a longer profile. A small cam is lighter
+# and cheaper, and slides less. **What is the smallest cam that keeps the limit everywhere?** One could try radii and
+# compute $\alpha$ for each. The construction finds all permitted cams at once.
+#
+# ## The one idea
+#
+# From the velocity plan (notebook 3) we know the pressure angle without knowing the profile. With the lift $s$, the
+# velocity $v = ds/d\varphi$, the offset $e$ and the height $s_0$ of the lowest place above the cam centre
+#
+# $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, $$
+#
+# where $\sigma = +1$ for a cam that turns counter-clockwise and $-1$ for one that turns clockwise. Do not compute it.
+# *Look* at it: it is the ratio of a horizontal and a vertical length. So draw a right triangle:
+#
+# - the vertical leg $s_0 + s$ runs from the level of the cam centre $A$ up to the level $s$ of the follower;
+# - the horizontal leg runs from the follower's line, at the distance $e$ from the centre, out to the end $D$ of a
+#   segment of the length $v$ that is drawn *at the height* $s$.
+#
+# Then **the angle at $A$ between the vertical and the line $AD$ is the pressure angle itself.** Standing at $A$ and
+# looking up at the point $D$ of some station, we see it under the very angle at which the cam pushes there.
+#
+# Turn this round. The points $D_0, D_1, \dots$ depend only on the motion: $s$ and $v$. They can be drawn *before* there
+# is a cam. Then each possible centre $A$ is a place from which we look at them. A place is good if from there no $D$ of
+# the rise is seen under more than $[\alpha]$. Every $D$ forbids all the places on one side of a line through it; what
+# no point forbids is the region.
+#
+# ## The construction, step by step
+#
+# Our task is the coursework task with one limit more, so that you see all that can occur: 30° on the rise, 50° on the
+# return. The cam turns clockwise; the follower's offset shall be found.
+
+# %%
+task = changed(gc.builtin_task(), {
+    "follower.offset": None,
+    "limits.pressure_angle_rise": 30.0,
+    "limits.pressure_angle_return": 50.0,
+})
+solution = gc.solve(task)
+region = solution.drawn["minimum_radius"]
+
+# %% [markdown]
+# What we bring along from notebook 2, at the stations of the rise (12 parts) and of the return. The scale of the
+# displacement is $\mu_s = 0.6$ mm per mm of paper. **Segments and heights must have the same scale**, else the angles
+# are wrong, so each $v$ (in mm/rad) is divided by $\mu_s$ and not by $\mu_v$:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+read = solution.drawn["integration"].readings
+mu_s = float(read["s"].scale)
+s, v = read["s"], read["v"]
+rise, back = solution.chain.spans
+table(
+    ("station of the rise", "s on paper, mm", "v, mm/rad", "v to lay off, mm"),
+    [(f"{k}", float(s.paper[k]), float(v.value[k]), float(v.value[k]) / mu_s) for k in range(rise.start, rise.stop)],
+    digits=1,
+)
+
+# %% [markdown]
+# **First the points.** Draw the follower's line of motion upright and mark the start of the lift on it: the lowest place
+# of the follower, $s = 0$. Mark the heights $s_1, s_2, \dots$ above it. At each height lay off $v$ *turned from the
+# direction of motion by 90° in the sense in which the cam rotates*. Our cam turns clockwise and on the rise the follower
+# moves up; up, turned clockwise by a quarter, is to the **right**. On the return it moves down, so the segments go to the
+# **left**. No rule of signs needs to be remembered: turn the arrow of the velocity with the cam.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(region, 1)
+
+# %% [markdown]
+# The ends are faired into two curves. At the lowest and at the highest place the follower rests, $v = 0$, and the curves
+# meet the line of motion. With constant acceleration $v^2$ grows in proportion to $s$, so the curves are parabolas, and
+# in the middle, where the acceleration jumps, they have a corner.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(region, 2)
+
+# %% [markdown]
+# **Then the lines.** Take one end, say $D_3$. From which places $A$ is it seen under *exactly* 30° to the vertical? From
+# all those on the line through $D_3$ that leans 30° out of the vertical. From the left of this line and above it, $D_3$ is
+# seen under more than 30°; from the *right of it and below*, under less. So $D_3$ permits one half of the paper. Do this
+# for every $D$ of the rise: you get a bundle of **parallel** lines, for the angle is always the same, and only the
+# outermost one matters, because who keeps that one keeps all the others. The outermost of parallel lines that still
+# touches a curve is its **tangent**. That is why *one* line replaces twelve: **the tangent to the rise's curve at the
+# permitted angle**.
+#
+# Set the protractor to 30°, lean the ruler, and shift it parallel until it just touches the curve. Here it touches the
+# corner at station 6, the greatest velocity; with a smooth law it touches a little below.
+#
+# The return's curve lies on the other side, so its tangent leans the other way, at its own limit of 50°. And there is
+# a third line, easily forgotten: at the low rest the follower does not move, $v = s = 0$, yet the cam still bears it,
+# and the angle there is $\tan\alpha = -\sigma e/s_0$. Its point $D_0$ is the start of the lift, and the line through
+# it at 30° is the **rest line**.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(region, 3)
+
+# %% [markdown]
+# **The region** is what all three lines permit. It is open downwards: the further down, the larger the cam, and a large
+# cam is always permitted. It is convex, for each line cuts off a half of the paper. It lies to the *right* of the line
+# of motion because $v$ on the rise was laid off to the right: a centre on that side sees the points of the rise more
+# steeply. That is what a favourable offset means; for a clockwise cam the follower stands to the *left* of the centre.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(region, 4)
+
+# %% [markdown]
+# **Last the choice.** The distance from the centre $A$ to the start of the lift is the prime radius, because at the start
+# the follower is at its lowest:
+#
+# $$ r_0 = \sqrt{s_0^2 + e^2}. $$
+#
+# So the smallest permitted cam has its centre in the *place of the region nearest to the start of the lift*. Often that
+# is a corner of the region, sometimes the foot of a perpendicular on a side: measure both. Three cases are asked for:
+#
+# | the task says | the centre is |
+# |:--|:--|
+# | nothing about the offset | the region's point nearest to the start of the lift |
+# | the offset $e$ | where the upright line at the distance $e$ enters the region |
+# | a central follower, $e = 0$ | where the line of motion itself enters the region |
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(region, 5)
+
+# %% [markdown]
+# In our task the nearest place is the *apex*, where the two tangents cross, and many books always take the apex. That is
+# not always right. For a cycloidal rise over 60° and return over 240° with limits of 30° and 85° the apex gives a radius
+# of 46.98 mm, but there it breaks the rest line; the smallest permitted cam has 49.16 mm. Who forgets the rest line
+# altogether finds 42.58 mm. So look at the region, not at a rule.
+#
+# ## Do not believe it: look from every place
+#
+# The following map does what we could not do by hand. For every place of the paper it looks at all the points $D$ of the
+# rise and of the return and at the low rest, and notes whether some limit is exceeded. No tangent is drawn, no formula
+# of the region is used. White is permitted. The lines are those of our construction.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+ends = region.points["ends"]
+x, y = np.meshgrid(np.linspace(-120, 120, 241), np.linspace(-130, 60, 191))
+places = x + 1j * y
+# The angle to the vertical under which each place sees each D: positive where D is to the right.
+seen = np.degrees(-np.angle((ends[:, None, None] - places) / 1j))
+over = {
+    "rise": seen[rise].max(axis=0) > 30,
+    "return": (-seen[back]).max(axis=0) > 50,
+    "rest": np.abs(seen[0]) > 30,
+}
+figure, axes = chart("mm of paper", "mm of paper", 4.4)
+forbidden = np.where(over["rise"] | over["return"] | over["rest"], 1.0, 0.0)
+axes.contourf(x, y, forbidden, levels=[0.5, 1.5], colors=["#d8dce2"])
+axes.plot(ends.real, ends.imag, ".", color="black", markersize=4)
+for name, angle, side in (("rise", 30, 1), ("return", 50, -1), ("rest", 30, -1)):
+    touch = complex(region.points[name])
+    down = np.array([0, 200]) * np.exp(-1j * (np.pi / 2 + side * radians(angle)))
+    axes.plot((touch + down).real, (touch + down).imag, color="#b3201c", linewidth=1)
+centre = complex(region.points["centre"])
+axes.plot([0, centre.real], [0, centre.imag], color="#0b57a4", marker="o")
+axes.annotate("A", (centre.real, centre.imag), xytext=(6, -4), textcoords="offset points")
+axes.set(xlim=(-120, 120), ylim=(-130, 60), aspect="equal")
+picture_of(
+    figure,
+    "A map of the paper: grey where some pressure angle exceeds its limit. The white rest is "
+    "a wedge open downwards, bounded by the three drawn lines, with A at its point nearest to the start.",
+    "Where some limit is exceeded (grey), found by looking from every place; the drawn lines bound what is left",
+)
+
+# %% [markdown]
+# The white wedge found by brute force is the shaded region of the drawing. The lines *are* its boundary, because each
+# of them is the place from which one point is seen under exactly its limit.
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+# A millimetre inside the region no limit is exceeded, a millimetre outside, towards the start, one is.
+def exceeded(place):
+    sees = np.degrees(-np.angle((ends - place) / 1j))
+    return max(sees[rise].max() - 30, (-sees[back]).max() - 50, abs(sees[0]) - 30)
+
+
+assert exceeded(centre - 1j) <= 0 < exceeded(centre + 1j)
+assert abs(exceeded(centre)) < 0.05
+
+# %% [markdown]
+# ## Do it on paper
+#
+# 1. Line of motion upright, start of the lift marked; heights $s_i/\mu_s$ above it.
+# 2. At each height $v_i/\mu_s$ (the *same* scale) turned from the velocity with the cam's rotation; number the ends.
+# 3. Fair the two curves.
+# 4. Tangent to the rise's curve at $[\alpha]$, to the return's at its limit (none if a spring closes the mechanism),
+#    line through the start at $[\alpha]$ on the other side.
+# 5. Shade what all lines permit, downwards.
+# 6. Choose the centre; measure its distance from the start; times $\mu_s$ it is $r_0$. Measure $e$ and $s_0$ too.
+# 7. Round $r_0$ **up**: a larger cam is permitted, a smaller one is not.
+#
+# ## Try it yourself
+#
+# Let the limit on the rise be **35°** instead of 30°, everything else as above. Two new lines on your drawing are enough.
+# Measure the distance from the start of the lift to the new centre.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+eased = gc.solve(changed(task, {"limits.pressure_angle_rise": 35.0})).drawn["minimum_radius"].readings
+before, r0 = region.readings["prime_radius"], eased["prime_radius"]
+distance = Question(
+    float(r0.paper), 1.5, "mm of paper", "the choice of the centre, step 5",
+    {"that is already the machine's radius; on paper it is longer": float(r0.value),
+     "that is still the centre for 30°": float(before.paper)},
+)
+prime_radius = Question.of(r0, "step 5 and the scale μₛ")
+central = Question.of(
+    gc.solve(changed(task, {"follower.offset": 0.0})).drawn["minimum_radius"].readings["prime_radius"],
+    "the table of the three cases: where does the line of motion enter the region?",
+    {"that is the radius at the best offset": float(before.value)},
+)
+mu_v = float(v.scale)
+slope = np.tan(radians(30))
+drawn_angle = Question(
+    degrees(np.arctan(slope * mu_s / mu_v)), 0.5, "degrees", "the slope with two scales",
+    {"the scales are inverted": degrees(np.arctan(slope * mu_v / mu_s)),
+     "the tangents are in proportion, not the angles": 30 * mu_s / mu_v,
+     "30° would be right only with equal scales": 30.0},
+)
+
+# %% tags=["try-it"]
+your_distance = None  # mm of paper
+distance.check(your_distance)
+
+# %% [markdown]
+# And now the prime radius itself, in millimetres of the machine:
+
+# %% tags=["try-it"]
+your_r0 = None  # mm
+prime_radius.check(your_r0)
+
+# %% [markdown]
+# Back to 30°. The follower shall now be **central**. Draw nothing new; one more measurement on your drawing is enough.
+# What is $r_0$?
+
+# %% tags=["try-it"]
+your_central_r0 = None  # mm
+central.check(your_central_r0)
+
+# %% [markdown]
+# A fellow student took $v$ in its own scale, $\mu_v = 0.859$ (mm/rad)/mm, beside $s$ in $\mu_s = 0.6$ mm/mm, and leaned
+# the tangent at 30°. Which angle should it have been? The drawn slope is
+# $\tan\alpha_{\text{drawn}} = \tan\alpha\;\mu_s/\mu_v$, because a length of $v$ has become shorter than one of $s$.
+
+# %% tags=["try-it"]
+your_angle_deg = None  # degrees
+drawn_angle.check(your_angle_deg)
+
+# %% [markdown]
+# ## Move it
+#
+# The limits move the lines, the offset moves the place on them. Say before you look: which way does the rise's tangent
+# go when its limit grows from 30° to 40°? What does force closure (no limit on the return) do? What happens with an offset
+# on the wrong side (for this clockwise cam a positive one)?
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def with_limits(rise_limit, return_limit, offset):
+    limits = {
+        "limits.pressure_angle_rise": float(rise_limit),
+        "limits.pressure_angle_return": None if return_limit == "none" else float(return_limit),
+        "follower.offset": None if offset == "free" else float(offset),
+    }
+    return drawing(gc.solve(changed(task, limits)).drawn["minimum_radius"])
+
+
+explore(
+    with_limits,
+    rise_limit=Slider("limit on the rise, °", (20, 25, 30, 35, 40, 45), 30, (25, 40)),
+    return_limit=Slider("limit on the return, °", (30, 40, 50, 60, 70, "none"), 50, ("none",)),
+    offset=Slider("offset, mm", ("free", -20, -10, 0, 10, 20), "free", (10,)),
+)
+
+# %% [markdown]
+# ## Drawn and exact
+#
+# The exact side solves the three inequalities
+#
+# $$ s_0\tan[\alpha] + \sigma e \ge \max_{\text{rise}}\,(v - s\tan[\alpha]), \quad
+# s_0\tan[\alpha'] - \sigma e \ge \max_{\text{return}}\,(|v| - s\tan[\alpha']), \quad
+# \sigma e \le s_0\tan[\alpha] $$
+#
+# for the least $r_0$, with the closed formulas of the law. The maxima are the intercepts of our tangents.
+
+# %%
+compared(solution, "minimum_prime_radius", "minimum_offset")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+exact = gc.minimum_radius(
+    task.motion(), gc.Translating(), rotation="cw", rise=radians(30), return_=radians(50), offset=None
+)
+quantity = solution.comparison.quantities["minimum_prime_radius"]
+assert abs(quantity.exact - exact.prime_radius) < 1e-9
+assert abs(quantity.error_paper) <= quantity.tolerance_paper + 1e-9
+assert abs(float(before.value) - 42.919) < 0.001
+
+# %% [markdown]
+# ## Where the error comes from
+#
+# With a perfect pencil only from the readings of $s$ and $v$: the region needs nothing but points and tangents. If the
+# tangent is laid through *plotted* points instead of the faired curve it may only lie too far inside, so the radius
+# comes out **too small, on the unsafe side**, whenever the true point of touch lies between two stations.
+#
+# With a real pencil the tangent's angle is the weak place. How much does one degree of the protractor cost?
+
+# %%
+def radius_at(limit):
+    motion = task.motion()
+    return gc.minimum_radius(motion, gc.Translating(), rotation="cw", rise=radians(limit), return_=radians(50)).prime_radius
+
+
+per_degree = (radius_at(31) - radius_at(29)) / 2
+print(f"one degree more on the rise changes the radius by {per_degree:.2f} mm")
+
+# %% [markdown]
+# A protractor is read to half a degree. Compare that with a pencil line of 0.2 mm, times $\mu_s$: **the protractor
+# decides.** Better than a protractor is the tangent of the angle itself: for 30° go 100 mm down and 57.7 mm aside.
+#
+# ## Questions
+#
+# 1. Why are the lines of all stations parallel, and why would they not be if the limit differed from station to station?
+# 2. The region is never closed below. What does that say about a cam that is large enough?
+# 3. Which two of the three lines bind in our task? How do you see on the drawing that the third does not matter?
+# 4. The same motion with a cam that turns counter-clockwise: which part of the drawing changes, and how does the sign
+#    of the best offset?
+# 5. In which case is the nearest point of the region *not* a corner?

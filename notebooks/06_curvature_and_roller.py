@@ -1,0 +1,178 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: "Three points, chords, the roller and undercut"
+# ---
+
+# %% [markdown]
+# # 6. Three points, chords, the roller and undercut
+#
+# **Aim.** At the end you can find the sharpest place of a drawn curve with the compass, choose a roller that fits it, and recognise a
+# profile that cannot be cut.
+#
+# **You need** a drawn pitch curve (notebook 5). On paper: A4, compass, ruler. **Time:** 50 minutes, 25 of them with the pencil.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+from math import degrees
+
+import numpy as np
+
+import graphcam as gc
+from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, show_steps, table
+
+# %% [markdown]
+# ## Background
+#
+# Three points determine a circle. Three *near* points of a curve determine, almost, its circle of curvature: the circle that fits the
+# curve best there. Its centre lies where the perpendicular bisectors of the two chords meet; its radius $\rho$ is the radius of
+# curvature.
+#
+# Why do we ask? The roller rolls *outside* the working profile, and its centre draws the pitch curve. The working profile is the inner parallel
+# of the pitch curve at the distance $r$, so its own radius of curvature is
+#
+# $$ \rho_{\text{profile}} = \rho - r $$
+#
+# where the cam is convex. If $r < \rho$ all is well. If $r = \rho$ the profile has a point, which wears away at once. If $r > \rho$ the
+# parallel curve turns back on itself in two cusps: the cutter that makes one flank removes what the other flank needs, and the cam that
+# is left no longer moves the follower by the law. That is **undercut**. So the roller must stay well below the *least* convex radius:
+#
+# | school | rule |
+# |:--|:--|
+# | a share of the curvature, and of the cam | $r \le 0.7\,\rho_{\min}$ and $r \le 0.4\,r_0$, the smaller |
+# | of the cam alone | $r = 0.45\,r_0$ |
+# | a margin | $r = \rho_{\min} - (3\ldots5)$ mm |
+#
+# A large roller is good: it turns more slowly and presses less. The rule is a bargain again.
+#
+# ## The construction
+
+# %%
+task = gc.builtin_task()
+solution = gc.solve(task)
+curvature = solution.drawn["curvature"]
+show_steps(curvature)
+
+# %% [markdown]
+# Where is the sharpest place? Not where the curve *looks* pointed at first glance: move the compass along the curve. For this task it lies at
+# the beginning of the return, where the acceleration is most negative while the follower is high: a strongly negative $a$ bends the pitch
+# curve. Never take three points across a jump of the acceleration: the curvature jumps there too, and the circle would be a mean of two.
+#
+# Then the roller:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["roller"])
+show_steps(solution.drawn["working_profile"], 1, 2)
+
+# %% [markdown]
+# ## Try it yourself
+#
+# Three points of a pitch curve, on paper: $A(0, 0)$, $B(30, 8)$, $C(60, 0)$ mm. Draw them, bisect the chords, find the centre. How long is
+# $\rho$ on the paper? The profile is drawn at **2:1**: how long is it in the machine? And how large may the roller be by the rule
+# $0.7\,\rho$?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+radius = abs(float(gc.circumradius([0, 0], [30, 8], [60, 0])))
+rho_paper = Question(
+    radius, 1.5, "mm of paper", "the bisectors: both must be square to their chords",
+    {"that is the length of the chord": float(np.hypot(30, 8)), "the centre lies on the bisector of AC; measure from B": radius - 8},
+)
+rho_machine = Question(
+    radius / 2, 0.8, "mm", "the drawing scale", {"at 2:1 the paper shows everything twice as large": radius, "2:1 is not 1:2": 2 * radius}
+)
+roller = Question(
+    0.7 * radius / 2, 0.6, "mm", "the rule, applied in the machine",
+    {"the rule was applied to the length on paper": 0.7 * radius, "the roller must be smaller than ρ": radius / 2},
+)
+
+# %% tags=["try-it"]
+your_rho_paper = None  # mm of paper
+rho_paper.check(your_rho_paper)
+
+# %% tags=["try-it"]
+your_rho = None  # mm
+rho_machine.check(your_rho)
+
+# %% tags=["try-it"]
+your_roller = None  # mm
+roller.check(your_roller)
+
+# %% [markdown]
+# ## Undercut, seen
+#
+# A smooth law on a cam that is much too small. Move the roller and watch the circles: where the profile should be, one circle covers the touch
+# points of its neighbours.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+small = changed(task, {
+    "cam.prime_radius": 30.0,
+    "motion.phases": tuple(changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases),
+})
+
+
+def with_roller(roller):
+    return drawing(gc.solve(changed(small, {"follower.roller_radius": float(roller)})).drawn["working_profile"])
+
+
+explore(with_roller, roller=Slider("roller radius, mm", (4, 8, 12, 16, 20, 24), 8, (8, 24)))
+
+# %% [markdown]
+# What the exact side says of the roller of 24 mm, and the largest one that avoids the cusps:
+
+# %%
+cam = gc.solve(changed(small, {"follower.roller_radius": 24.0})).cam
+lost = cam.undercuts()[0]
+print(f"cusps at {degrees(lost.cusps[0]):.1f}° and {degrees(lost.cusps[1]):.1f}°, "
+      f"largest roller {gc.largest_roller(cam):.2f} mm")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(gc.largest_roller(cam) - 18.798) < 0.001
+assert not gc.solve(changed(small, {"follower.roller_radius": 18.0})).cam.undercuts()
+
+# %% [markdown]
+# ## Drawn and exact
+
+# %%
+compared(solution, "min_pitch_curvature_radius", "roller_radius")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+rho = solution.comparison.quantities["min_pitch_curvature_radius"]
+assert abs(rho.exact - 29.718) < 0.001
+assert abs(rho.error_paper) <= rho.tolerance_paper
+
+# %% [markdown]
+# The drawn radius is off by about a millimetre, more than anything else on the sheet, and on the *unsafe* side. Why?
+#
+# ## Where the error comes from
+#
+# Two enemies pull in opposite directions. Let the points be $h$ apart and each off by $\sigma$ mm.
+#
+# - **The points are too far apart.** The circle is a mean over the arc. For equal chords the curvature is off by $\kappa'' h^2/12$.
+# - **The points are too near.** A bow of the height $h^2/(2\rho)$ is measured; an error of $\sigma$ in it scatters the radius, relatively, by
+#
+# $$ \frac{\Delta\rho}{\rho} \approx \frac{\sqrt6\,\sigma\,\rho}{h^2}. $$
+
+# %%
+sigma, rho_on_paper = 0.2, 60.0
+table(("chord h, mm", "scatter of ρ, %"), [(f"{h}", 100 * 6**0.5 * sigma * rho_on_paper / h**2) for h in (5, 10, 15, 20, 30)], digits=1)
+
+# %% [markdown]
+# With chords of 13 mm, as in our drawing, a pencil of 0.2 mm makes a scatter of 17 %. With chords of 5 mm the radius is pure chance. **Take
+# points 20 to 30 mm apart, and say on the sheet how far apart they were.** The best distance balances the two:
+# $h \approx 2.33\,(\sigma/|\kappa''|)^{1/4}$.
+#
+# Our task has a third source: the least radius is a *one-sided limit* at the jump of the acceleration. The three points must stay on one side
+# of it, so the middle one cannot lie at the place itself; that error falls only in proportion to the step.
+#
+# ## Questions
+#
+# 1. The profile is concave on a flank. Which condition must the roller keep there?
+# 2. Why does the knife-edge follower never undercut, and why is it not used?
+# 3. A cam is undercut with a roller of 20 mm. Name three things to change. Which one changes the sheet least?
+# 4. Derive $\sqrt6\,\sigma\rho/h^2$: the height of the bow is $B - (A + C)/2$, and all three points are off by $\sigma$.

@@ -1,0 +1,148 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: "Cams of three circular arcs"
+# ---
+
+# %% [markdown]
+# # 8. Cams of three circular arcs
+#
+# **Aim.** At the end you can design a cam flank from circular arcs with ruler and compass, say which of the two solutions can be built, and read the
+# acceleration off the drawing that such a cam gives.
+#
+# **You need** circles that touch, perpendicular bisectors, notebook 3. On paper: A3, compass, ruler. **Time:** 60 minutes, 40 of them with the pencil.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+import numpy as np
+
+import graphcam as gc
+from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, show_steps, table
+
+# %% [markdown]
+# ## Background
+#
+# So far we chose the motion and found the profile. The workshop prefers the reverse: arcs can be turned, ground and measured. The flank from the base circle to
+# the outer circle is made of **three arcs that touch one another**: the first leaves the base circle in $A$ and ends in $G$, the second runs from $G$ to $F$,
+# the third from $F$ to $D$ on the outer circle. The motion follows from the arcs.
+#
+# Everything rests on one theorem: **where two circles touch, their centres and the point of touch lie on one line.** So
+#
+# - the centre $C_1$ of the arc that ends in $D$ lies on the line from the cam centre $O$ to $D$, at the distance $\rho_1$ from $D$;
+# - the centre $C_2$ of the arc that begins in $A$ lies on the line $OA$, equally far from $A$ and from $G$: on the *perpendicular bisector* of $AG$;
+# - the centre $C_3$ of the arc in between lies on the line $C_2G$, and it is to touch the first arc, whose centre is $\rho_1$ away from the arc: lay $\rho_1$ off
+#   from $G$ on the line $GC_2$ to a point $P$; then $C_3$ is equally far from $P$ and from $C_1$: on the bisector of $PC_1$.
+#
+# ## The construction
+
+# %%
+task = gc.builtin_arcs_task()
+solution = gc.solve(task)
+show_steps(solution.drawn["three_arcs"])
+
+# %% [markdown]
+# **Why two roots?** $\rho_1$ can be laid off from $G$ to either side. One root is a profile; in the other the arcs touch from the wrong side, and the profile would
+# turn back in a cusp. The test is the *order* on the lines of centres: $F, C_1, C_3$ and $G, C_3, C_2$ must follow each other so.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+table(("root", "C3 x, mm", "C3 y, mm", "can be built", "why"), [
+    (f"{k}", float(root.C3[0]), float(root.C3[1]), "yes" if root.sound else "no", root.why)
+    for k, root in enumerate(solution.roots, 1)
+])
+
+# %% [markdown]
+# ## What the roller does
+#
+# The roller's centre runs on the parallel arcs, $r$ further out. As long as it runs on one arc, its distance from that arc's centre is fixed: the cam behaves like a
+# **crank and connecting rod**, with the crank $OC$ and the rod $\rho + r$. So velocity and acceleration of every station can be drawn as plans of a crank
+# mechanism.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["arc_roller"])
+
+# %% [markdown]
+# At $G$ and $F$ the rod changes its length in an instant. The velocity does not notice, the **acceleration jumps**: the curvature of the profile jumps there. Three
+# arcs mean four soft impacts a flank.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["arc_diagrams"], 1, 2)
+
+# %% [markdown]
+# ## Try it yourself
+#
+# In the drawing of the task the first centre lies on the line $OD$. Suppose the task had left it out: $D(51.68,\ 18.81)$, $\rho_1 = 17$ mm. Where is
+# $C_1$?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+away = np.array([51.68, 18.81])
+c1 = away * (1 - 17 / np.hypot(*away))
+centre_x = Question(
+    float(c1[0]), 0.5, "mm", "the theorem: O, C₁ and D on one line",
+    {"the centre lies inside, towards O": float((away * (1 + 17 / np.hypot(*away)))[0]), "that is y": float(c1[1]), "ρ₁ is laid off along OD, not along x": 51.68 - 17},
+)
+centre_y = Question(float(c1[1]), 0.5, "mm", "the theorem: O, C₁ and D on one line", {"ρ₁ is laid off along OD, not along y": 18.81 - 17, "that is x": float(c1[0])})
+lift = Question(
+    float(np.hypot(*away)) - 40, 0.5, "mm", "the two circles about O",
+    {"the lift is the difference of the radii, not the outer radius": float(np.hypot(*away)), "A lies on the base circle, whose radius is OA": float(np.hypot(*away)) - 17},
+)
+
+# %% tags=["try-it"]
+your_x = None  # mm
+centre_x.check(your_x)
+
+# %% tags=["try-it"]
+your_y = None  # mm
+centre_y.check(your_y)
+
+# %% [markdown]
+# And how great is the lift of this cam? The rise begins in $A(0,\ 40)$.
+
+# %% tags=["try-it"]
+your_lift = None  # mm
+lift.check(your_lift)
+
+# %% [markdown]
+# ## Move it
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def with_roller(roller):
+    return drawing(gc.solve(changed(task, {"follower.roller_radius": float(roller)})).drawn["arc_diagrams"], "acceleration")
+
+
+explore(with_roller, roller=Slider("roller radius, mm", (0, 5, 10, 15, 20), 10, (0, 20)))
+
+# %% [markdown]
+# A larger roller makes the rods longer. The great step at $F$, where the short rod takes over, shrinks; the others hardly change, and none vanishes.
+#
+# ## Drawn and exact
+
+# %%
+compared(solution, "lift", "F_x", "F_y", "rho3", "a_G_before", "a_G_after", "a_F_before", "a_F_after")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(float(solution.drawn["three_arcs"].readings["F_x"].value) - 46.834) < 0.001
+assert abs(solution.comparison.quantities["rho3"].exact - 53.228) < 0.001
+assert [root.sound for root in solution.roots] == [True, False]
+
+# %% [markdown]
+# A perfect hand is exact here: ruler and compass constructions have no error of the method. That is their charm.
+#
+# ## Where the error comes from
+#
+# From lines that cross flatly. The bisector of $PC_1$ and the line $C_2G$ meet at a small angle; there a pencil line of 0.2 mm becomes a millimetre or more in the place of
+# $C_3$. It does less harm than it seems: $C_3$ slides *along* the line through $G$, and the arc still passes through $G$ with the right tangent. Check $F$: it must lie on both
+# arcs.
+#
+# ## Questions
+#
+# 1. Why do the arcs touch with a common tangent, and what would happen to the *velocity* if they did not?
+# 2. Which impact (notebook 1) has a cam of arcs? Where?
+# 3. The flank may be a straight line instead of the middle arc. Where is $C_3$ then?
+# 4. Why does the follower's acceleration jump *down* from the second to the third arc? Which rod is longer?

@@ -1,0 +1,181 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+#   title: "The whole coursework sheet"
+# ---
+
+# %% [markdown]
+# # 10. The whole coursework sheet
+#
+# **Aim.** At the end you have a complete sheet: task, diagrams, least radius, profile, roller, checks; and you know in which order the decisions fall and who decides.
+#
+# **You need** notebooks 1 to 6. On paper: A1 or two sheets of A3. **Time:** this reading 40 minutes; the sheet an afternoon.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+
+
+import graphcam as gc
+from graphcam.main_job.sheet import sheet
+from graphcam.notebooks import (
+    Question,
+    Slider,
+    changed,
+    compared,
+    drawing,
+    explore,
+    picture_of_page,
+    show_steps,
+    table,
+)
+
+# %% [markdown]
+# ## Background: the chain
+#
+# | step | given | read off | notebook |
+# |:--|:--|:--|:--|
+# | acceleration diagram | laws, phase angles, one chosen ordinate | the return's ordinate | 1 |
+# | two integrations | middle ordinates, two poles | $v$, $s$, the three scales | 2 |
+# | combined diagram | $s$, $v$, limits | $r_0$, $e$, $s_0$ | 4 |
+# | **decision** | the proposals | $r_0$ rounded up, $e$ rounded | 4 |
+# | pressure angles | $s$, $v$, the *adopted* $r_0$ and $e$ | $\alpha$ at every station | 3 |
+# | inversion | $s$, $r_0$, $e$ | the pitch curve | 5 |
+# | three points | the pitch curve | $\rho_{\min}$ | 6 |
+# | **decision** | $\rho_{\min}$, $r_0$, the rule | $r$ rounded down | 6 |
+# | working profile | pitch curve, $r$ | the cam | 5, 6 |
+#
+# Each line uses only what was given or read off before. The two *decisions* are different from readings: as in a design office the drawing proposes 43.28 mm and the
+# engineer adopts 44 mm, and from there on everything is drawn for 44 mm. Radii are rounded **up**, rollers **down**: always to the safe side.
+#
+# ## The sheet
+
+# %%
+task = gc.builtin_task()
+solution = gc.solve(task)
+picture_of_page(sheet(solution).pages[0], "The finished coursework sheet: three diagrams one under the other with their poles, beside the displacement the combined "
+                "diagram with the shaded region, the cam profile with its inversion lines, tables and title block.", "The finished sheet")
+
+# %% [markdown]
+# Look at how it is arranged: the three diagrams stand exactly one under the other on one axis of the cam angle; the combined diagram stands beside $s$, so that the displacements are
+# *projected* across and not measured. Thin lines construct, bold lines are results.
+#
+# ## Step by step through the decisions
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["integration"], 7)
+show_steps(solution.drawn["minimum_radius"], 5)
+
+# %% [markdown]
+# The drawing proposes the least radius; adopted is the next full millimetre. The pressure angle of the adopted cam is then a little better than the limit:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(solution.drawn["angle_diagram"], 2)
+show_steps(solution.drawn["curvature"], 3)
+show_steps(solution.drawn["roller"])
+show_steps(solution.drawn["working_profile"], 2, 3)
+
+# %% [markdown]
+# ## Try it yourself
+#
+# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **counter-clockwise**. Which least radius
+# will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+mirrored = gc.solve(changed(task, {"follower.offset": 10.0, "rotation": "ccw"}))
+wrong_side = gc.solve(changed(task, {"follower.offset": 10.0}))
+least = Question.of(
+    mirrored.drawn["minimum_radius"].readings["prime_radius"], "notebook 3: rotation and offset enter only as their product",
+    {"the offset lies on the favourable side of this cam": float(wrong_side.drawn["minimum_radius"].value("prime_radius"))},
+)
+adopted = Question(
+    mirrored.cam.prime_radius, 0.01, "mm", "the decision: round to a full millimetre, to the safe side", {"rounded down: the limit would be exceeded": 43.0, "that is the proposal, not the decision": 43.28},
+)
+roller = Question(
+    mirrored.cam.roller_radius, 0.01, "mm", "the rule with the adopted radius, rounded down",
+    {"round the roller down": 18.0, "that is the proposal; a workshop wants a round number": 17.6, "the smaller of the two counts": 21.0},
+)
+
+# %% tags=["try-it"]
+your_least_radius = None  # mm
+least.check(your_least_radius)
+
+# %% tags=["try-it"]
+your_adopted_radius = None  # mm
+adopted.check(your_adopted_radius)
+
+# %% tags=["try-it"]
+your_roller = None  # mm
+roller.check(your_roller)
+
+# %% [markdown]
+# ## Move it
+#
+# The decisions on the finished profile:
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def with_decisions(offset, limit):
+    values = {"follower.offset": float(offset), "limits.pressure_angle_rise": float(limit)}
+    return drawing(gc.solve(changed(task, values)).drawn["working_profile"])
+
+
+explore(
+    with_decisions,
+    offset=Slider("offset, mm", (-20, -15, -10, -5, 0, 5, 10), -10, (0,)),
+    limit=Slider("limit on the rise, °", (20, 25, 30, 35, 40), 30, (20, 40)),
+)
+
+# %% [markdown]
+# ## Drawn and exact
+
+# %%
+compared(solution)
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert solution.cam.prime_radius == 44
+assert solution.cam.roller_radius == 17
+assert abs(solution.comparison.quantities["minimum_prime_radius"].exact - 43.280) < 0.001
+assert all(abs(q.error_paper) <= q.tolerance_paper + 1e-9 for q in solution.comparison.quantities.values())
+assert abs(float(mirrored.drawn["minimum_radius"].value("prime_radius")) - 43.280) < 0.001
+
+# %% [markdown]
+# Every quantity lies within its bound. The bound says how far a *perfect* hand may be off with 12 parts; yours may be off by what notebook 7 says in addition.
+#
+# ## At speed
+#
+# The task gives 120 rpm. What the follower really does in each phase:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s²"), [
+    (p.kind, q.time, q.max_velocity, q.max_acceleration)
+    for p, q in zip(task.motion.phases, solution.comparison.phases(task.speed_rpm), strict=True)
+])
+
+# %% [markdown]
+# ## Before you hand it in
+#
+# 1. The areas under the acceleration are equal in each phase; velocity and displacement come back to the axis; the closing errors are stated.
+# 2. All scales are on the sheet, with units, and $\mu_\varphi$ in radians.
+# 3. The segments in the combined diagram are in the scale of $s$; the tangents touch; the rest line is there.
+# 4. The follower's line stands on the favourable side; the numbers run against the rotation.
+# 5. $s$ is laid off from the prime circle; the dwells are arcs about the centre.
+# 6. The greatest pressure angle *of the adopted cam* is below the limit; the roller keeps the rule.
+# 7. The gauge on a print measures 100 mm.
+#
+# ## Where the error comes from
+#
+# Look at the last column of the table above in millimetres of *paper*: nearly all of it is zero here, because constant acceleration has no error of the method; the radius of curvature remains, whose three points
+# lie on one side of a jump. Draw the same sheet with another law and with a pencil: `graphcam solve cam.toml --pencil 0.2`.
+#
+# ## Questions
+#
+# 1. Which decision would you revise if the roller came out at 8 mm?
+# 2. The client wants the cam to turn the other way. Which parts of the sheet must be drawn anew?
+# 3. Which number of your sheet would you stake money on, and which not?
+# 4. Write the sheet's chain backwards: what must be known to check the profile of a foreign cam?

@@ -1,0 +1,158 @@
+"""Builds the site: ``python notebooks/site/build.py``, or with ``--no-execute`` in a minute.
+
+The pages of this folder, the notebooks with their outputs, the gallery of sheets and the reference of the public names
+are laid together in a temporary folder; Sphinx makes the site of it, and a warning fails the build.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import jupytext
+import nbformat
+from nbformat import NotebookNode
+from PIL import Image
+from sphinx.cmd.build import build_main
+
+import graphcam as gc
+from graphcam.notebooks.running import execute
+
+HERE = Path(__file__).parent
+COURSE = HERE.parent
+NOTEBOOKS = sorted(COURSE.glob("[0-9][0-9]_*.py"))
+GALLERY = {
+    "coursework": "A translating roller follower: constant acceleration, the cam turns clockwise.",
+    "arm": "An oscillating follower.",
+    "flat": "A flat-faced follower.",
+    "measured": "A motion given as a measured table.",
+    "arcs": "A cam of three circular arcs.",
+}
+"""The built-in tasks, and what is seen on their sheets."""
+SHEET_DPI = 60
+"""Of the gallery's pictures: small to load, and the captions can still be read."""
+COLOURS = 32
+GROUPS = {
+    "motion": ("Motions, followers, loads", ("given",)),
+    "exact": ("Exact values", ("mechanism",)),
+    "drawn": ("The drawing board", ("drafting", "constructions")),
+    "tasks": ("Tasks and solutions", ("task", "arcs_task", "task_file", "main_job")),
+    "errors": ("Errors", ("errors",)),
+}
+"""The pages of the reference: title, and the rooms whose public names stand there."""
+
+
+def stored(path: Path) -> NotebookNode:
+    """A notebook as it is stored, without outputs."""
+    return jupytext.read(path)
+
+
+def run(path: Path) -> NotebookNode:
+    """A notebook with its outputs, from a clean kernel."""
+    print(f"executing {path.stem}", flush=True)
+    return execute(jupytext.read(path), COURSE)
+
+
+def build(out: Path, notebook: Callable[[Path], NotebookNode] = run, sheets: Iterable[str] = GALLERY) -> int:
+    """Build the site into the folder; 0 where nothing is wrong.
+
+    notebook : reads a notebook of the course, with its outputs if the site shall show them
+    sheets : the built-in tasks of the gallery whose sheets are drawn
+    """
+    with tempfile.TemporaryDirectory(prefix="graphcam-site-") as folder:
+        source = Path(folder) / "source"
+        shutil.copytree(HERE / "pages", source)
+        shutil.copy(COURSE.parent / ".readme" / "coursework.png", source)
+        for path in NOTEBOOKS:
+            nbformat.write(notebook(path), source / "course" / f"{path.stem}.ipynb")
+        write_gallery(source / "gallery", sheets)
+        write_reference(source / "reference")
+        return build_main(
+            ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]
+        )
+
+
+def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
+    """The page of sheets, and their pictures."""
+    from graphcam.main_job import sheet_of, solve
+    from graphcam.sheets.matplotlib_renderer import write_png
+
+    page = [(folder / "index.md").read_text(encoding="utf-8")]
+    for name, caption in GALLERY.items():
+        page += [f"## {caption.rstrip('.')}", f"Task: `graphcam/data/tasks/{name}.toml`"]
+        if name in drawn:
+            task = gc.builtin_arcs_task() if name == "arcs" else gc.builtin_task(name)
+            picture = folder / f"{name}.png"
+            write_png(sheet_of(solve(task)).pages[0], picture, SHEET_DPI)
+            # Thin lines in a few colours: a palette says them in a third of the bytes.
+            Image.open(picture).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
+            page += [f"[![The sheet: {caption}]({name}.png)]({name}.png)"]
+    (folder / "index.md").write_text("\n\n".join(page) + "\n", encoding="utf-8")
+
+
+def write_reference(folder: Path) -> None:
+    """A page for each group of public names, so that no name is left out, and one of the commands."""
+    left = set(gc.__all__)
+    for page, (title, rooms) in GROUPS.items():
+        names = [name for name in gc.__all__ if room_of(name) in rooms]
+        left -= set(names)
+        text = [f"# {title}", *(entry(name) for name in names)]
+        (folder / f"{page}.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")
+    if left:
+        raise SystemExit(f"the reference has no page for {', '.join(sorted(left))}: see GROUPS")
+    (folder / "commands.md").write_text(commands(), encoding="utf-8")
+
+
+def room_of(name: str) -> str:
+    """The room, or the module beside the rooms, in which a public name stands."""
+    return gc._WHEN_USED[name].split(".")[1]
+
+
+def entry(name: str) -> str:
+    """What Sphinx is asked to say of a public name."""
+    thing = getattr(gc, name)
+    if not callable(thing):
+        return f"```{{py:data}} graphcam.{name}\n\n`{thing}`\n```"
+    options = ":members:\n" if isinstance(thing, type) else ""
+    return f"```{{eval-rst}}\n.. auto{'class' if options else 'function'}:: graphcam.{name}\n   {options}```"
+
+
+def commands() -> str:
+    """The help of every command."""
+    import typer
+    from typer.cli import get_docs_for_click
+
+    from graphcam.cli import app
+
+    command = typer.main.get_command(app)
+    text = get_docs_for_click(obj=command, ctx=typer.Context(command, info_name="graphcam"), name="graphcam")
+    text = text.replace("# `graphcam`", "# Commands", 1).replace("[bold]", "**").replace("[/bold]", "**")
+    # An example is a paragraph: a command, and perhaps what it is for.
+    return re.sub(r"^(graphcam .+?)(   \(.+\))?$", r"`\1`\2", text, flags=re.MULTILINE)
+
+
+def main() -> int:
+    """The command line."""
+    parser = argparse.ArgumentParser(description="Build the site.")
+    parser.add_argument("--out", type=Path, default=Path("build/site"), help="folder for the site")
+    ways = parser.add_mutually_exclusive_group()
+    ways.add_argument("--no-execute", action="store_true", help="notebooks without outputs, no sheets: for a quick look")
+    ways.add_argument("--executed", type=Path, metavar="DIR", help="folder of the notebooks, executed before (.ipynb)")
+    asked = parser.parse_args()
+    if asked.no_execute:
+        status = build(asked.out, stored, ())
+    elif asked.executed:
+        status = build(asked.out, lambda path: nbformat.read(asked.executed / f"{path.stem}.ipynb", as_version=4))
+    else:
+        status = build(asked.out)
+    print(f"{asked.out / 'index.html'}: {'done' if status == 0 else 'the site has faults'}")
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

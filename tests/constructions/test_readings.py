@@ -1,0 +1,115 @@
+"""A step names the readings that it takes; written down, millimetres times the scale are the value."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+import pytest
+from boards import coursework
+
+import graphcam as gc
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.force_plan import force_plan
+from graphcam.constructions.readings import TITLES, Row, rows
+from graphcam.drafting.ink import Construction, Step, View, reading, say
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.spring_load import SpringLoad
+from graphcam.task_file import builtin_arcs_task, builtin_task
+
+TASKS = ("coursework", "arm", "flat", "measured", "arcs")
+HANDS = (Pencil(), Pencil(line=0.1, dividers=0.1, protractor=math.radians(0.5), samples=3, seed=4))
+each_task = pytest.mark.parametrize("task", TASKS)
+each_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hands"])
+WRITTEN = re.compile(r"(-?[\d.]+) mm × ([-\d.e]+)(°| \(?[^ ]+\)?)/mm = (-?[\d.]+)(°| .+)")
+
+
+@cache
+def drawn(task: str, pencil: Pencil) -> dict[str, Construction]:
+    solution = gc.solve(builtin_arcs_task() if task == "arcs" else builtin_task(task), pencil)
+    found = dict(solution.drawn)
+    if task == "coursework":
+        found["force_plan"] = force_plan(found["pressure_angle"], SpringLoad(0.5, 300.0, 2.0, 20.0), pencil)
+    return found
+
+
+def steps(task: str, pencil: Pencil) -> Iterator[tuple[Construction, Step]]:
+    for construction in drawn(task, pencil).values():
+        for step in construction.steps():
+            yield construction, step
+
+
+@each_hand
+@each_task
+def test_millimetres_times_the_scale_are_the_value(task, pencil):
+    """As a reader multiplies the printed numbers, to the last printed digit."""
+    written = 0
+    for construction, step in steps(task, pencil):
+        for row in rows(construction, step):
+            said = str(row.said())
+            assert not re.search("nan|inf|None", said), said
+            if row.mu is None:
+                assert re.fullmatch(r"-?\d+\.\d\d(°| mm)", said), said
+                continue
+            paper, mu, _, value, _ = WRITTEN.fullmatch(said).groups()
+            half_a_digit = 0.006 * float(mu) + 1e-4 * abs(float(value))
+            assert float(paper) * float(mu) == pytest.approx(float(value), abs=half_a_digit), said
+            written += 1
+    assert written > 8
+
+
+@each_hand
+@each_task
+def test_the_value_is_that_of_the_reading(task, pencil):
+    for construction, step in steps(task, pencil):
+        for row in rows(construction, step):
+            unit = 180 / math.pi if row.unit == "°" else 1.0
+            np.testing.assert_allclose(row.value, unit * construction.value(row.name), rtol=1e-12, atol=1e-7)
+            assert len(row.places) == (row.value.size if row.value.ndim else 0)
+
+
+@each_task
+def test_every_construction_with_readings_says_where_they_are_taken(task):
+    for name, construction in drawn(task, HANDS[0]).items():
+        taken = [reads for step in construction.steps() for reads in step.reads]
+        assert len(taken) == len(set(taken)), name
+        assert bool(taken) == bool(construction.readings), name
+
+
+def test_every_title_is_that_of_a_reading_that_some_step_takes():
+    used = set()
+    for task in TASKS:
+        for construction, step in steps(task, HANDS[0]):
+            used |= {name if name in TITLES else f"{construction.name}.{name}" for name in step.reads}
+    assert used == set(TITLES)
+
+
+def test_values_at_stations_bear_the_names_of_the_stations():
+    (row,) = (
+        r for c, s in steps("coursework", HANDS[0]) for r in rows(c, s) if c.name == "integration" and r.name == "s"
+    )
+    assert row.places[:3] == ("0", "1", "2")
+    assert row.places[-1].endswith("′")
+    top = int(np.argmax(row.value))
+    assert str(row.said()) == str(row.said(top))
+    assert str(row.said(0)).startswith("0.00 mm × ")
+
+
+def test_what_could_not_be_read_is_left_out():
+    construction = Chain(coursework())["minimum_radius"]
+    unreadable = Construction(
+        construction.name, construction.givens, {"s0": reading(np.nan, 1.0, "mm")}, {}, construction.draw
+    )
+    step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("s0",))
+    assert rows(construction, step)
+    assert rows(unreadable, step) == []
+
+
+def test_a_wrong_scale_would_be_seen():
+    """The first test multiplies what is printed: a value of another scale fails it."""
+    row = Row("s0", say("s₀"), np.array(50.0), 0.5, np.array(25.1), "mm", ())
+    paper, mu, _, value, _ = WRITTEN.fullmatch(str(row.said())).groups()
+    assert float(paper) * float(mu) != pytest.approx(float(value), abs=0.006 * 0.5 + 1e-4 * 25)

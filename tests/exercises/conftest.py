@@ -1,0 +1,13 @@
+"""What the tests of the exercises share."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.exercise_file import find_exercise
+
+
+@pytest.fixture(scope="module")
+def exercise() -> Exercise:
+    return find_exercise("acceleration-and-scales")

@@ -1,0 +1,16 @@
+"""Grading that dies: a module of its own, so that other processes find it."""
+
+from __future__ import annotations
+
+import os
+import signal
+
+from graphcam.exercises.grading import work
+from graphcam.exercises.grading.hand_in import HandIn
+
+
+def grade(assignment: work.Assignment, hand_in: HandIn) -> work.Graded:
+    """Grade, but for a hand-in that takes its worker with it."""
+    if hand_in.student.startswith("deadly"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return work.grade(assignment, hand_in)

@@ -1,0 +1,37 @@
+"""Issued variants that several tests share: making one takes a second."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from graphcam.exercises.answers import Answers
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.exercise_file import find_exercise
+from graphcam.exercises.issue import issue
+from graphcam.exercises.marking import mark
+from graphcam.exercises.record import Record
+
+SECRET = b"the secret of the tests"
+
+
+@cache
+def issued(name: str, student: str = "Anna") -> tuple[Exercise, Certificate]:
+    exercise = find_exercise(name)
+    return exercise, issue(exercise, student, SECRET)[1]
+
+
+def key(certificate: Certificate) -> dict[str, float | np.ndarray]:
+    return {name: key.expected.value for name, key in certificate.keys.items()}
+
+
+def marked(name: str, **changes: object) -> Record:
+    """The key handed in, with some answers changed."""
+    exercise, certificate = issued(name)
+    return mark(exercise, certificate, Answers(key(certificate) | changes))
+
+
+def outcomes(record: Record) -> dict[str, str]:
+    return {answer.name: answer.outcome for answer in record.answers}

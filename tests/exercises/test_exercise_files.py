@@ -1,0 +1,81 @@
+"""Exercise files: every exercise that comes with graphcam stands, and a wrong file gets one message."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphcam.errors import TaskError
+from graphcam.exercises.exercise_file import find_exercise, library, load_exercise
+from graphcam.exercises.misconceptions import CATALOGUE, misconception
+
+TOPICS = {
+    "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
+    "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "whole-cam",
+}  # fmt: skip
+
+
+def test_there_is_an_exercise_for_every_construction():
+    assert set(library()) >= TOPICS
+    for name in library():
+        exercise = find_exercise(name)
+        assert exercise.name == name
+        assert len(exercise.misconceptions) >= 3
+        for parameter in exercise.parameters.values():
+            assert parameter.values
+
+
+@pytest.mark.parametrize("name", sorted(TOPICS))
+def test_the_text_names_every_parameter_of_the_task(name):
+    exercise = find_exercise(name)
+    unsaid = {parameter for parameter in exercise.parameters if f"{{{parameter}}}" not in exercise.text}
+    assert unsaid == set()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('title = "Graphical integration"', "", "title is missing"),
+        ('title = "Graphical integration"', "title = 3", "title is 3, but must be text in quotes"),
+        ('reading = "max_v"', 'reading = "vmax"', "reading is 'vmax', but must be one of"),
+        ('construction = "integration"', 'construction = "integral"', "construction is 'integral'"),
+        ('station = "2"', 'station = "9"', r"station is '9', but must be up to 8"),
+        ('station = "2"', "station = \"2''\"", "moving phases"),
+        ('"end-ordinate"', '"end-ordinat"', "did you mean 'end-ordinate'"),
+        ('"wrong-law: rectangular"', '"wrong-law: rectangula"', "did you mean 'rectangular'"),
+        ('"wrong-law: rectangular"', '"wrong-law"', "followed by a colon"),
+        ("lift = { start = 20, stop = 45, step = 1 }", "lift = { start = 20, stop = 45 }", "start, stop and step"),
+        ("lift = { start = 20, stop = 45, step = 1 }", "lift = { start = 20, stop = 4, step = 1 }", "at least start"),
+        ('lift = "{lift}"', 'lift = "{lft}"', "did you mean 'lift'"),
+        ("decimals = 1", "decimal = 1", "unknown key"),
+        ("marks = 2", "marks = 0", "marks is 0"),
+        ('law = "{law_up}"', 'law = "sine"', "law is 'sine'"),
+        ("[sheet]", "[sheet", "not TOML"),
+    ],
+)
+def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
+    from graphcam.exercises.exercise_file import _folder
+
+    text = (_folder() / "integration.toml").read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "mine.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(TaskError, match=message) as caught:
+        load_exercise(path)
+    assert "\n" not in str(caught.value)
+    assert str(caught.value).startswith(str(path))
+
+
+def test_an_unknown_exercise_gets_a_suggestion():
+    with pytest.raises(TaskError, match="did you mean 'whole-cam'"):
+        find_exercise("hole-cam")
+    with pytest.raises(TaskError, match="not readable"):
+        find_exercise("nowhere/mine.toml")
+
+
+def test_every_mistake_speaks_without_numbers():
+    arguments = {"wrong-law": ": cosine", "scale-forgotten": ": integration.v"}
+    for name, entry in CATALOGUE.items():
+        full = name + (arguments.get(name, ": integration") if entry.takes else "")
+        said = str(misconception(full).said)
+        assert said.endswith(".")
+        assert not any(character.isdigit() for character in said.replace("90°", ""))

@@ -1,0 +1,212 @@
+"""Exports: what Moodle, Gradescope and nbgrader read is what graphcam marks."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import nbformat
+import pytest
+from issued_variants import SECRET, issued, key, marked
+
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.course_folder import TEACHER, Certificates
+from graphcam.exercises.exercise_file import exercise_path
+from graphcam.exercises.exports import gradescope
+from graphcam.exercises.exports.export import export
+from graphcam.exercises.exports.formats import Format
+from graphcam.exercises.exports.moodle import moodle_xml
+from graphcam.exercises.folders import folder_name
+from graphcam.exercises.grading.course import Course, grade_course
+from graphcam.exercises.misconceptions import misconception
+
+NAME = "acceleration-and-scales"
+IDS = ("Anna", "=cmd", "Иван")
+
+
+def questions(name: str) -> list[ElementTree.Element]:
+    exercise, certificate = issued(name)
+    return list(ElementTree.fromstring(moodle_xml(exercise, [certificate]).encode()))
+
+
+def text(element: ElementTree.Element | None) -> str:
+    assert element is not None
+    return element.findtext("text") or ""
+
+
+def moodle_says(question: ElementTree.Element, value: float) -> tuple[float, str]:
+    """Fraction and feedback of a numerical question by Moodle's rule: the first answer within whose tolerance it is."""
+    for answer in question.findall("answer"):
+        tolerance = float(answer.findtext("tolerance") or "nan")
+        if text(answer) == "*" or abs(value - float(text(answer))) <= tolerance:
+            return float(answer.get("fraction", "nan")) / 100, text(answer.find("feedback"))
+    return 0.0, ""
+
+
+@pytest.mark.parametrize("name", [NAME, "inversion-translating"])
+def test_moodle_has_the_key_its_tolerance_and_the_marks(name: str):
+    exercise, certificate = issued(name)
+    kinds = [question.get("type") for question in questions(name)]
+    assert kinds == ["category", "description", *("numerical" if asked.kind == "number" else "essay"
+                                                  for asked in exercise.answers)]  # fmt: skip
+    for asked, question in zip(exercise.answers, questions(name)[2:], strict=True):
+        assert float(question.findtext("defaultgrade") or "nan") == asked.marks
+        if asked.kind == "number":
+            first = question.findall("answer")[0]
+            expected = certificate.keys[asked.name]
+            assert float(text(first)) == pytest.approx(expected.expected.value, rel=1e-9)
+            assert float(first.findtext("tolerance") or "nan") == pytest.approx(expected.tolerance, rel=1e-9)
+            assert first.get("fraction") == "100"
+        else:
+            assert asked.layer in text(question.find("questiontext"))
+
+
+def test_moodle_marks_one_answer_as_graphcam_does():
+    exercise, certificate = issued(NAME)
+    for asked, question in zip(exercise.answers, questions(NAME)[2:], strict=True):
+        expected = certificate.keys[asked.name]
+        for part in (-30.0, -1 - 1e-6, -1 + 1e-6, -0.3, 0.0, 0.999, 1.001, 4.0):
+            value = float(str(expected.expected.value)) + part * expected.tolerance
+            ours = next(one for one in marked(NAME, **{asked.name: value}).answers if one.name == asked.name)
+            assert moodle_says(question, value)[0] == (1.0 if ours.outcome == "right" else 0.0), (asked.name, part)
+
+
+def test_moodle_says_which_mistake_it_was():
+    exercise, certificate = issued(NAME)
+    said = 0
+    for k, (asked, question) in enumerate(zip(exercise.answers, questions(NAME)[2:], strict=True)):
+        keyed = certificate.keys[asked.name]
+        for name, values in certificate.hypotheses.items():
+            wrong = float(str(values[k].value))
+            fraction, feedback = moodle_says(question, wrong)
+            if abs(wrong - float(str(keyed.expected.value))) <= keyed.tolerance:
+                assert fraction == 1.0
+            else:
+                assert fraction == 0.0
+                said += feedback == str(misconception(name).said)
+        assert "careful hand" in moodle_says(question, 1e7)[1]
+    assert said >= len(certificate.hypotheses)
+
+
+RESULTS = {"score", "execution_time", "output", "output_format", "test_output_format", "test_name_format",
+           "visibility", "stdout_visibility", "extra_data", "tests", "leaderboard"}  # fmt: skip
+TEST = {"score", "max_score", "status", "name", "name_format", "number", "output", "output_format", "tags",
+        "visibility", "extra_data"}  # fmt: skip
+"""The keys that Gradescope's documentation of results.json names."""
+
+
+def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it(tmp_path: Path):
+    mine = tmp_path / "mine" / "week-5.toml"
+    mine.parent.mkdir()
+    mine.write_bytes(exercise_path(NAME).read_bytes())
+    source = tmp_path / "autograder" / "source"
+    export(str(mine), Format.GRADESCOPE, ["anna@example.org"], source)
+    mine.unlink()
+    certificate = Certificate.from_json(Certificates(source / TEACHER).find("anna@example.org"))
+    root = source.parent
+    (root / "submission").mkdir()
+    (root / "submission_metadata.json").write_text(json.dumps({"users": [{"email": "anna@example.org"}]}))
+    values = {name: float(str(value)) for name, value in key(certificate).items()}
+    first = next(iter(values))
+    values[first] += 100.0
+    (root / "submission" / "answers.toml").write_text(
+        "".join(f"{name} = {value!r}\n" for name, value in values.items())
+    )
+    gradescope.main(root)
+    found = json.loads((root / "results" / "results.json").read_text())
+    assert set(found) <= RESULTS
+    assert found["visibility"] == "visible"
+    assert found["stdout_visibility"] == "hidden"
+    exercise = issued(NAME)[0]
+    assert [test["name"] for test in found["tests"]] == [asked.name for asked in exercise.answers]
+    for test, asked in zip(found["tests"], exercise.answers, strict=True):
+        assert set(test) <= TEST
+        assert (test["max_score"], test["status"] == "passed") == (asked.marks, asked.name != first)
+    assert found["score"] == sum(test["score"] for test in found["tests"]) == exercise.marks - exercise.answers[0].marks
+    # The student sees this: of the key there is nothing in it.
+    shown = json.dumps(found)
+    numbers = [value for value in values.values() if not math.isclose(value, round(value))]
+    assert numbers
+    assert not any(f"{value:.4g}" in shown for value in numbers)
+    assert (root / "source" / "run_autograder").stat().st_mode & 0o111
+
+
+@pytest.fixture
+def course(tmp_path: Path) -> Path:
+    export(NAME, Format.NBGRADER, list(IDS), tmp_path / "course", SECRET)
+    (tmp_path / "secret").write_bytes(SECRET)
+    return tmp_path / "course"
+
+
+def test_an_nbgrader_assignment_has_a_cell_for_every_answer(course: Path):
+    exercise = issued(NAME)[0]
+    notebook = nbformat.read(course / "source" / NAME / "answers.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    said = [cell.metadata.nbgrader for cell in notebook.cells if cell.cell_type == "code"]
+    assert [(one.grade_id, one.points) for one in said] == [(asked.name, asked.marks) for asked in exercise.answers]
+    assert all(one.schema_version == 3 and one.grade and one.solution and not one.locked for one in said)
+    assert {path.stem for path in (course / "sheets").iterdir()} == {folder_name(student) for student in IDS}
+
+
+def hand_in(course: Path, notebook: Path) -> None:
+    """Every student hands the notebook in, filled in: the first all right, the second one off, the third one open."""
+    for k, student in enumerate(IDS):
+        values = dict(key(issued(NAME, student)[1]))
+        first = next(iter(values))
+        values[first] = (values[first], 1e4, None)[k]
+        filled = nbformat.read(notebook, as_version=4)
+        for cell in filled.cells:
+            if cell.cell_type == "code":
+                name = cell.source.split(" =")[0]
+                cell.source = cell.source.replace(f"{name} = None", f"{name} = {values[name]!r}")
+        folder = course / "submitted" / folder_name(student) / NAME
+        folder.mkdir(parents=True)
+        nbformat.write(filled, folder / "answers.ipynb")
+
+
+def test_what_nbgrader_collects_is_graded(course: Path):
+    hand_in(course, course / "source" / NAME / "answers.ipynb")
+    grade_course(Course(course, course.parent / "secret", course / "grades.csv"))
+    records = {record["student"]: record for record in json.loads((course / "grades.json").read_text())}
+    exercise = issued(NAME)[0]
+    lost = exercise.marks - exercise.answers[0].marks
+    assert {student: records[student]["total"] for student in IDS} == dict(
+        zip(IDS, (exercise.marks, lost, lost), strict=True)
+    )
+    assert [records[student]["answers"][0]["outcome"] for student in IDS] == ["right", "wrong", "missing"]
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of nbgrader's own use of its database
+def test_nbgrader_takes_the_course_and_its_grade_book_the_scores(course: Path):
+    pytest.importorskip("nbgrader", reason="nbgrader, which is an extra of its own, is not installed")
+    from nbgrader.api import Gradebook
+
+    nbgrader(course, "generate_assignment", NAME)
+    release = course / "release" / NAME / "answers.ipynb"
+    hand_in(course, release)
+    assert "Success" in nbgrader(course, "validate", str(course / "submitted" / "Anna" / NAME / "answers.ipynb"))
+    database = f"sqlite:///{course / 'gradebook.db'}"
+    grade_course(Course(course, course.parent / "secret", course / "grades.csv", gradebook=database))
+    records = {record["student"]: record for record in json.loads((course / "grades.json").read_text())}
+    assert {record["total"] for record in records.values()} == {9.0, 7.0}
+    with Gradebook(database, NAME) as book:
+        assert book.find_assignment(NAME).max_score == issued(NAME)[0].marks
+        for student, record in records.items():
+            assert book.find_submission(NAME, student).score == record["total"]
+            for answer in record["answers"]:
+                where = answer["name"], "answers", NAME, student
+                assert book.find_grade(*where).score == answer["marks"]
+                assert not book.find_grade(*where).needs_manual_grade
+                assert (book.find_comment(*where).comment or "").startswith(f"{answer['name']}: ")
+
+
+def nbgrader(course: Path, *command: str) -> str:
+    done = subprocess.run([sys.executable, "-m", "nbgrader", *command], cwd=course, capture_output=True, text=True,
+                          check=False)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    return done.stdout + done.stderr

@@ -1,0 +1,232 @@
+"""A course, graded: the same bytes however often, by however many, after whatever interruption; nobody is left out."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import deadly
+import pytest
+from issued_variants import SECRET, issued, key
+
+from graphcam.exercises.course_folder import TEACHER, Certificates
+from graphcam.exercises.exercise_file import exercise_path
+from graphcam.exercises.folders import folder_name
+from graphcam.exercises.grading import course as grading_course
+from graphcam.exercises.grading import run
+from graphcam.exercises.grading.course import Course, grade_course
+from graphcam.exercises.grading.crew import Crew, processes, results
+from graphcam.exercises.grading.work import Assignment
+
+NAME = "acceleration-and-scales"
+IDS = (
+    "Анна Кузнецова", "../x", "/etc/passwd", "=cmd|' /C calc'!A0", "+1", "-2+3", "@SUM(A1)", "\t=1", "a\r=1", "a\n=1",
+    "a;=1", 'a","=1', "n" * 300, "n" * 299 + "m", "CON", "anna", "Anna ", "<script>alert(1)</script>", "💣", "",
+)  # fmt: skip
+"""Ids that mean something to a file system, to a spreadsheet, or to a page."""
+
+
+def course_at(place: Path, ids: tuple[str, ...]) -> Path:
+    """A course: the first half have all right, the others have the first answer off by a tenth."""
+    kept = Certificates(place / TEACHER)
+    kept.keep_course(exercise_path(NAME), language="en")
+    (place / "secret").write_bytes(SECRET)
+    for k, student in enumerate(ids):
+        certificate = issued(NAME, student)[1]
+        kept.keep(student, certificate.to_json())
+        folder = place / "students" / folder_name(student)
+        folder.mkdir(parents=True)
+        values = key(certificate)
+        if k >= len(ids) / 2:
+            first = next(iter(values))
+            values[first] *= 1.1
+        (folder / "answers.toml").write_text("".join(f"{name} = {value!r}\n" for name, value in values.items()))
+    return place
+
+
+@pytest.fixture(scope="module")
+def ours(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return course_at(tmp_path_factory.mktemp("course"), IDS)
+
+
+@pytest.fixture
+def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], Crew]:
+    """Threads in place of processes, which take seconds to start."""
+
+    def crew(workers: int) -> Crew:
+        return Crew(partial(ThreadPoolExecutor, workers), workers)
+
+    monkeypatch.setattr(grading_course, "processes", crew)
+    return crew
+
+
+def graded(place: Path, out: Path, **more: object) -> dict[str, bytes]:
+    """Everything that grading writes, by name."""
+    grade_course(Course(place, place / "secret", out / "grades.csv", feedback=out / "pages", **more))  # type: ignore[arg-type]
+    return written(out)
+
+
+def written(out: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(out)): path.read_bytes() for path in sorted(out.rglob("*")) if path.is_file()}
+
+
+def rows(text: bytes) -> list[dict[str, str]]:
+    return list(csv.DictReader(text.decode().splitlines(keepends=True)))
+
+
+@pytest.mark.usefixtures("threads")
+def test_every_id_has_one_record_and_its_own_page(ours: Path, tmp_path: Path):
+    files = graded(ours, tmp_path)
+    records = json.loads(files["grades.json"])
+    assert sorted(record["student"] for record in records) == sorted(IDS)
+    assert len([name for name in files if name.startswith("pages/")]) == len(IDS)
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
+    assert not (tmp_path.parent / "x").exists()
+    right = {record["student"] for record in records if record["total"] == record["of"]}
+    assert set(IDS[: len(IDS) // 2]) <= right
+    assert next(record for record in records if record["student"] == IDS[-1])["answers"][0]["outcome"] == "wrong"
+
+
+@pytest.mark.usefixtures("threads")
+def test_no_cell_is_a_formula(ours: Path, tmp_path: Path):
+    """Also where the reader separates by semicolons or tabs, and the id is found again behind the guard."""
+    files = graded(ours, tmp_path)
+    for name in ("grades.csv", "grades-long.csv"):
+        for delimiter in ",;\t":
+            # As a spreadsheet splits: a line is a line also behind a lone CR.
+            lines = files[name].decode().replace("\r", "\n").splitlines(keepends=True)
+            for row in csv.reader(lines, delimiter=delimiter):
+                for cell in row:
+                    first = cell.strip(" \"'")[:1] if cell.startswith(("'", '"', " ")) else cell[:1]
+                    harmless = cell.startswith("'") or first not in tuple("=+-@\t\r＝＋－＠") or number(cell)
+                    assert harmless, (name, delimiter, cell)
+    table = rows(files["grades.csv"])
+    assert len(table) == len(IDS)
+    found = {re.sub("(?<=[;\t])'(?==)", "", row["student"].removeprefix("'")) for row in table}
+    assert found == set(IDS)
+
+
+def number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+@pytest.mark.usefixtures("threads")
+def test_an_unguarded_table_holds_formulas(ours: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """The check above finds what it looks for."""
+    monkeypatch.setattr("graphcam.exercises.reports.grades.cell", str)
+    with pytest.raises(AssertionError):
+        test_no_cell_is_a_formula(ours, tmp_path)
+
+
+@pytest.mark.usefixtures("threads")
+def test_grading_again_and_by_two_gives_the_same_bytes(ours: Path, tmp_path: Path):
+    once = graded(ours, tmp_path / "once")
+    assert graded(ours, tmp_path / "again") == once
+    assert graded(ours, tmp_path / "by two", workers=2) == once
+    # Over the old files too.
+    assert graded(ours, tmp_path / "once") == once
+
+
+@pytest.mark.usefixtures("threads")
+def test_an_interrupted_run_goes_on_where_it_was(ours: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    whole = graded(ours, tmp_path / "whole")
+
+    def interrupt(done: int, total: int) -> None:
+        if done == 7:
+            raise KeyboardInterrupt
+
+    out = tmp_path / "resumed"
+    order = Course(ours, ours / "secret", out / "grades.csv", feedback=out / "pages")
+    with pytest.raises(KeyboardInterrupt):
+        grade_course(order, interrupt)
+    assert not (out / "grades.csv").exists()
+    fresh: list[str] = []
+    grade = run.grade
+    monkeypatch.setattr(run, "grade", lambda assignment, one: fresh.append(one.student) or grade(assignment, one))
+    # What a student hands in meanwhile is graded anew.
+    grade_course(order)
+    assert written(out) == whole
+    assert len(fresh) == len(IDS) - 7
+
+
+@pytest.mark.usefixtures("threads")
+def test_a_changed_hand_in_is_not_taken_from_the_interrupted_run(tmp_path: Path):
+    exercise, place = issued(NAME)[0], course_at(tmp_path / "course", ("Anna", "Boris"))
+    out = tmp_path / "grades.csv"
+
+    def interrupt(done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        grade_course(Course(place, place / "secret", out), interrupt)
+    (place / "students" / "Anna" / "answers.toml").write_text("")
+    grade_course(Course(place, place / "secret", out))
+    assert [float(row["total"]) for row in rows(out.read_bytes())] == [0.0, exercise.marks - exercise.answers[0].marks]
+
+
+@pytest.mark.slow
+def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
+    """By SIGKILL, from the command line; whole batches of a real pool are lost, none is done twice."""
+    command = [sys.executable, "-m", "graphcam", "exercise", "grade", str(ours), "--secret-file", str(ours / "secret"),
+               "--workers", "2"]  # fmt: skip
+    whole = tmp_path / "whole"
+    subprocess.run([*command, "--out", str(whole / "grades.csv")], check=True, capture_output=True, text=True)
+    out = tmp_path / "killed"
+    slow = subprocess.Popen([*command, "--out", str(out / "grades.csv")], stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
+    deadline = time.monotonic() + 60
+    while not list(out.glob(".*/*.json")) and slow.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.001)
+    os.killpg(slow.pid, signal.SIGKILL)
+    slow.wait()
+    subprocess.run([*command, "--out", str(out / "grades.csv")], check=True, capture_output=True, text=True)
+    assert written(out) == written(whole)
+
+
+@pytest.mark.slow
+def test_a_worker_that_dies_costs_one_record_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    ids = tuple(f"{'deadly' if k in (3, 20) else 'student'} {k:02d}" for k in range(24))
+    place = tmp_path / "course"
+    for student in ids:
+        (place / student).mkdir(parents=True)
+        (place / student / "answers.toml").write_text("")
+    monkeypatch.setattr(run, "grade", deadly.grade)
+    store = grading_course.Store.beside(tmp_path / "grades.csv", assignment())
+    records = run.grade_folder(place, assignment(), processes(2), store, Certificates(tmp_path))
+    assert [record["student"] for record in records] == sorted(ids)
+    broken = [record["student"] for record in records if any("broke down" in note for note in record["notes"])]
+    assert broken == [student for student in sorted(ids) if student.startswith("deadly")]
+
+
+def assignment() -> Assignment:
+    return Assignment(issued(NAME)[0], SECRET)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of the cluster's own closing
+def test_processes_and_a_cluster_give_the_same_bytes(ours: Path, tmp_path: Path):
+    from distributed import LocalCluster
+
+    one = graded(ours, tmp_path / "one", workers=1)
+    assert graded(ours, tmp_path / "two", workers=2) == one
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        assert graded(ours, tmp_path / "cluster", cluster=cluster.scheduler_address) == one
+
+
+def test_jobs_are_shared_out_and_come_back_each_once():
+    crew = Crew(partial(ThreadPoolExecutor, 3), 3)
+    assert sorted(results(crew, abs, range(-100, 0))) == [(k, -k) for k in range(-100, 0)]

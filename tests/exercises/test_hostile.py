@@ -1,0 +1,148 @@
+"""Whatever is handed in: exactly one record, in time, no point, no key read, nothing left running."""
+
+from __future__ import annotations
+
+import os
+import re
+import socket
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import hostile
+import pytest
+from programs import program
+
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.grading.hand_in import read_hand_in
+from graphcam.exercises.grading.work import Assignment, grade
+from graphcam.exercises.record import Record
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.limits import Limits
+from graphcam.exercises.running.probe import missing
+
+SECONDS = 2.0
+A_MOMENT = 1.0
+OWNED = Path("/tmp/graphcam-owned")
+"""What code that got out would write."""
+STUDENT = "Anna"
+SECRET = b"a secret that none may read"
+FOUND = "[int(n) for n in os.listdir('/proc/self/fd') if int(n) > 2 and 'pipe' in os.readlink(f'/proc/self/fd/{n}')]"
+PIPE = f"next(iter({FOUND}))"
+"""The way out for answers, as code finds it that was not told."""
+
+
+@pytest.fixture(scope="module")
+def assignment(exercise: Exercise) -> Assignment:
+    return Assignment(exercise, SECRET, limits=Limits(seconds=SECONDS))
+
+
+@pytest.fixture(scope="module")
+def certificate(assignment: Assignment) -> str:
+    from graphcam.exercises.issue import issue
+
+    return issue(assignment.exercise, STUDENT, SECRET)[1].to_json()
+
+
+def graded(assignment: Assignment, certificate: str, folder: Path) -> Record:
+    return grade(assignment, read_hand_in(STUDENT, folder, certificate)).record
+
+
+def filled(folder: Path, name: str) -> None:
+    """The name of an answer, put into whatever files the hand-in has."""
+    for path in folder.glob("answers.*"):
+        if path.is_file() and not path.is_symlink() and path.stat().st_size < 1_000_000:
+            data = path.read_bytes()
+            path.write_bytes(data.replace(b"{0}", name.encode()).replace(b"{{", b"{").replace(b"}}", b"}"))
+
+
+@pytest.mark.parametrize("case", hostile.DATA)
+def test_data_gives_one_record_and_no_point(case: str, tmp_path: Path, assignment: Assignment, certificate: str):
+    name = assignment.exercise.answers[0].name
+    key = Certificate.from_json(certificate).keys[name].expected.value
+    (tmp_path / "key.toml").write_text(f"{name} = {key!r}")
+    folder = tmp_path / STUDENT
+    folder.mkdir()
+    hostile.DATA[case](folder)
+    filled(folder, name)
+    start = time.process_time()
+    record = graded(assignment, certificate, folder)
+    assert time.process_time() - start < SECONDS + A_MOMENT
+    assert (record.student, record.total, record.level) == (STUDENT, 0.0, "L0")
+    assert len(record.answers) == len(assignment.exercise.answers)
+    # It says what is wrong: of the file, or of the answer.
+    assert record.notes or any("cannot be read" in said for said in record.feedback)
+    assert not OWNED.exists()
+
+
+def test_the_key_itself_earns_its_marks(tmp_path: Path, assignment: Assignment, certificate: str):
+    """That the cases above earn nothing is their own fault, not the reader's."""
+    keys = Certificate.from_json(certificate).keys
+    (tmp_path / "answers.toml").write_text("\n".join(f"{name} = {key.expected.value!r}" for name, key in keys.items()))
+    assert graded(assignment, certificate, tmp_path).total == assignment.exercise.marks
+
+
+@pytest.fixture(scope="module", params=[Level.L1, Level.L2])
+def level(request: pytest.FixtureRequest) -> Level:
+    if request.param is Level.L2:
+        program("bwrap")
+    assert missing(request.param) == ""
+    return request.param
+
+
+def running(mark: str) -> list[str]:
+    """The command lines of processes that have the mark in their environment or arguments."""
+    found: list[str] = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            line = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if mark in line:
+            found.append(line)
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", hostile.CODE)
+def test_code_gives_one_record_in_time(
+    case: str, level: Level, tmp_path: Path, assignment: Assignment, certificate: str
+):
+    name = assignment.exercise.answers[0].name
+    places = {"key": tmp_path / "key.json", "secret": tmp_path / "secret", "grades": tmp_path / "grades.csv",
+              "neighbour": tmp_path / "Boris" / "answers.toml"}  # fmt: skip
+    (tmp_path / "Boris").mkdir()
+    for path in places.values():
+        path.write_text("MARK OF WHAT IS SECRET")
+    folder = tmp_path / STUDENT
+    folder.mkdir()
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(0.1)
+        source = hostile.CODE[case].format(name, port=server.getsockname()[1], pipe=PIPE,
+                                           **{key: str(path) for key, path in places.items()})  # fmt: skip
+        hostile.notebook(source)(folder)
+        start = time.monotonic()
+        record = graded(replace(assignment, level=level), certificate, folder)
+        assert time.monotonic() - start < SECONDS + A_MOMENT
+        assert (record.student, record.total, record.level) == (STUDENT, 0.0, level)
+        if level is Level.L2:
+            # At L1 code reads what the grader's own user reads: that is why it is for practice only.
+            with pytest.raises(TimeoutError):
+                server.accept()
+            assert "MARK" not in str(record)
+            assert not re.search(r"secret", str(record.answers))
+            assert places["grades"].read_text() == "MARK OF WHAT IS SECRET"
+            assert running(" /launcher.py") == []
+            assert not OWNED.exists()
+    OWNED.unlink(missing_ok=True)
+
+
+def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level, tmp_path: Path):
+    """What the probe tries is what it says: the same attempts succeed outside."""
+    from graphcam.exercises.running.sandbox import run_cells
+
+    (tmp_path / "secret").write_text("secret")
+    ended = run_cells(level, [f"import os\nfound = os.path.exists({str(tmp_path / 'secret')!r})"], ["found"])
+    assert ended.handed_out == (b'{"found": true}\n' if level is Level.L1 else b'{"found": false}\n')
+    assert os.environ.get("HOME", "x") not in run_cells(level, ["import os\nhome = os.environ['HOME']"], ["home"]).text

@@ -1,0 +1,292 @@
+"""Marking: right work is right, one slip costs its own step, a mistake is named, the key stays with the teacher."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from issued_variants import SECRET, issued, key, marked, outcomes
+
+from graphcam.constructions.profile_view import pitch_curve
+from graphcam.drafting.pencil import Pencil
+from graphcam.exercises.answers import Answers
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.curve_distance import distance_from_drawn
+from graphcam.exercises.drawing import board_chain
+from graphcam.exercises.issue import issue
+from graphcam.exercises.marking import mark
+from graphcam.exercises.misconceptions import misconception
+from graphcam.exercises.scatter import answers_of
+from graphcam.exercises.variant import drawn
+
+NAMES = ("acceleration-and-scales", "pressure-angle", "least-radius", "inversion-translating")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_key_is_right_and_too_exact_to_be_drawn(name):
+    record = marked(name)
+    assert record.total == record.of
+    assert set(outcomes(record).values()) == {"right"}
+    assert record.diagnosis is None
+    assert record.too_exact
+
+
+def test_a_careful_hand_is_not_too_exact():
+    exercise, certificate = issued("pressure-angle")
+    answers = {name: k.expected.value + 0.8 * k.expected.scatter for name, k in certificate.keys.items()}
+    record = mark(exercise, certificate, Answers(answers))
+    assert record.total == record.of
+    assert not record.too_exact
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_tolerance_is_the_edge(name):
+    exercise, certificate = issued(name)
+    for asked in exercise.answers:
+        if asked.kind != "number":
+            continue
+        value, tolerance = certificate.keys[asked.name].expected.value, certificate.keys[asked.name].tolerance
+        for side in (-1, 1):
+            inside = marked(name, **{asked.name: value + side * 0.99 * tolerance})
+            outside = marked(name, **{asked.name: value + side * 1.01 * tolerance})
+            assert outcomes(inside)[asked.name] == "right"
+            assert outcomes(outside)[asked.name] == "wrong"
+
+
+def test_the_scatter_is_that_of_the_pencil():
+    # The certificate's own random numbers are not those of a plain pencil; the scatter of two thousand hands is.
+    exercise, certificate = issued("acceleration-and-scales")
+    task = drawn(exercise, "Anna", SECRET, certificate.draw).task
+    hand = exercise.hand
+    pencil = Pencil(hand.line, hand.dividers, hand.division, math.radians(hand.protractor_deg), samples=2000, seed=9)
+    s = board_chain(task, pencil).integration.readings["s"].paper[:, 12]
+    key = certificate.keys["s_max"]
+    assert key.expected.scatter == pytest.approx(np.std(s), rel=0.1)
+    assert key.tolerance == pytest.approx(certificate.bound * np.std(s), rel=0.1)
+    assert key.tolerance_paper == key.tolerance
+
+
+def test_one_slip_costs_its_own_step_only():
+    # The lift divided by a wrong ordinate, and everything after that done right with it: independent of how the
+    # construction is drawn again, mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1).
+    _, certificate = issued("acceleration-and-scales")
+    task = drawn(issued("acceleration-and-scales")[0], "Anna", SECRET, certificate.draw).task
+    own = 1.3 * certificate.keys["mu_s"].expected.value
+    mu_phi, (first, second) = math.radians(1), task.drawing.poles
+    mu_v = own / (mu_phi * second)
+    mu_a = mu_v / (mu_phi * first)
+    v_max = certificate.keys["v_max"].expected.value * 1.3
+    record = marked("acceleration-and-scales", mu_s=own, mu_v=mu_v, mu_a=mu_a, v_max=v_max)
+    found = outcomes(record)
+    assert found["mu_s"] == "wrong"
+    assert {found[name] for name in ("mu_v", "mu_a", "v_max")} == {"follow-through"}
+    assert record.total == record.of - 1
+    # And the check can fail: the later answers as they follow from the right scale are right, not follow-through;
+    # as they follow from another wrong one they are wrong.
+    assert outcomes(marked("acceleration-and-scales", mu_s=own))["mu_v"] == "right"
+    assert outcomes(marked("acceleration-and-scales", mu_s=own, mu_v=0.7 * mu_v))["mu_v"] == "wrong"
+
+
+def test_follow_through_draws_again_where_no_formula_is_linear():
+    # tan(alpha) = (v - sigma e)/(s0 + s), from the student's own v.
+    exercise, certificate = issued("pressure-angle")
+    variant = drawn(exercise, "Anna", SECRET, certificate.draw)
+    task, right = variant.task, key(certificate)
+    sigma = 1 if task.rotation == "ccw" else -1
+    e, r0 = task.follower.offset, task.cam.prime_radius
+    s = board_chain(task).integration.value("s")[4]
+    for factor in (0.6, 1.25, 1.6):
+        v = factor * right["v_4"]
+        alpha = math.degrees(math.atan2(v - sigma * e, math.sqrt(r0**2 - e**2) + s))
+        found = outcomes(marked("pressure-angle", v_4=v, D_4=factor * right["D_4"], alpha_4=alpha))
+        assert found["v_4"] == "wrong"
+        assert found["D_4"] == "follow-through"
+        assert found["alpha_4"] == "follow-through"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_mistake_is_named_and_costs_something(name):
+    exercise, certificate = issued(name)
+    for mistake, values in certificate.hypotheses.items():
+        answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
+        record = mark(exercise, certificate, Answers(answers))
+        assert record.diagnosis is not None
+        assert record.diagnosis.misconception == mistake
+        assert record.diagnosis.confidence > 0.99
+        assert record.total < record.of
+        assert str(misconception(mistake).said) in record.feedback
+
+
+def test_mistakes_that_the_answers_do_not_tell_are_both_named():
+    exercise, certificate = issued("pressure-angle")
+    # Only the angle is given: both mistakes mirror the offset, and give the same angle.
+    values = certificate.hypotheses["offset-sign"]
+    at = [asked.name for asked in exercise.answers].index("alpha_4")
+    record = mark(exercise, certificate, Answers({"alpha_4": values[at].value}))
+    assert record.diagnosis is not None
+    named = {record.diagnosis.misconception, *record.diagnosis.alike}
+    assert named >= {"offset-sign", "rotation-sense"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_feedback_never_discloses_the_key(name):
+    exercise, certificate = issued(name)
+    records = [mark(exercise, certificate, Answers({}))]
+    for values in certificate.hypotheses.values():
+        answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
+        records.append(mark(exercise, certificate, Answers(answers)))
+    answers = {n: 3 * k.expected.value + 7 for n, k in certificate.keys.items()}
+    records.append(mark(exercise, certificate, Answers(answers)))
+    numbers = {
+        f"{abs(k.expected.value):.{decimals}f}"
+        for k in certificate.keys.values() if not isinstance(k.expected.value, np.ndarray) for decimals in range(1, 5)
+    }  # fmt: skip
+    text = " ".join(sentence for record in records for sentence in record.feedback)
+    assert not numbers & set(re.findall(r"\d+[.,]\d+", text))
+    # No number at all, but those in the names of answers, a right angle, and the number of a point.
+    for asked in exercise.answers:
+        text = text.replace(asked.name, "")
+    assert set(re.findall(r"(?<!point )\b\d+(?:\.\d+)?", text)) <= {"90"}
+
+
+HOSTILE = [
+    float("nan"), float("inf"), -float("inf"), 1e999, 10**400, -(10**30), True, None, "12", b"12", [], [1, 2], {}, 1j,
+    np.array([]), np.array([np.nan + 0j]), np.zeros((2, 2)), np.array(["x"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("value", HOSTILE, ids=repr)
+def test_whatever_is_handed_in_gives_one_record_and_no_marks(value):
+    exercise, certificate = issued("inversion-translating")
+    record = mark(exercise, certificate, Answers({asked.name: value for asked in exercise.answers}))
+    assert record.total == 0
+    assert {answer.outcome for answer in record.answers} <= {"unreadable", "wrong", "missing"}
+    json.dumps(record.to_dict(), allow_nan=False)
+
+
+def test_what_could_not_be_read_is_said():
+    exercise, certificate = issued("integration")
+    record = mark(exercise, certificate, Answers({}, {"s_2": "The line holds no number."}))
+    assert outcomes(record)["s_2"] == "unreadable"
+    assert outcomes(record)["mu_v"] == "missing"
+    assert any("The line holds no number." in sentence for sentence in record.feedback)
+
+
+def test_a_stored_certificate_marks_the_same():
+    exercise, certificate = issued("inversion-translating")
+    stored = Certificate.from_json(certificate.to_json())
+    assert stored.to_json() == certificate.to_json()
+    task = drawn(exercise, "Anna", SECRET, certificate.draw).task
+    hands = answers_of(exercise, task, 20, seed=5, change=misconception("offset-sign").change)
+    for row in range(20):
+        answers = Answers(
+            {
+                a.name: v[row] if a.kind == "curve" else float(v[row])
+                for a, v in zip(exercise.answers, hands, strict=True)
+            }
+        )
+        assert mark(exercise, stored, answers) == mark(exercise, certificate, answers)
+
+
+def test_issuing_again_gives_the_same_certificate():
+    exercise, certificate = issued("integration")
+    assert issue(exercise, "Anna", SECRET)[1].to_json() == certificate.to_json()
+
+
+def test_a_curve_is_marked_by_its_distance_and_shows_the_worst_place():
+    pitch = issued("inversion-translating")[1].keys["pitch"].expected.value
+    # More points on the same curve change nothing.
+    dense = np.interp(np.arange(0, pitch.size - 0.5, 0.5), np.arange(pitch.size), pitch)
+    assert outcomes(marked("inversion-translating", pitch=dense))["pitch"] == "right"
+    bent = pitch.copy()
+    bent[7] *= 1.1
+    record = marked("inversion-translating", pitch=bent)
+    answer = next(each for each in record.answers if each.name == "pitch")
+    assert answer.outcome == "wrong"
+    assert answer.station == 7
+    assert answer.off_paper == pytest.approx(0.1 * abs(pitch[7]), rel=0.5)
+    # Half of the curve is not the curve.
+    assert outcomes(marked("inversion-translating", pitch=pitch[:13]))["pitch"] == "wrong"
+
+
+def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
+    """Ways to draw the pitch curve of the variant, each with what it is worth."""
+    exercise, certificate = issued("inversion-translating")
+    chain = board_chain(drawn(exercise, "Anna", SECRET, certificate.draw).task)
+    points, smooth = key(certificate)["pitch"], pitch_curve(chain.inversion)
+    closed = np.append(smooth, smooth[0])
+    out_and_back = np.concatenate([smooth[:60], [smooth[59] * 1.15], smooth[60:]])
+    # Through every station in another order, so that only the way between them is wrong.
+    scribble = np.concatenate([points[::2], points[1::2], points[::5], points])
+    across = np.append(points, [1.5j * points[0], points[3]])
+    half = len(points) // 2
+    return {
+        "points joined by chords": (points, "right"),
+        "closed by a chord": (np.append(points, points[0]), "right"),
+        "a smooth curve, closed": (closed, "right"),
+        "drawn backwards": (closed[::-1], "right"),
+        "drawn twice": (np.concatenate([closed, closed]), "right"),
+        "begun elsewhere": (np.roll(smooth, 50), "right"),
+        "scribbled through everything": (scribble, "wrong"),
+        "a line ruled back and forth over the sheet": (zigzag(1.3 * float(np.abs(points).max()), 0.5), "wrong"),
+        "one spike": (out_and_back, "wrong"),
+        "a line drawn across": (across, "wrong"),
+        "a dwell bulging out": (np.concatenate([smooth, 1.2 * dwell(smooth, points)]), "wrong"),
+        "half of it": (points[:half], "wrong"),
+        "a single point": (points[:1], "wrong"),
+        "one point many times": (np.repeat(points[:1], 30), "wrong"),
+        "as far as numbers go": (np.append(points, 1e15 + 0j), "wrong"),
+    }
+
+
+def zigzag(reach: float, apart: float) -> np.ndarray:
+    heights = np.arange(-reach, reach, apart)
+    ends = np.tile([-reach, reach, reach, -reach], heights.size // 2 + 1)[: 2 * heights.size]
+    return ends + 1j * np.repeat(heights, 2)
+
+
+def dwell(smooth: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """The arc from the last station back to the first."""
+    return smooth[int(np.argmin(np.abs(smooth - points[-1]))) :]
+
+
+def test_a_curve_is_right_only_if_all_of_it_is():
+    for way, (curve, worth) in drawn_curves().items():
+        assert outcomes(marked("inversion-translating", pitch=curve))["pitch"] == worth, way
+
+
+def test_a_scribble_is_nobodys_mistake_either():
+    # What a mistake brings earns its marks as follow-through; a line over all of the sheet passes near that as well.
+    exercise, certificate = issued("inversion-translating")
+    scribble = drawn_curves()["a line ruled back and forth over the sheet"][0]
+    for values in certificate.hypotheses.values():
+        answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
+        record = mark(exercise, certificate, Answers(answers | {"pitch": scribble}))
+        assert outcomes(record)["pitch"] == "wrong"
+        assert outcomes(mark(exercise, certificate, Answers(answers)))["pitch"] in ("right", "follow-through")
+
+
+def test_the_place_of_an_excursion_is_said():
+    spike = drawn_curves()["one spike"][0]
+    pitch = key(issued("inversion-translating")[1])["pitch"]
+    record = marked("inversion-translating", pitch=spike)
+    answer = next(each for each in record.answers if each.name == "pitch")
+    assert answer.off_paper == pytest.approx(0.15 * abs(spike[59]), rel=0.1)
+    assert abs(pitch[answer.station] - spike[59]) < 2 * np.abs(np.diff(pitch)).max()
+
+
+@given(st.floats(0.05, 6.2), st.floats(0.2, 3.0), st.floats(0, 2 * math.pi))
+def test_the_distance_from_an_arc_is_that_from_its_circle(angle, far, direction):
+    # Two stations on the unit circle, counter-clockwise: outside the arc the nearest place is on the ray to the centre.
+    stations = 50 * np.exp(1j * np.array([0.0, angle]))
+    place = 50 * (1 + far) * np.exp(1j * angle * direction / (2 * math.pi))
+    distance, _ = distance_from_drawn(np.array([place]), stations, np.array([math.tan(angle / 4)]))
+    assert distance[0] == pytest.approx(50 * far, rel=1e-6)
+    # Between chord and arc nothing is wrong.
+    inside = (stations.mean() + 50 * np.exp(1j * angle / 2)) / 2
+    assert distance_from_drawn(np.array([inside]), stations, np.array([math.tan(angle / 4)]))[0][0] == 0

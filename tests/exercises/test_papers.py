@@ -1,0 +1,129 @@
+"""The papers of a course: complete, readable by foreign programs, and nothing of the key in what students get."""
+
+from __future__ import annotations
+
+import csv
+import json
+import tomllib
+
+import nbformat
+import pytest
+from issued_variants import SECRET, issued
+from typer.testing import CliRunner
+
+import graphcam as gc
+from graphcam.cli import app
+from graphcam.errors import TaskError
+from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise_file import find_exercise, library
+from graphcam.exercises.folders import folder_name
+from graphcam.exercises.papers import TAG, answer_file, instructions, notebook, task_file
+from graphcam.exercises.roster import Student, read_roster
+from graphcam.exercises.variant import drawn
+
+
+@pytest.mark.parametrize("name", library())
+def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
+    variant = drawn(find_exercise(name), "Anna", SECRET, 0)
+    read = nbformat.reads(notebook(variant), as_version=4)
+    nbformat.validate(read)
+    cell = next(cell for cell in read.cells if TAG in cell.metadata.get("tags", ()))
+    assert cell.source.splitlines() == [f"{asked.name} = None" for asked in variant.exercise.answers]
+    assert tomllib.loads(answer_file(variant.exercise)) == {}
+    filled = answer_file(variant.exercise).replace("\n# ", "\n").splitlines()
+    assert {f"{asked.name} =" in " ".join(filled) for asked in variant.exercise.answers} == {True}
+    path = tmp_path / "task.toml"
+    path.write_text(task_file(variant), encoding="utf-8")
+    assert gc.load_task(path) == variant.task
+    said = instructions(variant)
+    assert "{" not in said
+    assert f"{variant.parameters['lift']}" in said
+
+
+def test_a_certificate_that_is_none_is_refused():
+    with pytest.raises(TaskError, match="make it again"):
+        Certificate.from_json("{}")
+    text = issued("integration")[1].to_json().replace('"format": 2', '"format": 1')
+    with pytest.raises(TaskError, match="format 1"):
+        Certificate.from_json(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "students"),
+    [
+        ("id,name\ns1,Anna\ns2,Ben\n", [Student("s1", "Anna"), Student("s2", "Ben")]),
+        ("name;id\nAnna;s1\n", [Student("s1", "Anna")]),
+        ("s1\ns2\n", [Student("s1"), Student("s2")]),
+        ('id\n"a,b"\n=1+1\n../x\n', [Student("a,b"), Student("=1+1"), Student("../x")]),
+    ],
+)
+def test_a_roster_is_read(tmp_path, text, students):
+    path = tmp_path / "roster.csv"
+    path.write_text(text, encoding="utf-8")
+    assert read_roster(path) == students
+
+
+@pytest.mark.parametrize(
+    ("text", "message"), [("", "empty"), ("id\n", "empty"), ("id\na\na\n", "once"), ("id\na\nA\n", "once")]
+)
+def test_a_wrong_roster_gets_one_message(tmp_path, text, message):
+    path = tmp_path / "roster.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(TaskError, match=message):
+        read_roster(path)
+    with pytest.raises(TaskError, match="roster"):
+        read_roster(tmp_path / "nowhere.csv")
+
+
+def test_the_library_is_listed():
+    result = CliRunner().invoke(app, ["exercise", "list"])
+    assert result.exit_code == 0
+    assert all(name in result.output for name in ("integration", "whole-cam", "pressure-angle"))
+
+
+def test_wrong_input_of_make_leaves_nothing(tmp_path):
+    roster, secret, out = tmp_path / "r.csv", tmp_path / "secret", tmp_path / "out"
+    roster.write_text("id\ns1\n", encoding="utf-8")
+    secret.write_text("\n", encoding="utf-8")
+    arguments = ["--roster", str(roster), "--secret-file", str(secret), "--out", str(out)]
+    for name in ("integration", "integratio"):
+        result = CliRunner().invoke(app, ["exercise", "make", name, *arguments])
+        assert result.exit_code == 2
+        assert not out.exists()
+
+
+@pytest.mark.slow
+def test_a_course_is_made_whole(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    roster, secret, out = tmp_path / "r.csv", tmp_path / "secret", tmp_path / "out"
+    students = ["s1", "../=cmd"]
+    roster.write_text("id\n" + "\n".join(students) + "\n", encoding="utf-8")
+    secret.write_bytes(SECRET + b"\n")
+    arguments = ["--roster", str(roster), "--secret-file", str(secret), "--out", str(out)]
+    result = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
+    assert result.exit_code == 0, result.output
+    for student in students:
+        folder = out / "students" / folder_name(student)
+        assert {path.name for path in folder.iterdir()} == {
+            "answers.toml", "exercise.ipynb", "task.toml", "worksheet.pdf", "worksheet.dxf"
+        }  # fmt: skip
+        certificate = Certificate.from_json(
+            (out / "teacher" / "certificates" / f"{folder_name(student)}.json").read_text(encoding="utf-8")
+        )
+        assert certificate.student == student
+        assert certificate.alike == ()
+        text = "".join(
+            path.read_text(encoding="utf-8") for path in folder.iterdir() if path.suffix in (".toml", ".ipynb")
+        )
+        drawing = ezdxf.readfile(folder / "worksheet.dxf")
+        text += " ".join(entity.dxf.text for entity in drawing.modelspace().query("TEXT"))
+        for name in ("v_max", "mu_v", "s_max"):
+            assert f"{certificate.keys[name].expected.value:.3f}"[:-1] not in text
+        assert (out / "teacher" / "keys" / f"{folder_name(student)}.pdf").stat().st_size > 10_000
+    with (out / "teacher" / "keys.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["student"] for row in rows} == set(students)
+    assert json.loads((out / "teacher" / "course.json").read_text())["exercise"] == "integration"
+    again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
+    assert again.exit_code == 2
+    assert "there already" in again.output

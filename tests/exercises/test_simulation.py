@@ -1,0 +1,49 @@
+"""The bars of every exercise, by Monte Carlo with other hands than those behind the certificates."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from issued_variants import SECRET
+from typer.testing import CliRunner
+
+from graphcam.cli import app
+from graphcam.exercises.exercise_file import find_exercise, library
+from graphcam.exercises.simulate import simulate
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", library())
+def test_careful_hands_pass_and_mistakes_are_named(name):
+    found = simulate(find_exercise(name), SECRET, variants=2, hands=200)
+    # 3 % of 400 hands are 12; a rate of 3 % gives more than 22 once in 300 runs.
+    assert found.losing <= 22
+    assert found.false_acceptances <= 0.005
+    assert found.right_diagnoses >= 0.99
+
+
+def test_the_figures_are_printed_as_json():
+    result = CliRunner().invoke(
+        app, ["exercise", "simulate", "acceleration-and-scales", "--variants", "1", "--hands", "20", "--json"]
+    )
+    figures = json.loads(result.stdout)
+    assert figures["careful"] == 20
+    assert set(figures["rows"]) == set(find_exercise("acceleration-and-scales").misconceptions)
+    assert all(sum(row["named"].values()) == 20 for row in figures["rows"].values())
+
+
+def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
+    # The figures can fail: with a bound that no hand keeps everybody loses a point.
+    from dataclasses import replace
+
+    from graphcam.exercises import simulate as module
+
+    issue = module.issue
+
+    def strict(*arguments):
+        variant, certificate = issue(*arguments)
+        return variant, replace(certificate, bound=1e-3)
+
+    monkeypatch.setattr(module, "issue", strict)
+    assert simulate(find_exercise("integration"), SECRET, 1, 20).false_rejections == 1.0

@@ -1,0 +1,227 @@
+"""Variants: the same for everybody who knows the secret, different for every student, never a path."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from issued_variants import SECRET
+
+from graphcam.errors import DesignError
+from graphcam.exercises.exercise import Parameter
+from graphcam.exercises.exercise_file import find_exercise, library
+from graphcam.exercises.folders import LONGEST, folder_name, student_of
+from graphcam.exercises.issue import issue
+from graphcam.exercises.separation import promising
+from graphcam.exercises.variant import drawn
+
+GOLDEN = {
+    "acceleration-and-scales": {
+        "back": 80,
+        "dwell": 35,
+        "law_down": "cycloidal",
+        "law_up": "cycloidal",
+        "lift": 26,
+        "ordinate": 45,
+        "pole_1": 35,
+        "pole_2": 45,
+        "rise": 100,
+    },
+    "curvature-and-roller": {
+        "back": 105,
+        "dwell": 45,
+        "law_down": "modified-sine",
+        "law_up": "cosine",
+        "lift": 32,
+        "offset": -12,
+        "r0": 51,
+        "rise": 135,
+        "rotation": "ccw",
+    },
+    "differentiation": {
+        "back": 105,
+        "dwell": 20,
+        "law_down": "cycloidal",
+        "law_up": "cosine",
+        "lift": 29,
+        "pole_1": 45,
+        "pole_2": 50,
+        "rise": 130,
+    },
+    "integration": {
+        "back": 75,
+        "dwell": 60,
+        "law_down": "cycloidal",
+        "law_up": "cosine",
+        "lift": 33,
+        "pole_1": 40,
+        "pole_2": 35,
+        "rise": 130,
+    },
+    "inversion-arm": {
+        "arm": 105,
+        "back": 110,
+        "distance": 120,
+        "dwell": 20,
+        "law_down": "cycloidal",
+        "law_up": "cycloidal",
+        "lift": 28,
+        "r0": 50,
+        "rise": 80,
+        "roller": 18,
+        "rotation": "cw",
+    },
+    "inversion-translating": {
+        "back": 70,
+        "dwell": 60,
+        "law_down": "3-4-5",
+        "law_up": "modified-sine",
+        "lift": 43,
+        "offset": 14,
+        "r0": 75,
+        "rise": 140,
+        "roller": 18,
+        "rotation": "cw",
+    },
+    "least-radius": {
+        "back": 75,
+        "dwell": 45,
+        "law_down": "3-4-5",
+        "law_up": "cycloidal",
+        "lift": 25,
+        "limit_down": 50,
+        "limit_up": 32,
+        "pole": 35,
+        "rise": 110,
+        "rotation": "ccw",
+    },
+    "least-radius-offset": {
+        "back": 90,
+        "dwell": 35,
+        "law_down": "cosine",
+        "law_up": "modified-sine",
+        "lift": 39,
+        "limit_down": 40,
+        "limit_up": 31,
+        "offset": -12,
+        "pole": 25,
+        "rise": 110,
+        "rotation": "ccw",
+    },
+    "pressure-angle": {
+        "back": 90,
+        "dwell": 45,
+        "law_down": "modified-sine",
+        "law_up": "modified-sine",
+        "lift": 25,
+        "offset": 20,
+        "r0": 71,
+        "rise": 100,
+        "roller": 15,
+        "rotation": "ccw",
+    },
+    "whole-cam": {
+        "back": 100,
+        "dwell": 45,
+        "law_down": "3-4-5",
+        "law_up": "modified-sine",
+        "lift": 44,
+        "offset": 12,
+        "pole": 35,
+        "r0": 62,
+        "rise": 140,
+        "roller": 17,
+        "rotation": "ccw",
+    },
+}
+"""What Anna gets at the first draw.  A change here gives every student of every running course another task."""
+
+
+def test_parameters_are_the_same_on_every_machine_and_version():
+    assert set(GOLDEN) == set(library())
+    for name, parameters in GOLDEN.items():
+        assert drawn(find_exercise(name), "Anna", SECRET, 0).parameters == parameters
+
+
+def test_the_draw_that_is_issued_stays_the_same():
+    # The choice among draws rests on sampled scatters; their random numbers are those that NumPy keeps for ever.
+    exercise = find_exercise("least-radius-offset")
+    assert [issue(exercise, student, SECRET)[0].draw for student in ("a", "b", "c")] == [1, 2, 0]
+
+
+def test_exercise_version_student_secret_and_draw_each_matter():
+    from dataclasses import replace
+
+    exercise = find_exercise("whole-cam")
+    base = drawn(exercise, "Anna", SECRET, 0).parameters
+    others = [
+        drawn(exercise, "anna", SECRET, 0), drawn(exercise, "Anna", b"other", 0), drawn(exercise, "Anna", SECRET, 1),
+        drawn(replace(exercise, version=2), "Anna", SECRET, 0), drawn(replace(exercise, name="x"), "Anna", SECRET, 0),
+    ]  # fmt: skip
+    assert all(other.parameters != base for other in others)
+
+
+@pytest.mark.parametrize("student", ["", "=1+1", "../../etc", "\ud800", "a\x00b", "Ж" * 5000, '["a", 1]'])
+def test_any_text_is_a_student(student):
+    exercise = find_exercise("integration")
+    parameters = drawn(exercise, student, SECRET, 0).parameters
+    for name, value in parameters.items():
+        assert value in exercise.parameters[name].values
+
+
+def test_every_value_of_a_parameter_is_drawn_about_equally_often():
+    exercise = find_exercise("integration")
+    counts = dict.fromkeys(exercise.parameters["law_up"].values, 0)
+    for k in range(2000):
+        counts[drawn(exercise, f"{k}", SECRET, 0).parameters["law_up"]] += 1
+    expected = 2000 / len(counts)
+    assert sum((n - expected) ** 2 / expected for n in counts.values()) < 16.3  # chi-square, 3 degrees, 0.1 %
+
+
+def test_variants_of_a_course_differ():
+    exercise = find_exercise("pressure-angle")
+    seen = {tuple(drawn(exercise, f"{k}", SECRET, 0).parameters.items()) for k in range(300)}
+    assert len(seen) == 300
+
+
+def test_what_cannot_be_told_apart_is_not_promising():
+    # Equal laws and equal phases: exchanging the laws changes nothing.
+    from dataclasses import replace
+
+    exercise = find_exercise("acceleration-and-scales")
+    same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
+    assert not promising(drawn(replace(exercise, parameters=same), "Anna", SECRET, 0))
+
+
+def test_an_exercise_without_a_diagnosable_variant_says_so(monkeypatch):
+    from dataclasses import replace
+
+    monkeypatch.setattr("graphcam.exercises.issue.MOST_DRAWS", 2)
+    exercise = find_exercise("acceleration-and-scales")
+    same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
+    with pytest.raises(DesignError, match="leave a misconception out"):
+        issue(replace(exercise, parameters=same), "Anna", SECRET)
+
+
+@given(st.text(max_size=300))
+def test_a_folder_is_one_name_and_leads_back_to_the_student(student):
+    name = folder_name(student)
+    assert name
+    assert not set(name) & set('/\\\0\n<>:"|?*')
+    assert not name.startswith((".", " "))
+    assert not name.endswith((".", " "))
+    assert len(name.encode()) <= LONGEST
+    if "%~" not in name:
+        assert student_of(name) == student
+
+
+def test_devices_and_paths_are_no_folders():
+    for student in ("con", "NUL.txt", "..", ".", "/", "a/../b", "lpt1"):
+        name = folder_name(student)
+        assert name != student
+        assert student_of(name) == student
+
+
+@given(st.text(alphabet="ab%25EF/.", max_size=8), st.text(alphabet="ab%25EF/.", max_size=8))
+def test_two_students_never_share_a_folder(a, b):
+    assert a == b or folder_name(a) != folder_name(b)

@@ -1,0 +1,66 @@
+"""The course: it runs from a clean kernel without a warning, and its pages need nothing but themselves."""
+
+from __future__ import annotations
+
+import base64
+import re
+
+import jupytext
+import pytest
+from browsers import opened
+from courses import COURSE, FOLDER, executed, page
+
+LARGEST_PICTURE = 300_000
+"""Bytes of a picture, as a page holds it."""
+PARTS = ("**Aim.**", "**You need**", "**Time:**", "## Background", "## Try it yourself", "## Drawn and exact",
+         "## Where the error comes from", "## Questions")  # fmt: skip
+"""What every notebook has, in this order; its background may bear a title of its own."""
+
+
+def test_only_scripts_are_stored():
+    assert {path.suffix for path in FOLDER.iterdir() if path.is_file()} <= {".py", ".md"}
+
+
+@pytest.mark.parametrize("name", COURSE)
+def test_a_notebook_has_its_parts_and_asserts_a_number(name):
+    notebook = jupytext.read(FOLDER / f"{name}.py")
+    text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    places = [text.find(part) for part in PARTS if part != "## Background"]
+    assert -1 not in places, PARTS[places.index(-1)]
+    assert places == sorted(places)
+    assert text.startswith(f"# {int(name[:2])}. ")
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    assert any(re.search(r"^assert .*\d", cell, re.MULTILINE) for cell in code)
+    # The cells to try give the reader's number and nothing else away.
+    tried = [cell.source for cell in notebook.cells if "try-it" in cell.metadata.get("tags", ())]
+    assert tried
+    assert all(re.fullmatch(r"(your_\w+ = None  # .+\n)+(\w+\.check\(your_\w+\)\n?)+", cell) for cell in tried)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", COURSE)
+def test_a_notebook_runs_and_its_page_stands_alone(name, tmp_path):
+    path = tmp_path / f"{name}.html"
+    path.write_text(page(name), encoding="utf-8")
+    with opened(path) as (shown, wrong):
+        assert shown.title() == name
+        figures = shown.locator("figure img")
+        assert figures.count() >= 4
+        alone = figures.evaluate_all("all => all.filter(i => !i.alt || i.alt.length < 20 || !i.naturalWidth).length")
+        assert alone == 0
+        assert shown.locator("img").count() == figures.count()
+    assert wrong == []
+    pictures = re.findall(r"data:image/[a-z+]+;base64,([^\"]+)", page(name))
+    assert max(len(base64.b64decode(picture)) for picture in pictures) <= LARGEST_PICTURE
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", COURSE)
+def test_the_stills_stand_for_the_sliders(name):
+    bundles = [out.data for cell in executed(name).cells for out in cell.get("outputs", ()) if "data" in out]
+    sliders = [data for data in bundles if "application/vnd.jupyter.widget-view+json" in data]
+    assert sliders
+    for data in sliders:
+        pictures = re.findall(r'src="([^"]+)"', data["text/html"])
+        assert pictures
+        assert all(picture in page(name) for picture in pictures)

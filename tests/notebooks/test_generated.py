@@ -1,0 +1,146 @@
+"""The notebook of any task, and what ``graphcam notebook`` writes."""
+
+from __future__ import annotations
+
+import base64
+import re
+from dataclasses import replace
+
+import nbformat
+import pytest
+from browsers import opened
+from programs import program
+from typer.testing import CliRunner
+
+import graphcam as gc
+from graphcam.cli import app
+from graphcam.cli.shared import WRONG_INPUT
+from graphcam.notebooks import changed, extra
+from graphcam.notebooks.generate import task_files, write_notebook
+from graphcam.notebooks.pages import to_html
+from graphcam.notebooks.running import execute
+from graphcam.task import SpringTable
+
+COURSEWORK, ARM, FLAT = (gc.builtin_task(name) for name in ("coursework", "arm", "flat"))
+SMOOTH = tuple(
+    changed(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
+)
+SPRING = {"speed_rpm": 300.0, "spring": SpringTable(mass=0.5, stiffness=3.0)}
+TASKS = {
+    "coursework": COURSEWORK,
+    "offset left open": changed(COURSEWORK, {"follower.offset": None, "limits.pressure_angle_return": 50.0}),
+    "knife edge": changed(COURSEWORK, {"follower.roller_radius": 0.0}),
+    "undercut": changed(
+        COURSEWORK, {"motion.phases": SMOOTH, "cam.prime_radius": 30.0, "follower.roller_radius": 20.0}
+    ),
+    "A4, few parts": changed(COURSEWORK, {"drawing.format": "A4", "drawing.divisions": 5}),
+    "spring": changed(COURSEWORK, SPRING),
+    "arm": ARM,
+    "arm, distance left open": changed(ARM, {"follower.distance": None, "cam.prime_radius": None}),
+    "flat": FLAT,
+    "flat with a spring": changed(FLAT, SPRING),
+    "measured": gc.builtin_task("measured"),
+    "arcs": gc.builtin_arcs_task(),
+}
+
+
+def written(folder, task):
+    for name, text in task_files(task).items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_task_beside_a_notebook_is_the_task(name, tmp_path):
+    assert gc.load_task(written(tmp_path, TASKS[name]) / "task.toml") == TASKS[name]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_construction_has_its_chapter(name):
+    notebook = write_notebook(TASKS[name])
+    nbformat.validate(notebook)
+    source = "\n".join(cell.source for cell in notebook.cells)
+    for construction in gc.solve(TASKS[name]).drawn:
+        assert f'show_steps(solution.drawn["{construction}"])' in source
+    assert not any(cell.get("outputs") for cell in notebook.cells)
+    assert nbformat.writes(write_notebook(TASKS[name])) == nbformat.writes(notebook)
+
+
+def test_warnings_are_told():
+    source = "\n".join(cell.source for cell in write_notebook(TASKS["undercut"]).cells)
+    assert "**Mind:** The profile cannot be cut" in source
+
+
+def test_a_title_is_no_markup():
+    task = replace(COURSEWORK, title=replace(COURSEWORK.title, name="Cam *A* <b>"))
+    assert write_notebook(task).cells[0].source.startswith("# Cam \\*A\\* \\<b\\>")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TASKS)
+def test_a_notebook_runs_beside_its_task(name, tmp_path):
+    page = to_html(execute(write_notebook(TASKS[name]), written(tmp_path, TASKS[name])), name)
+    images = re.findall(r"<img[^>]*>", page)
+    assert len(images) >= 8
+    assert all(re.search(r'alt="[^"]{20,}"', image) for image in images)
+    pictures = [data for image in images for data in re.findall(r';base64,([^"]+)', image)]
+    assert max(len(base64.b64decode(picture)) for picture in pictures) <= 300_000
+
+
+@pytest.mark.slow
+def test_the_command_writes_notebook_page_and_print(tmp_path):
+    program("chromium")
+    done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "lesson"), "--execute", "--html", "--pdf"])
+    assert done.exit_code == 0, done.output
+    folder = tmp_path / "lesson"
+    assert {path.name for path in folder.iterdir()} == {"notebook.ipynb", "notebook.html", "notebook.pdf", "task.toml"}
+    assert (folder / "notebook.pdf").read_bytes().startswith(b"%PDF")
+    assert any(cell.get("outputs") for cell in nbformat.read(folder / "notebook.ipynb", 4).cells)
+    with opened(folder / "notebook.html") as (shown, wrong):
+        assert shown.locator("figure img").count() > 20
+        assert shown.locator("math").count() >= 5
+        assert shown.frame_locator("iframe").locator("svg").count() >= 1
+    assert wrong == []
+
+
+def test_without_options_nothing_is_executed(tmp_path):
+    done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["notebook.ipynb", "task.toml"]
+    assert not any(cell.get("outputs") for cell in nbformat.read(tmp_path / "notebook.ipynb", 4).cells)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["nowhere.toml"], "nowhere.toml: the task file is not there"),
+        (["--out", "/dev/null/x"], "the output '/dev/null/x' cannot be written"),
+        (["--language", "xx"], "language is 'xx', but must be"),
+    ],
+)
+def test_wrong_input_ends_with_one_message(words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["notebook", *words])
+    assert done.exit_code == WRONG_INPUT
+    said = [line for line in done.stderr.splitlines() if not line.endswith("...")]
+    assert said[0].startswith(f"graphcam: {message}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_extra_is_named_and_nothing_is_left(tmp_path, monkeypatch):
+    def missing(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr(extra, "import_module", missing)
+    done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--execute"])
+    assert done.exit_code == WRONG_INPUT
+    assert "pip install 'graphcam[notebooks]'" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_without_chromium_there_is_one_message_before_anything_is_executed(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--pdf"])
+    assert done.exit_code == WRONG_INPUT
+    assert "there is no Chromium to print it" in done.stderr
+    assert not (tmp_path / "out").exists()

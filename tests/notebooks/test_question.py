@@ -1,0 +1,45 @@
+"""The verdicts on a reader's number: hints, never the number."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from graphcam.drafting.ink import reading
+from graphcam.notebooks.question import Question
+
+RADIUS = Question(43.28, 0.6, "mm", "step 5", {"the pole distance is forgotten": 1731.2})
+
+
+@pytest.mark.parametrize(
+    ("answer", "status", "hint"),
+    [
+        (None, "open", "Your turn"),
+        (43.28, "right", "Right"),
+        (43.87, "right", "Right"),
+        (44.5, "nearly", "not sharp enough"),
+        (-43.3, "wrong", "the sign is not"),
+        (86.5, "wrong", "twice as much"),
+        (21.6, "wrong", "half of it"),
+        (43.28 * 57.2958, "wrong", "degrees and radians"),
+        (43.28 / 57.2958, "wrong", "radians and degrees"),
+        (1731.0, "wrong", "the pole distance is forgotten"),
+        (60.0, "wrong", "too large"),
+        (30.0, "wrong", "too small"),
+        (float("nan"), "wrong", "a finite number"),
+    ],
+)
+def test_a_mistake_gets_its_hint_and_not_the_number(answer, status, hint):
+    verdict = RADIUS.check(answer)
+    assert (verdict.status, hint in verdict.text) == (status, True)
+    assert "43" not in verdict.text
+    assert re.search(r"step 5|Your turn|Right|finite", verdict.text)
+
+
+def test_a_reading_gives_scale_unit_and_tolerance():
+    question = Question.of(reading(np.array([10.0, 72.0]), 0.6, "mm"), "step 7", at=1)
+    assert question.check(43.2 + 0.59).status == "right"
+    assert question.check(43.2 + 0.61).status != "right"
+    assert "multiply by the scale" in question.check(72.0).text

@@ -1,0 +1,68 @@
+"""PDF and DXF of the built-in sheets in the hands of other programs: poppler, PDFium, LibreCAD, GDAL."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import checks
+import pytest
+from pdf_paths import pages
+from scene import drawing as scene
+
+import graphcam
+from graphcam.main_job.kinds import sheet_of
+from graphcam.sheets.dxf_renderer import write_dxf
+from graphcam.sheets.matplotlib_renderer import write_pdf
+from graphcam.sheets.model import Drawing
+
+TASKS = Path(graphcam.__file__).parent / "data" / "tasks"
+
+
+@cache
+def sheet(task: str) -> Drawing:
+    return sheet_of(graphcam.solve(graphcam.load_task(TASKS / f"{task}.toml")))
+
+
+SHEETS = [
+    pytest.param(name, marks=() if name in ("scene", "coursework") else pytest.mark.slow)
+    for name in ("scene", *sorted(task.stem for task in TASKS.glob("*.toml")))
+]
+
+
+@pytest.fixture(params=SHEETS)
+def drawing(request: pytest.FixtureRequest) -> Drawing:
+    return scene() if request.param == "scene" else sheet(request.param)
+
+
+def test_our_pdf_is_true_to_scale(drawing: Drawing, tmp_path: Path) -> None:
+    write_pdf(drawing, tmp_path / "sheet.pdf")
+    found = pages(tmp_path / "sheet.pdf")
+    for page, drawn in zip(found, drawing.pages, strict=True):
+        checks.check_page(page, drawn.width, drawn.height, checks.RULER)
+        checks.check_gauge(page, checks.RULER)
+        checks.check_frame(page, drawn, checks.RULER)
+        checks.check_widths(page)
+
+
+def test_every_word_is_in_the_pdf(drawing: Drawing, tmp_path: Path) -> None:
+    write_pdf(drawing, tmp_path / "sheet.pdf")
+    checks.check_words(tmp_path / "sheet.pdf", drawing)
+
+
+def test_librecad_prints_everything_true_to_scale(drawing: Drawing, tmp_path: Path) -> None:
+    if len(drawing.pages) > 1:
+        drawing = Drawing(drawing.title, drawing.pages[:1])
+    write_dxf(drawing, tmp_path / "sheet.dxf")
+    page = checks.by_librecad(tmp_path / "sheet.dxf", tmp_path)
+    (drawn,) = drawing.pages
+    checks.check_page(page, drawn.width, drawn.height, checks.LIBRECAD_PAGE)
+    checks.check_gauge(page, checks.LIBRECAD_LENGTH)
+    checks.check_ink(page, drawn)
+
+
+def test_gdal_counts_and_measures_every_entity(drawing: Drawing, tmp_path: Path) -> None:
+    write_dxf(drawing, tmp_path / "sheet.dxf")
+    checks.check_written(tmp_path / "sheet.dxf", drawing)
+    checks.check_layers(tmp_path / "sheet.dxf")
+    checks.check_lengths(tmp_path / "sheet.dxf")

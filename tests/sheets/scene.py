@@ -1,0 +1,81 @@
+"""A small sheet with every kind of mark, like a solution's but made without one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphcam.drafting.ink import (
+    AngleMark,
+    Arc,
+    Arrow,
+    Circle,
+    Dimension,
+    Dots,
+    Label,
+    Line,
+    Region,
+    Role,
+    Segments,
+    Step,
+    View,
+    say,
+)
+from graphcam.sheets.layout import compose
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.tables import Table
+from graphcam.sheets.title_block import TitleBlock
+
+ACCELERATION = View("acceleration", say("Acceleration a, μₐ = 1.2 (mm/rad²)/mm"), across="phi", up="a")
+DISPLACEMENT = View("displacement", say("Displacement s"), across="phi", up="s")
+COMBINED = View("combined", say("Least radius"), across="offset", up="s")
+PROFILE = View("profile", say("Cam profile, 1:1"), across="x", up="y")
+TITLE = TitleBlock(name="Cam mechanism", number="ТММ.01.02", organisation="Кафедра ТММ", author="Ivanova", scale="1:1")
+
+
+def oval(n: int = 400) -> np.ndarray:
+    """A smooth closed curve."""
+    t = 2 * np.pi * np.arange(n) / n
+    return 60 * np.cos(t) + 45j * np.sin(t)
+
+
+def steps(ordinate: float = 50.0) -> list[tuple[str, Step]]:
+    """Steps of four views; the ordinates of the diagrams can be chosen."""
+    x = np.linspace(0, 360, 121)
+    s = 25 * (1 - np.cos(np.radians(x)))
+    stations = x[::10] + 1j * s[::10]
+    acceleration = (
+        Arrow(0j, 370 + 0j, Role.SCALE), Arrow(-1j * ordinate, 1j * (ordinate + 8), Role.SCALE),
+        Line(x + 1j * ordinate * np.cos(np.radians(x)), Role.RESULT),
+        *(Label(complex(at), str(k), towards=-1j, small=True) for k, at in enumerate(x[::10])),
+        Dimension(-40 + 0j, 0j, "H₁ = 40", aside=-8.0),
+        Segments(np.full(5, -40 + 0j), 10j * np.arange(5), Role.CONSTRUCTION),
+    )  # fmt: skip
+    displacement = (
+        Arrow(0j, 370 + 0j, Role.SCALE), Arrow(0j, 58j, Role.SCALE), Line(x + 1j * s, Role.CURVE), Dots(stations),
+        Segments(stations.real + 0j, stations, Role.CONSTRUCTION), Dimension(180 + 0j, 180 + 50j, "50.0"),
+        Dimension(0j, 5 + 0j, "5", aside=-12.0),
+    )  # fmt: skip
+    combined = (
+        Line(np.array([0, 60 + 25j, 50j, -60 + 25j]), Role.CURVE, closed=True),
+        Region(np.array([0, 60 - 100j, -60 - 100j])), Line(np.array([0, 60 - 100j]), Role.LIMIT),
+        Label(-70j, "A"), AngleMark(0j, 40.0, -np.pi / 2, -np.pi / 2 + 0.5, "30°"), Circle(-70j, 12.0, Role.HIDDEN),
+    )  # fmt: skip
+    profile = (
+        Line(oval(), Role.RESULT, closed=True),
+        Line(np.array([-80, 80]) + 0j, Role.AXIS), Line(np.array([-70j, 70j]), Role.AXIS),
+        Circle(0j, 30.0, Role.CONSTRUCTION), Arc(0j, 20.0, 0.5, 2.0, Role.CURVE, arrow="end"), Dots(np.array([0j])),
+        AngleMark(0j, 75.0, 0.0, 1.4, "φ₁ = 80°"), AngleMark(0j, 75.0, 1.4, 1.45, "φ₂ = 3°"),
+        *(Label(complex(at), f"{k}′", towards=complex(at), small=True) for k, at in enumerate(oval()[::20])),
+    )  # fmt: skip
+    scenes = ((ACCELERATION, acceleration), (DISPLACEMENT, displacement), (COMBINED, combined), (PROFILE, profile))
+    return [
+        (view.name, Step(say("{n}", n=n), say("."), view, marks[n::2])) for view, marks in scenes for n in range(2)
+    ]  # fmt: skip
+
+
+TABLE = Table("Data", ("quantity", "value"), (("lift", "30 mm"), ("prime radius r₀", "44 mm"), ("угол", "80°")))
+
+
+def drawing(paper: str = "A1", frame: str = "gost", ordinate: float = 50.0) -> Drawing:
+    """The scene laid out."""
+    return compose(steps(ordinate), [TABLE], TITLE, paper, frame, notes=["Every length is in millimetres of paper."])

@@ -1,0 +1,93 @@
+"""The CAD variant: dimensions that measure, a title block that can be edited, layouts that show the sheet 1:1."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf.document import Drawing as Document
+from scene import TITLE, drawing
+
+from graphcam.sheets.cad_renderer import write_cad
+from graphcam.sheets.dxf_renderer import write_dxf
+from graphcam.sheets.model import Angle, Drawing, Length, Text
+
+
+@pytest.fixture
+def document(tmp_path: Path) -> Document:
+    write_cad(drawing(), tmp_path / "sheet.dxf")
+    return ezdxf.readfile(tmp_path / "sheet.dxf")
+
+
+def texts(drawn: Drawing) -> list[Text]:
+    return [e for page in drawn.pages for group in page.groups for e in group.entities if isinstance(e, Text)]
+
+
+def test_audit_is_clean(document: Document) -> None:
+    auditor = document.audit()
+    assert (len(auditor.errors), len(auditor.fixes)) == (0, 0)
+
+
+def test_every_dimension_measures_what_is_drawn(document: Document) -> None:
+    """Lengths in mm of paper, angles in degrees; the text is the drawing's own, because scales differ."""
+    expected = []
+    for text in texts(drawing()):
+        match text.of:
+            case Length(start=start, end=end):
+                expected.append((text.text, abs(end - start)))
+            case Angle(start=start, end=end):
+                expected.append((text.text, np.degrees(end - start)))
+            case None:
+                pass
+    found = [(d.dxf.text, d.get_measurement()) for d in document.modelspace().query("DIMENSION")]
+    assert [text for text, _ in found] == [text for text, _ in expected]
+    assert [value for _, value in found] == pytest.approx([value for _, value in expected], abs=1e-9)
+    assert {"H₁ = 40", "30°", "φ₁ = 80°"} <= {text for text, _ in found}
+
+
+def test_no_line_of_a_dimension_is_drawn_twice(tmp_path: Path, document: Document) -> None:
+    write_dxf(drawing(), tmp_path / "plain.dxf")
+    plain = ezdxf.readfile(tmp_path / "plain.dxf").modelspace()
+
+    def steps(space: object, kind: str) -> int:
+        return len(space.query(f'{kind}[layer ? "step.*-dimension"]'))  # type: ignore[attr-defined]
+
+    measured = [text.of for text in texts(drawing()) if text.of]
+    triangles = sum(type(line).__name__ == "Heads" for of in measured for line in of.lines)
+    assert steps(plain, "SOLID") - steps(document.modelspace(), "SOLID") == triangles == 2 * len(measured)
+
+
+def test_title_block_has_attributes(document: Document) -> None:
+    (block,) = document.modelspace().query("INSERT")
+    entries = {attribute.dxf.tag: attribute.dxf.text for attribute in block.attribs}
+    assert entries["AUTHOR"] == TITLE.author
+    assert entries["ORGANISATION"] == TITLE.organisation
+    assert entries["SCALE"] == TITLE.scale
+    assert " ".join(text for tag, text in entries.items() if tag.startswith("NAME")) == TITLE.name
+    # The number stands in its field and upside down in the corner.
+    assert [text for tag, text in entries.items() if tag.startswith("NUMBER")] == [TITLE.number] * 2
+    assert {d.dxf.tag for d in document.blocks.get(block.dxf.name).query("ATTDEF")} == set(entries)
+
+
+@pytest.mark.parametrize("paper", ["A1", "A3"])
+def test_every_page_has_a_layout_that_shows_it_1_to_1(tmp_path: Path, paper: str) -> None:
+    drawn = drawing(paper)
+    write_cad(drawn, tmp_path / "sheet.dxf")
+    document = ezdxf.readfile(tmp_path / "sheet.dxf")
+    assert not document.audit().fixes
+    names = document.layout_names_in_taborder()
+    assert names == ["Model", *(f"Sheet {k}" for k in range(1, len(drawn.pages) + 1))]
+    for name, page in zip(names[1:], drawn.pages, strict=True):
+        layout = document.paperspace(name)
+        assert (layout.dxf.paper_width, layout.dxf.paper_height) == (page.width, page.height)
+        window = layout.query("VIEWPORT").last
+        assert window.dxf.view_height == window.dxf.height == page.height
+        assert window.dxf.width == page.width
+
+
+def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
+    for run in ("first.dxf", "second.dxf"):
+        write_cad(drawing("A4"), tmp_path / run)
+    assert (tmp_path / "first.dxf").read_bytes() == (tmp_path / "second.dxf").read_bytes()

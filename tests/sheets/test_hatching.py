@@ -1,0 +1,56 @@
+"""Hatching against shapely: it lies inside the polygon, and it covers the whole of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphcam.sheets.hatching import SPACING, hatch, interrupted
+from graphcam.sheets.model import Strokes, Text
+from graphcam.sheets.sampling import corners
+
+ROUNDING = 1e-6
+
+
+def lines(strokes: Strokes) -> shapely.MultiLineString:
+    return shapely.MultiLineString(
+        [((a.real, a.imag), (b.real, b.imag)) for a, b in zip(strokes.starts, strokes.ends, strict=True)]
+    )
+
+
+@given(st.lists(st.floats(5, 60), min_size=5, max_size=25))
+def test_hatching_stays_inside_a_star(radii: list[float]) -> None:
+    """A star about the origin with any radii has notches of every kind."""
+    star = np.array(radii) * np.exp(2j * np.pi * np.arange(len(radii)) / len(radii))
+    polygon = shapely.Polygon(np.column_stack([star.real, star.imag]))
+    drawn = lines(hatch(star))
+    assert drawn.difference(polygon.buffer(ROUNDING)).length == pytest.approx(0, abs=ROUNDING)
+    inside = drawn.intersection(polygon).length
+    assert inside == pytest.approx(drawn.length, abs=ROUNDING)
+
+
+def test_hatching_covers_its_region() -> None:
+    """Lines a spacing apart have the length of the area over the spacing."""
+    square = np.array([0, 300, 300 + 200j, 100 + 50j, 200j])
+    polygon = shapely.Polygon(np.column_stack([square.real, square.imag]))
+    assert lines(hatch(square)).length * SPACING == pytest.approx(polygon.area, rel=0.01)
+
+
+def test_hatching_runs_at_45_degrees() -> None:
+    drawn = hatch(np.array([0, 50, 50 + 30j]))
+    assert np.allclose(np.angle(drawn.ends - drawn.starts), np.pi / 4)
+
+
+def test_interrupted_hatching_spares_the_text() -> None:
+    drawn = hatch(np.array([0, 60, 60 + 60j, 60j]))
+    text = Text(20 + 30j, "α = 30°", 3.5, angle=0.4)
+    box = shapely.Polygon([(p.real, p.imag) for p in corners(text)])
+    broken = interrupted(drawn, [text])
+    assert isinstance(broken, Strokes)
+    assert lines(drawn).intersection(box).length > 10
+    assert lines(broken).intersection(box).length == 0
+    margin = box.buffer(0.8, join_style="mitre")
+    assert lines(broken).length == pytest.approx(lines(drawn).difference(margin).length, rel=1e-9)

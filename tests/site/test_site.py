@@ -1,0 +1,121 @@
+"""The site: it builds without a warning, its links lead somewhere, and it asks nothing of the network."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import nbformat
+import pytest
+from browsers import opened
+from courses import COURSE, executed
+from pages import ROOT, SITE
+
+import graphcam as gc
+
+FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
+"""What a browser asks for by itself."""
+
+
+class Links(HTMLParser):
+    """The links and the anchors of a page."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.fetched: list[str] = []
+        self.anchors: set[str] = set()
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.anchors |= {given["id"]} if given.get("id") else set()
+        if address := given.get("href") or given.get("src"):
+            (self.fetched if given.get(FETCHED.get(tag, "")) else self.links).append(address)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    """The whole site, of the notebooks as the tests of the course have executed them."""
+    notebooks, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("site")
+    for name in COURSE:
+        nbformat.write(executed(name), notebooks / f"{name}.ipynb")
+    build("--executed", notebooks, "--out", out)
+    return out
+
+
+def build(*options: object) -> None:
+    command = [sys.executable, SITE / "build.py", *map(str, options)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def faults(site: Path) -> Iterator[str]:
+    """Links within the site that lead nowhere, and whatever is fetched from elsewhere."""
+    pages = {path.resolve(): Links(path) for path in site.rglob("*.html")}
+    for path, page in pages.items():
+        for address in page.links + page.fetched:
+            to = urlsplit(address)
+            if to.scheme in ("http", "https", "data") or to.netloc:
+                if address in page.fetched and to.scheme != "data":
+                    yield f"{path.name} fetches {address}"
+                continue
+            target = (path.parent / unquote(to.path)).resolve() if to.path else path
+            if not target.exists():
+                yield f"{path.name} leads to {address}"
+            elif to.fragment and target in pages and unquote(to.fragment) not in pages[target].anchors:
+                yield f"{path.name} leads to {address}, which has no such place"
+
+
+@pytest.mark.slow
+def test_every_link_leads_somewhere_and_nothing_is_fetched_from_elsewhere(site):
+    assert list(faults(site)) == []
+
+
+@pytest.mark.slow
+def test_the_quick_site_has_the_same_pages(site, tmp_path):
+    build("--no-execute", "--out", tmp_path)
+    pages = [{path.relative_to(folder) for path in folder.rglob("*.html")} for folder in (site, tmp_path)]
+    assert pages[0] == pages[1]
+    assert list(faults(tmp_path)) == []
+
+
+@pytest.mark.slow
+def test_the_gallery_shows_a_sheet_of_every_task_and_its_pictures_are_small(site):
+    pictures = {path.stem: path.stat().st_size for path in (site / "_images").glob("*.png")}
+    assert set(pictures) >= {path.stem for path in (ROOT / "graphcam" / "data" / "tasks").glob("*.toml")}
+    assert max(pictures.values()) <= 300_000
+
+
+def test_wrong_links_are_found(tmp_path):
+    (tmp_path / "page.html").write_text(
+        '<a href="gone.html">x</a><a href="#nowhere">x</a><a id="here" href="#here">x</a>'
+        '<script src="https://elsewhere/x.js"></script><a href="https://elsewhere">x</a>', encoding="utf-8",
+    )  # fmt: skip
+    said = list(faults(tmp_path))
+    assert len(said) == 3
+    assert [word in text for word, text in zip(("gone", "nowhere", "x.js"), said, strict=True)] == [True] * 3
+
+
+@pytest.mark.slow
+def test_the_reference_has_every_public_name_and_the_course_every_notebook(site):
+    pages = [Links(path) for path in (site / "reference").glob("*.html")]
+    anchors = set().union(*(page.anchors for page in pages))
+    assert {f"graphcam.{name}" for name in gc.__all__} <= anchors
+    course = {path.stem for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.py")}
+    assert {path.stem for path in (site / "course").glob("[0-9]*.html")} == course
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", ["index", "course/04_shaded_region", "reference/index", "how-to/check-my-drawing"])
+def test_a_page_opens_without_a_fault_or_a_request(site, page):
+    with opened(site / f"{page}.html", site) as (shown, wrong):
+        assert shown.locator("h1").count() == 1
+        if page in ("course/04_shaded_region", "reference/index"):
+            formula = shown.locator("math").first
+            assert formula.bounding_box()["height"] > 8
+    assert wrong == []

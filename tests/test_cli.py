@@ -1,0 +1,180 @@
+"""The command line around the main job, whose place a small one takes here."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+from typer.testing import CliRunner
+
+import graphcam
+from graphcam.cli import app
+from graphcam.cli.shared import WRONG_INPUT
+from graphcam.errors import DesignError
+from graphcam.files import whole_folder
+
+QUANTITIES = {
+    "max_v": {"drawn": 42.9, "exact": 42.97183463481174, "unit": "mm/rad", "error": -0.0718, "error_paper": -0.1,
+              "tolerance_paper": 0.2},
+    "max_pressure_angle_return_deg": {"drawn": None, "exact": None, "unit": "deg", "error": None, "error_paper": None,
+                                      "tolerance_paper": None},
+}  # fmt: skip
+
+
+class Solution:
+    warnings = ()
+
+    def __init__(self, task: graphcam.Task) -> None:
+        self.task = task
+
+    def to_dict(self):
+        return {"graphcam": graphcam.__version__, "task": self.task.to_dict(), "quantities": QUANTITIES, "files": {}}
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """What the command line asked of the main job."""
+    calls = []
+    main_job = ModuleType("graphcam.main_job")
+
+    def solve(task, pencil=None):
+        if task.follower.kind != "translating":
+            raise DesignError("follower", task.follower.kind, "translating", "the others are not there yet")
+        calls.append((task, pencil))
+        return Solution(task)
+
+    def write(solution, directory, progress=None, **papers):
+        with whole_folder(directory) as draft:
+            (draft / "cam.pdf").write_text("a sheet")
+            (draft / "solution.json").write_text(json.dumps(solution.to_dict()))
+        progress("PDF")
+        return {"pdf": "cam.pdf", "player": None}
+
+    main_job.solve, main_job.write = solve, write
+    monkeypatch.setitem(sys.modules, "graphcam.main_job", main_job)
+    return calls
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return lambda *words: CliRunner().invoke(app, [str(word) for word in words])
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def test_without_a_word_the_coursework_is_solved_into_its_folder(run, asked, tmp_path):
+    result = run("solve")
+    assert result.exit_code == 0
+    assert asked == [(graphcam.builtin_task(), None)]
+    assert files(tmp_path) == ["graphcam-out/cam.pdf", "graphcam-out/solution.json"]
+    assert result.stdout.splitlines()[-1] == "graphcam-out: cam.pdf"
+    row = next(line for line in result.stdout.splitlines() if "max_v" in line)
+    assert [cell.strip() for cell in row.split("│")][3:-1] == ["42.900", "42.972", "-0.100", "0.200"]
+    assert result.stderr == "drawing and computing ...\nPDF ...\n"
+
+
+def test_json_is_printed_alone_and_writes_nothing(run, asked, tmp_path):
+    result = run("solve", "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["quantities"] == QUANTITIES
+    assert result.stderr == ""
+    assert files(tmp_path) == []
+
+
+def test_json_with_a_folder_writes_and_names_the_files(run, asked, tmp_path):
+    result = run("solve", "--json", "--out", "here")
+    assert json.loads(result.stdout)["files"] == {"pdf": "cam.pdf", "player": None}
+    assert files(tmp_path) == ["here/cam.pdf", "here/solution.json"]
+
+
+def test_options_reach_the_main_job(run, asked):
+    run("init", "cam.toml")
+    result = run("solve", "cam.toml", "--pencil", "0.2", "--seed", "7", "--divisions", "24", "--out", "out")
+    assert result.exit_code == 0
+    task, pencil = asked[0]
+    assert task.drawing.divisions == 24
+    assert task.motion == graphcam.builtin_task().motion
+    assert pencil == graphcam.Pencil(line=0.2, dividers=0.2, seed=7)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--pencil", "-0.1"], "pencil line is -0.1, but must be"),
+        (["--pencil", "nan"], "pencil line is nan, but must be"),
+        (["--pencil", "inf"], "pencil line is inf, but must be"),
+        (["--pencil", "0.1", "--seed", "-1"], "pencil seed is -1, but must be"),
+        (["--divisions", "0"], "divisions is 0, but must be"),
+        (["--out", "/dev/null/out"], "the output '/dev/null/out' cannot be written"),
+        (["--out", "file"], "the output 'file' cannot be written"),
+        (["--out", "file/below"], "the output 'file/below' cannot be written"),
+        (["flat.toml"], "follower is 'flat-faced', but must be translating; the others are not there yet"),
+    ],
+)
+def test_wrong_input_ends_with_one_message(run, asked, tmp_path, words, message):
+    (tmp_path / "file").write_text("")
+    (tmp_path / "flat.toml").write_text(
+        'rotation = "cw"\n[follower]\nkind = "flat-faced"\n[motion]\nphases = [\n'
+        '{ kind = "rise", angle = 180, lift = 3, law = "2-3" },\n'
+        '{ kind = "return", angle = 180, lift = 3, law = "2-3" }]\n'
+    )
+    result = run("solve", *words)
+    assert result.exit_code == WRONG_INPUT
+    assert result.stdout == ""
+    said = [line for line in result.stderr.splitlines() if not line.endswith("...")]
+    assert len(said) == 1
+    assert said[0].startswith(f"graphcam: {message}")
+    assert files(tmp_path) == ["file", "flat.toml"]
+
+
+@pytest.mark.parametrize("words", [["solv"], ["solve", "--divisions", "many"], ["solve", "a", "b"], ["init"], ["--x"]])
+def test_wrong_usage_has_the_same_status(run, asked, words):
+    result = run(*words)
+    assert result.exit_code == WRONG_INPUT
+    assert "Usage: " in result.stderr
+    assert asked == []
+
+
+def test_a_fault_of_graphcam_is_not_called_the_users(run, asked, monkeypatch):
+    def fail(*_):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(sys.modules["graphcam.main_job"], "solve", fail)
+    assert isinstance(run("solve").exception, ZeroDivisionError)
+
+
+def test_init_writes_a_task_once(run, asked, tmp_path):
+    result = run("init", "my cam.toml")
+    assert result.exit_code == 0
+    assert result.stdout == "my cam.toml is written; solve it with: graphcam solve 'my cam.toml'\n"
+    assert graphcam.load_task(tmp_path / "my cam.toml") == graphcam.builtin_task()
+    (tmp_path / "my cam.toml").write_text("changed")
+    again = run("init", "my cam.toml")
+    assert again.exit_code == WRONG_INPUT
+    assert again.stderr.startswith("graphcam: the output 'my cam.toml' cannot be written (it is there already)")
+    assert (tmp_path / "my cam.toml").read_text() == "changed"
+
+
+def test_the_version(run):
+    assert run("--version").stdout == f"graphcam {graphcam.__version__}\n"
+
+
+@pytest.mark.parametrize("command", [[], ["solve"], ["init"]])
+def test_the_examples_of_the_help_run(run, asked, tmp_path, command):
+    shown = run(*command, "--help").stdout.splitlines()
+    examples = [line.strip().split("   ")[0] for line in shown if line.strip().startswith("graphcam ")]
+    assert examples
+    for example in examples:
+        if "init" not in example:
+            run("init", "cam.toml")
+        words = shlex.split(example.split(" > ")[0])[1:]
+        result = run(*words)
+        assert result.exit_code == 0, (example, result.output)
+        (tmp_path / "cam.toml").unlink(missing_ok=True)
