@@ -6,6 +6,7 @@ import math
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,7 +81,12 @@ def test_the_commands_for_a_language_find_the_texts(tmp_path):
     page = "how-to/add-a-language.md"
     script = "\n".join(line for block in blocks(page, "sh") for line in block.splitlines() if "pybabel" in line)
     script = script.replace("build/", f"{tmp_path}/").replace("-o graphcam/data/languages/", f"-o {tmp_path}/")
-    subprocess.run(["bash", "-euc", script], cwd=ROOT, check=True, capture_output=True)
+    # pybabel lies beside the interpreter, whether or not its environment is activated.
+    beside = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    done = subprocess.run(
+        ["bash", "-euc", script], cwd=ROOT, capture_output=True, text=True, check=False, env={**os.environ, "PATH": beside}
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
     begun = (tmp_path / "de.po").read_text(encoding="utf-8")
     for told in ('msgid "Velocity plan', "msgctxt ", "msgid_plural "):
         assert told in begun
