@@ -82,10 +82,10 @@ def test_the_commands_for_a_language_find_the_texts(tmp_path):
     script = "\n".join(line for block in blocks(page, "sh") for line in block.splitlines() if "pybabel" in line)
     script = script.replace("build/", f"{tmp_path}/").replace("-o graphcam/data/languages/", f"-o {tmp_path}/")
     # pybabel lies beside the interpreter, whether or not its environment is activated.
-    beside = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])}
     done = subprocess.run(
-        ["bash", "-euc", script], cwd=ROOT, capture_output=True, text=True, check=False, env={**os.environ, "PATH": beside}
-    )  # fmt: skip
+        ["bash", "-euc", script], cwd=ROOT, capture_output=True, text=True, check=False, env=environment
+    )
     assert done.returncode == 0, done.stderr
     begun = (tmp_path / "de.po").read_text(encoding="utf-8")
     for told in ('msgid "Velocity plan', "msgctxt ", "msgid_plural "):
