@@ -15,125 +15,15 @@ from typing import Annotated, Any, ClassVar, Literal
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
-from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
-from graphcam.given.table_file import CurveTable
+from graphcam.motion_tables import ByKind, MotionTable
 from graphcam.sheet_tables import SheetTable, TitleTable, one_of, plain, positive
 
-ANGLE_CLOSURE = 1e-9
-"""How far the phase angles of a file may miss 360 degrees."""
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
 USUAL_PRESSURE_ANGLE = {"translating": 30.0, "oscillating": 45.0}
 """The limit on the rise [degrees] where the task gives none, by the follower's kind."""
-
-
-class _ByKind:
-    """Tells pydantic, once a file is read and it is loaded, to choose among classes by the key ``kind``."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        from pydantic import Discriminator
-
-        return Discriminator("kind").__get_pydantic_core_schema__(source, handler)
-
-
-@dataclass(frozen=True)
-class DwellTable:
-    """A phase of rest over ``angle`` degrees."""
-
-    angle: float
-    kind: Literal["dwell"] = "dwell"
-
-    def __post_init__(self) -> None:
-        positive("angle", self.angle, "degrees")
-
-    def __call__(self, unit: float = 1.0) -> Dwell:
-        """The phase in radians; ``unit`` is there because every phase is called alike."""
-        return Dwell(math.radians(self.angle))
-
-
-@dataclass(frozen=True)
-class _MovingTable:
-    angle: float
-    lift: float
-    law: str
-    ratio: float = 1.0
-
-    moves: ClassVar[type[Rise] | type[Return]]
-
-    def __post_init__(self) -> None:
-        positive("angle", self.angle, "degrees")
-        positive("lift", self.lift, "(mm; degrees for an arm)")
-        self()
-
-    def __call__(self, unit: float = 1.0) -> Rise | Return:
-        """The phase in radians, its lift times ``unit`` (radians per degree for an arm, else 1)."""
-        return self.moves(self.lift * unit, math.radians(self.angle), self.law, self.ratio)
-
-
-@dataclass(frozen=True)
-class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
-
-    kind: Literal["rise"] = "rise"
-    moves = Rise
-
-
-@dataclass(frozen=True)
-class ReturnTable(_MovingTable):
-    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
-
-    kind: Literal["return"] = "return"
-    moves = Return
-
-
-PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, _ByKind()]
-
-
-@dataclass(frozen=True)
-class MotionTable:
-    """``[motion]``: the phases of one revolution, in order, or the table of a measured motion.
-
-    phases : their angles sum to 360 degrees, their lifts to 0
-    table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
-    tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
-
-    ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; the
-    task sets it.
-    """
-
-    phases: tuple[PhaseTable, ...] | None = None
-    table: CurveTable | None = None
-    tolerance: float | None = None
-    lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        if self.phases is None and self.table is None:
-            raise DesignError("phases", "missing", "given")
-        if self.phases is not None and self.table is not None:
-            raise DesignError("table", self.table.file, "left out where there are phases", "give one of the two")
-        if self.tolerance is not None and self.table is None:
-            raise DesignError(
-                "tolerance", self.tolerance, "left out where there is no table", "phases are kept exactly"
-            )
-        if self.phases is not None:
-            self._check_angles(self.phases)
-        self()
-
-    def _check_angles(self, phases: tuple[PhaseTable, ...]) -> None:
-        turn = math.fsum(phase.angle for phase in phases)
-        if abs(turn - 360) > ANGLE_CLOSURE:
-            off = f"{abs(360 - turn):.10g} deg"
-            remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
-            raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)
-
-    def __call__(self) -> Motion:
-        """The motion, in radians and mm (an arm's lift in radians too)."""
-        if self.table is not None:
-            return self.table(self.tolerance, self.lift_unit)
-        phases: list[Phase] = [phase(self.lift_unit) for phase in self.phases or ()]
-        return Motion(phases)
 
 
 @dataclass(frozen=True)
@@ -202,7 +92,7 @@ class FlatFacedTable:
         return FlatFaced()
 
 
-FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable, _ByKind()]
+FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable, ByKind()]
 
 
 @dataclass(frozen=True)
@@ -306,6 +196,7 @@ class Task:
     ------
     DesignError : a value that cannot be, alone or together with another
 
+    >>> from graphcam.motion_tables import ReturnTable, RiseTable
     >>> phases = (RiseTable(120, 30, "3-4-5"), ReturnTable(240, 30, "cosine"))
     >>> task = Task("ccw", MotionTable(phases), TranslatingTable(offset=10))
     >>> task.motion().lift, task.follower().offset, round(task.limits().rise, 6)
@@ -375,6 +266,7 @@ class Task:
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
 
+        >>> from graphcam.motion_tables import ReturnTable, RiseTable
         >>> phases = (RiseTable(120, 30, "2-3"), ReturnTable(240, 30, "2-3"))
         >>> Task("cw", MotionTable(phases), FlatFacedTable()).to_dict()["motion"]["phases"][0]
         {'kind': 'rise', 'angle': 120, 'lift': 30, 'law': '2-3', 'ratio': 1.0}

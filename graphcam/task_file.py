@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphcam import arcs_task as arcs
+from graphcam import motion_tables
 from graphcam import task as tables
 from graphcam.arcs_task import ArcsTask
 from graphcam.errors import DesignError, TaskError, nearest
@@ -32,10 +33,10 @@ _Checked = TypeVar("_Checked")
 _CLASSES: Classes = {
     (): Task,
     ("title",): tables.TitleTable,
-    ("motion",): tables.MotionTable,
-    ("motion", "phases", "rise"): tables.RiseTable,
-    ("motion", "phases", "dwell"): tables.DwellTable,
-    ("motion", "phases", "return"): tables.ReturnTable,
+    ("motion",): motion_tables.MotionTable,
+    ("motion", "phases", "rise"): motion_tables.RiseTable,
+    ("motion", "phases", "dwell"): motion_tables.DwellTable,
+    ("motion", "phases", "return"): motion_tables.ReturnTable,
     ("follower", "translating"): tables.TranslatingTable,
     ("follower", "oscillating"): tables.OscillatingTable,
     ("follower", "flat-faced"): tables.FlatFacedTable,

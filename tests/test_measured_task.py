@@ -20,7 +20,7 @@ from graphcam.errors import DesignError, TaskError
 from graphcam.given.measured import IntegratedMotion, MeasuredMotion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.table_file import CurveTable, read_table
-from graphcam.task import MotionTable
+from graphcam.motion_tables import MotionTable
 from graphcam.task_file import builtin_task, builtin_text, load_task
 
 TASK = builtin_text("measured")

@@ -23,19 +23,8 @@ from graphcam.given.laws import LAWS, Law, law
 from graphcam.given.motion import FULL_TURN, cam_angle
 from graphcam.main_job.solution import Solution
 from graphcam.mechanism.three_points import circumradius
-from graphcam.task import (
-    CamTable,
-    DrawingTable,
-    DwellTable,
-    FlatFacedTable,
-    LimitsTable,
-    MotionTable,
-    OscillatingTable,
-    ReturnTable,
-    RiseTable,
-    Task,
-    TranslatingTable,
-)
+from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.task import CamTable, DrawingTable, FlatFacedTable, LimitsTable, OscillatingTable, Task, TranslatingTable
 
 Row = dict[str, Any]
 TABLE: dict[str, list[Row]] = tomllib.loads(Path(hard_cases.TABLE).read_text(encoding="utf-8"))

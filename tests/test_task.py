@@ -15,16 +15,13 @@ from hypothesis import strategies as st
 from graphcam.errors import DesignError
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import Rise
+from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.task import (
     CamTable,
     DrawingTable,
-    DwellTable,
     FlatFacedTable,
     LimitsTable,
-    MotionTable,
     OscillatingTable,
-    ReturnTable,
-    RiseTable,
     Task,
     TitleTable,
     TranslatingTable,

@@ -30,6 +30,14 @@ Upto = Annotated[
     str | None,
     typer.Option(metavar="K|NAME", help="A half-done sheet: up to step K, or to the end of the construction NAME."),
 ]
+Sigma = Annotated[
+    float | None,
+    typer.Option(
+        "--pencil",
+        metavar="SIGMA_MM",
+        help="Draw with a hand that errs by this standard deviation, in mm, in each line and each divider setting.",
+    ),
+]
 Dxf = Annotated[
     str,
     typer.Option(metavar="KIND", help="plain: for every CAD program; cad: with true dimensions and attributes."),
@@ -46,13 +54,7 @@ def solve(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the solution as JSON alone; write files only with --out.")
     ] = False,
-    pencil: Annotated[
-        float | None,
-        typer.Option(
-            metavar="SIGMA_MM",
-            help="Draw with a hand that errs by this standard deviation, in mm, in each line and each divider setting.",
-        ),
-    ] = None,
+    pencil: Sigma = None,
     divisions: Annotated[int | None, typer.Option(metavar="N", help="Parts per phase or arc, not the task's.")] = None,
     language: Annotated[
         str | None, typer.Option(metavar="NAME", help="Language of sheet and note, not the task's: en, ru.")

@@ -90,37 +90,15 @@ def _shape(phase: Moving, u: Floats, side: Side = "right") -> Floats:
 
 
 def _draw(diagram: Construction) -> list[Step]:
-    motion, stations, mu_phi = (diagram.givens[name] for name in ("motion", "stations", "mu_phi"))
+    motion, stations = diagram.givens["motion"], diagram.givens["stations"]
     phases, greatest = moving_phases(motion, stations), diagram.first("greatest")
     x = diagram.first("axis").real
-    middle_x, middle_y = (x[stations.left] + x[stations.left + 1]) / 2, diagram.first("middles")
     curves = [
         _curve(p, y, x[s.start], x[s.stop - 1]) for p, y, s in zip(phases, greatest, stations.phases, strict=True)
     ]
-    heights = np.concatenate([line.imag for line in curves])
-    ends = phase_ends(motion, mu_phi)
-    axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
-    middles = (
-        Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),
-        Dots(middle_x + UP * middle_y, Role.CONSTRUCTION),
-        Segments(x - UP, x + UP, Role.SCALE),
-        *numbers(x + 0j, stations, -UP),
-    )
     chosen = next(k for k, phase in enumerate(phases) if phase.direction > 0)
     return [
-        Step(
-            say("Axis of the cam angle"),
-            say(
-                "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
-                "The phases end at {ends} mm.",
-                length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm,
-                ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]),
-            ),
-            ACCELERATION,
-            axes,
-            given=axes,
-            reads=("base",),
-        ),
+        _axis(diagram, np.concatenate([line.imag for line in curves])),
         Step(
             say("Ordinates of the phases"),
             say(
@@ -145,20 +123,53 @@ def _draw(diagram: Construction) -> list[Step]:
             ACCELERATION,
             tuple(Line(line, Role.RESULT) for line in curves),
         ),
-        Step(
-            say("Middle ordinates"),
-            say(
-                "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle "
-                "of each part; the third of them measures {third:.1f} mm.",
-                parts=joined([f"{s.stop - s.start}" for s in stations.parts]), equal=equal_parts(stations),
-                third=middle_y[min(2, middle_y.size - 1)],
-            ),
-            ACCELERATION,
-            middles,
-            given=middles,
-            reads=("middles",),
-        ),
+        _middle_ordinates(diagram, x),
     ]  # fmt: skip
+
+
+def _axis(diagram: Construction, heights: Floats) -> Step:
+    """The axes, for ordinates of these ``heights`` [mm]."""
+    motion, mu_phi = diagram.givens["motion"], diagram.givens["mu_phi"]
+    ends = phase_ends(motion, mu_phi)
+    axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
+    return Step(
+        say("Axis of the cam angle"),
+        say(
+            "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
+            "The phases end at {ends} mm.",
+            length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm,
+            ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]),
+        ),
+        ACCELERATION,
+        axes,
+        given=axes,
+        reads=("base",),
+    )  # fmt: skip
+
+
+def _middle_ordinates(diagram: Construction, x: Floats) -> Step:
+    """The ordinates between the stations, which stand at ``x`` [mm] on the axis."""
+    stations = diagram.givens["stations"]
+    middle_x, middle_y = (x[stations.left] + x[stations.left + 1]) / 2, diagram.first("middles")
+    middles = (
+        Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),
+        Dots(middle_x + UP * middle_y, Role.CONSTRUCTION),
+        Segments(x - UP, x + UP, Role.SCALE),
+        *numbers(x + 0j, stations, -UP),
+    )
+    return Step(
+        say("Middle ordinates"),
+        say(
+            "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle "
+            "of each part; the third of them measures {third:.1f} mm.",
+            parts=joined([f"{s.stop - s.start}" for s in stations.parts]), equal=equal_parts(stations),
+            third=middle_y[min(2, middle_y.size - 1)],
+        ),
+        ACCELERATION,
+        middles,
+        given=middles,
+        reads=("middles",),
+    )  # fmt: skip
 
 
 def _curve(phase: Moving, greatest: float, start: float, end: float) -> Points:

@@ -9,7 +9,7 @@ meets the follower's line in M, and MO is the acceleration d^2s/dphi^2 (after Kl
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,7 @@ from graphcam.drafting.ink import (
     Dots,
     Label,
     Line,
+    Mark,
     Points,
     Role,
     Segments,
@@ -162,8 +163,6 @@ def _draw(rolled: Construction) -> list[Step]:
     edges = np.degrees(rolled.first("edges"))
     reach = float(np.abs(trace[-1])) + BEYOND
     follows = say("The roller's centre") if roller else say("The knife edge")
-    middle = [span.start + stations.u.size // 6 for span in stations.spans]
-    rollers = [Circle(complex(at), roller / mu_l.per_mm, Role.CONSTRUCTION) for at in b[middle]] if roller else []
     return [
         Step(
             say("The arcs of the roller's centre"),
@@ -174,17 +173,7 @@ def _draw(rolled: Construction) -> list[Step]:
                 follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3],
             ),
             ROLLER,
-            (
-                *outline(arcs, 0.0, Role.RESULT),
-                *(outline(arcs, roller / mu_l.per_mm, Role.CURVE) if roller else ()),
-                Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS),
-                *(
-                    Label(complex(arcs.first(name)), name, towards=-complex(at))
-                    for name, at in zip("AGFD", trace, strict=True)
-                ),
-                Dots(np.array([0j])),
-                Label(0j, "O", towards=-1 - 1j),
-            ),
+            _outlines(arcs, trace, roller / mu_l.per_mm),
             reads=("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho"),
         ),
         Step(
@@ -200,7 +189,7 @@ def _draw(rolled: Construction) -> list[Step]:
                 Segments(0 * ray, reach * ray, Role.CONSTRUCTION),
                 Dots(b, Role.CONSTRUCTION),
                 Dots(mirrored(arcs, b), Role.CONSTRUCTION),
-                *rollers,
+                *_rollers(rolled),
                 *(
                     Label(complex(at) * reach, name, towards=complex(at), small=True)
                     for name, at in dict(zip(stations.names, ray, strict=True)).items()
@@ -210,6 +199,28 @@ def _draw(rolled: Construction) -> list[Step]:
         ),
         *_plan(rolled),
     ]  # fmt: skip
+
+
+def _outlines(arcs: Construction, trace: Points, roller: float) -> tuple[Mark, ...]:
+    """The cam and the path of the roller's centre, which passes through ``trace`` (4,); ``roller`` in mm of paper."""
+    return (
+        *outline(arcs, 0.0, Role.RESULT),
+        *(outline(arcs, roller, Role.CURVE) if roller else ()),
+        Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS),
+        *(Label(complex(arcs.first(name)), name, towards=-complex(at)) for name, at in zip("AGFD", trace, strict=True)),
+        Dots(np.array([0j])),
+        Label(0j, "O", towards=-1 - 1j),
+    )
+
+
+def _rollers(rolled: Construction) -> list[Circle]:
+    """The roller in the middle of every arc."""
+    roller, stations = rolled.givens["roller_radius"], rolled.givens["stations"]
+    if not roller:
+        return []
+    middle = [span.start + stations.u.size // 6 for span in stations.spans]
+    radius = roller / rolled.givens["arcs"].givens["mu_l"].per_mm
+    return [Circle(complex(at), radius, Role.CONSTRUCTION) for at in rolled.first("B")[middle]]
 
 
 def _missing(rolled: Construction) -> Words:
@@ -238,7 +249,6 @@ def _plan(rolled: Construction) -> list[Step]:
     p = {name: point / scale.per_mm for name, point in points.items()}
     v, a = (float(rolled.value(name)[at]) for name in "va")
     centre = ("C2", "C3", "C1")[on]
-    axis = np.array([min(0.0, p["M"].imag, p["C"].imag) - BEYOND, p["B"].imag + BEYOND]) * UP
     side = -sigma * 1.0
     return [
         Step(
@@ -251,17 +261,7 @@ def _plan(rolled: Construction) -> list[Step]:
                 paper=abs(p["K"]), v=v,
             ),
             PLAN,
-            (
-                Line(axis, Role.AXIS),
-                Line(np.array([p["B"], p["C"]]), Role.CURVE),
-                Line(np.array([0j, p["K"]]), Role.RESULT),
-                Line(np.array([p["B"], p["K"]]), Role.CURVE),
-                Dots(np.array([0j, p["B"], p["C"], p["K"]])),
-                Label(0j, "O", towards=-side - 1j),
-                Label(p["B"], "B", towards=side + 0j),
-                Label(p["C"], centre, towards=-side - 1j),
-                Label(p["K"], "K", towards=side + 0j),
-            ),
+            _velocity(p, centre, side),
         ),
         Step(
             say("Acceleration at station {name}", name=stations.names[at]),
@@ -275,16 +275,37 @@ def _plan(rolled: Construction) -> list[Step]:
                 else say("it is directed towards the cam centre: M lies on the side of B."),
             ),
             PLAN,
-            (
-                Line(np.array([p["C"], p["right"], p["B"]]), Role.CONSTRUCTION),
-                Line(np.array([p["right"], p["beyond"], p["C"]]), Role.CONSTRUCTION),
-                Line(np.array([p["N"], p["M"]]), Role.CONSTRUCTION),
-                Line(np.array([0j, p["M"]]), Role.RESULT),
-                Dots(np.array([p["right"], p["beyond"], p["N"], p["M"]])),
-                Label(p["beyond"], "N′", towards=-side + 0j),
-                Label(p["N"], "N", towards=side + 0j),
-                Label(p["M"], "M", towards=-side + 0j),
-            ),
+            _acceleration(p, side),
             reads=("v", "a", "a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D"),
         ),
     ]  # fmt: skip
+
+
+def _velocity(p: Mapping[str, complex], centre: str, side: float) -> tuple[Mark, ...]:
+    """The rod from B to its ``centre``, and K; labels stand to the ``side`` of -1 or 1."""
+    axis = np.array([min(0.0, p["M"].imag, p["C"].imag) - BEYOND, p["B"].imag + BEYOND]) * UP
+    return (
+        Line(axis, Role.AXIS),
+        Line(np.array([p["B"], p["C"]]), Role.CURVE),
+        Line(np.array([0j, p["K"]]), Role.RESULT),
+        Line(np.array([p["B"], p["K"]]), Role.CURVE),
+        Dots(np.array([0j, p["B"], p["C"], p["K"]])),
+        Label(0j, "O", towards=-side - 1j),
+        Label(p["B"], "B", towards=side + 0j),
+        Label(p["C"], centre, towards=-side - 1j),
+        Label(p["K"], "K", towards=side + 0j),
+    )
+
+
+def _acceleration(p: Mapping[str, complex], side: float) -> tuple[Mark, ...]:
+    """The right angle that cuts N′ off, N, and M; labels as in :func:`_velocity`."""
+    return (
+        Line(np.array([p["C"], p["right"], p["B"]]), Role.CONSTRUCTION),
+        Line(np.array([p["right"], p["beyond"], p["C"]]), Role.CONSTRUCTION),
+        Line(np.array([p["N"], p["M"]]), Role.CONSTRUCTION),
+        Line(np.array([0j, p["M"]]), Role.RESULT),
+        Dots(np.array([p["right"], p["beyond"], p["N"], p["M"]])),
+        Label(p["beyond"], "N′", towards=-side + 0j),
+        Label(p["N"], "N", towards=side + 0j),
+        Label(p["M"], "M", towards=-side + 0j),
+    )

@@ -6,6 +6,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, turning
 from graphcam.constructions.profile_view import (
+    curve_readings,
     ground,
     outer_radius,
     phase_angles,
@@ -15,7 +16,7 @@ from graphcam.constructions.profile_view import (
 )
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
-from graphcam.drafting.ink import Circle, Construction, Dots, Label, Role, Segments, Step, reading, say
+from graphcam.drafting.ink import Circle, Construction, Dots, Label, Role, Segments, Step, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
@@ -53,12 +54,7 @@ def arm_inversion(
             "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm,
             "distance": distance, "mu_l": mu_l, "pencil": pencil,
         },
-        {
-            "x": reading(hand.read(pitch.real), mu_l.per_mm, "mm"),
-            "y": reading(hand.read(pitch.imag), mu_l.per_mm, "mm"),
-            "radius": reading(hand.read(np.abs(pitch)), mu_l.per_mm, "mm"),
-            "polar_angle": reading(np.angle(pitch), 1.0, "rad"),
-        },
+        curve_readings(pitch, mu_l, hand),
         {"pivots": pivots, "starts": starts, "pitch": pitch, "motion": -UP * unit(pitch - pivots)},
         _draw,
     )  # fmt: skip

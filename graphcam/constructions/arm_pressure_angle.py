@@ -15,7 +15,7 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
-from graphcam.drafting.ink import Construction, Dots, Label, Line, Role, Step, reading, say
+from graphcam.drafting.ink import Construction, Dots, Label, Line, Mark, Role, Step, reading, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
@@ -99,17 +99,7 @@ def _draw(measured: Construction) -> list[Step]:
                 side=say("away from the pivot") if abs(d - c) >= abs(b - c) else say("towards the pivot"),
             ),
             plan,
-            (
-                Line(np.array([0j, c]), Role.AXIS),
-                Line(np.array([c, b]), Role.CURVE),
-                Line(np.array([b, d]), Role.RESULT),
-                Line(np.array([0j, b]), Role.CONSTRUCTION),
-                Dots(np.array([0j, b, c, d])),
-                Label(0j, "A", towards=-1 - 1j),
-                Label(b, "B", towards=1 + 1j),
-                Label(c, "C", towards=1 - 1j),
-                Label(d, "D", towards=-1 + 1j),
-            ),
+            _mechanism(b, c, d),
         ),
         Step(
             say("The pressure angle"),
@@ -127,3 +117,18 @@ def _draw(measured: Construction) -> list[Step]:
             reads=("psi0", "alpha", "transmission"),
         ),
     ]  # fmt: skip
+
+
+def _mechanism(b: complex, c: complex, d: complex) -> tuple[Mark, ...]:
+    """The arm CB with the segment BD along it, and the line of centres from the cam centre A at the origin."""
+    return (
+        Line(np.array([0j, c]), Role.AXIS),
+        Line(np.array([c, b]), Role.CURVE),
+        Line(np.array([b, d]), Role.RESULT),
+        Line(np.array([0j, b]), Role.CONSTRUCTION),
+        Dots(np.array([0j, b, c, d])),
+        Label(0j, "A", towards=-1 - 1j),
+        Label(b, "B", towards=1 + 1j),
+        Label(c, "C", towards=1 - 1j),
+        Label(d, "D", towards=-1 + 1j),
+    )

@@ -203,10 +203,6 @@ def _draw(curved: Construction) -> list[Step]:
     enlarged = (triple - triple[1]) * mu_l.per_mm / scale.per_mm
     hub = complex(centre - triple[1]) * mu_l.per_mm / scale.per_mm
     chords = np.abs(np.diff(enlarged))
-    step = phi[2] - phi[0]
-    spread = say("They span {step:.3g}° of the cam angle.", step=np.degrees(step))
-    if step < READABLE_STEP:
-        spread = sequence([spread, say("Over so small a step a hand's error is large.")], " ")
     return [
         Step(
             say("Chords at the sharpest place"),
@@ -214,7 +210,7 @@ def _draw(curved: Construction) -> list[Step]:
                 "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn "
                 "enlarged, at {ratio}: {first:.2f} mm and {second:.2f} mm. {spread}",
                 place=place, phi=np.degrees(phi[1] % FULL_TURN), ratio=ratio_text(scale.per_mm), first=chords[0],
-                second=chords[1], spread=spread,
+                second=chords[1], spread=_spread(phi[2] - phi[0]),
             ),
             curvature,
             (
@@ -239,13 +235,7 @@ def _draw(curved: Construction) -> list[Step]:
                 paper=abs(hub), rho=float(curved.value("rho")),
             ),
             curvature,
-            (
-                Line(np.array([hub, enlarged[1]]), Role.LIMIT),
-                Arc(hub, abs(hub), *_sector(enlarged, hub), Role.CONSTRUCTION),
-                Dots(np.array([hub]), Role.RESULT),
-                Label(hub, "O", towards=hub),
-                Label(hub / 2, say("ρ = {rho:.2f}", rho=float(curved.value("rho"))), towards=hub * UP),
-            ),
+            _radius(enlarged, hub, float(curved.value("rho"))),
         ),
         Step(
             say("Centre of curvature on the profile"),
@@ -259,6 +249,14 @@ def _draw(curved: Construction) -> list[Step]:
             reads=("rho",),
         ),
     ]  # fmt: skip
+
+
+def _spread(step: float) -> Caption:
+    """What step of the cam angle [rad] the chords span."""
+    spread = say("They span {step:.3g}° of the cam angle.", step=np.degrees(step))
+    if step >= READABLE_STEP:
+        return spread
+    return sequence([spread, say("Over so small a step a hand's error is large.")], " ")
 
 
 def _unreadable(curved: Construction) -> Caption:
@@ -299,6 +297,17 @@ def _bisector(a: complex, b: complex, hub: complex) -> tuple[Mark, ...]:
             towards = float(np.angle(meeting - end))
             marks.append(Arc(end, reach, towards - 0.12, towards + 0.12, Role.CONSTRUCTION))
     return tuple(marks)
+
+
+def _radius(triple: Points, hub: complex, rho: float) -> tuple[Mark, ...]:
+    """The radius of curvature ``rho`` [mm], from the centre to the middle place, and a little of its circle."""
+    return (
+        Line(np.array([hub, triple[1]]), Role.LIMIT),
+        Arc(hub, abs(hub), *_sector(triple, hub), Role.CONSTRUCTION),
+        Dots(np.array([hub]), Role.RESULT),
+        Label(hub, "O", towards=hub),
+        Label(hub / 2, say("ρ = {rho:.2f}", rho=rho), towards=hub * UP),
+    )
 
 
 def _sector(triple: Points, hub: complex) -> tuple[float, float]:

@@ -113,22 +113,21 @@ def differentiation(
     second = derive(first.x, first.y, poles[1], turn, hand)
     mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
     mu_a = mu_v / (mu_phi.per_mm * poles[1])
-    lift_unit = mu_s.unit
     return Construction(
         "differentiation",
         {
-            "x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": lift_unit,
+            "x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": mu_s.unit,
             "pencil": pencil,
         },
         {
-            "rise": reading(hand.read(first.slope * first.run), mu_s.per_mm, lift_unit),
+            "rise": reading(hand.read(first.slope * first.run), mu_s.per_mm, mu_s.unit),
             "run": reading(pencil.sheets(first.run), mu_phi.per_mm, "rad"),
-            "v": reading(hand.read(first.y), mu_v, f"{lift_unit}/rad"),
+            "v": reading(hand.read(first.y), mu_v, f"{mu_s.unit}/rad"),
             "v_at": reading(pencil.sheets(first.x), mu_phi.per_mm, "rad"),
-            "a": reading(hand.read(second.y), mu_a, f"{lift_unit}/rad²"),
+            "a": reading(hand.read(second.y), mu_a, f"{mu_s.unit}/rad²"),
             "a_at": reading(pencil.sheets(second.x), mu_phi.per_mm, "rad"),
-            "max_v": reading(hand.read(_greatest(first, turn)), mu_v, f"{lift_unit}/rad"),
-            "max_a": reading(hand.read(_greatest(second, turn)), mu_a, f"{lift_unit}/rad²"),
+            "max_v": reading(hand.read(_greatest(first, turn)), mu_v, f"{mu_s.unit}/rad"),
+            "max_a": reading(hand.read(_greatest(second, turn)), mu_a, f"{mu_s.unit}/rad²"),
         },
         {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y},
         _draw,

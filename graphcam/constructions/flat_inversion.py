@@ -10,6 +10,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, turning
 from graphcam.constructions.profile_view import (
+    curve_readings,
     ground,
     outer_radius,
     phase_angles,
@@ -59,10 +60,7 @@ def flat_inversion(
             "pencil": pencil,
         },
         {
-            "x": reading(hand.read(touch.real), mu_l.per_mm, "mm"),
-            "y": reading(hand.read(touch.imag), mu_l.per_mm, "mm"),
-            "radius": reading(hand.read(np.abs(touch)), mu_l.per_mm, "mm"),
-            "polar_angle": reading(np.angle(touch), 1.0, "rad"),
+            **curve_readings(touch, mu_l, hand),
             "contact": reading(hand.read(contact), mu_l.per_mm, "mm"),
             "face_left": reading(hand.read(left), mu_l.per_mm, "mm"),
             "face_right": reading(hand.read(right), mu_l.per_mm, "mm"),

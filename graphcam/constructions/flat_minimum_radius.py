@@ -23,6 +23,7 @@ from graphcam.drafting.ink import (
     Dots,
     Label,
     Line,
+    Mark,
     Points,
     Role,
     Segments,
@@ -127,24 +128,11 @@ def _draw_curvature(curved: Construction) -> list[Step]:
 
 
 def _draw(region: Construction) -> list[Step]:
-    smooth, curve = region.givens["integrated"].givens["stations"].stretches, region.first("curve")
+    curve = region.first("curve")
     touch, zero = complex(region.first("touch")), complex(region.first("zero"))
     r0, need = float(region.first("prime_radius")), float(region.first("need"))
     mu = float(np.ravel(region.readings["need"].scale)[0])
-    pieces, first = list[Points](), 0
-    for piece in smooth:
-        size = piece.stop - piece.start
-        pieces.append(curve[first : first + size])
-        first += size
-    below = min(-r0, zero.imag) - OVERHANG
-    named = [(p[0], smooth[k].start) for k, p in enumerate(pieces)]
-    axes = (
-        Arrow(below * UP, (float(curve.imag.max()) + OVERHANG) * UP, Role.SCALE),
-        Arrow(curve.real.min() + 0j, float(curve.real.max()) + OVERHANG + 0j, Role.SCALE),
-        Label((float(curve.imag.max()) + OVERHANG) * UP, "s", towards=-1 + 0j),
-        Label(float(curve.real.max()) + OVERHANG + 0j, "a", towards=-1j),
-    )
-    names = station_names(region.givens["integrated"].givens["stations"])
+    axes = _axes(curve, min(-r0, zero.imag) - OVERHANG)
     return [
         Step(
             say("Displacement over acceleration"),
@@ -155,13 +143,7 @@ def _draw(region: Construction) -> list[Step]:
                 longest=float(np.abs(curve.real).max()),
             ),
             COMBINED,
-            (
-                *axes,
-                Segments(UP * curve.imag, curve, Role.CONSTRUCTION),
-                *(Line(faired(piece), Role.RESULT) for piece in pieces),
-                Dots(region.first("rests"), Role.RESULT),
-                *(Label(complex(at), names[k], towards=complex(np.sign(at.real)), small=True) for at, k in named),
-            ),
+            (*axes, *_curve(region)),
             given=axes,
         ),
         Step(
@@ -196,3 +178,31 @@ def _draw(region: Construction) -> list[Step]:
             reads=("prime_radius",),
         ),
     ]  # fmt: skip
+
+
+def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
+    """The axes of s and a, that of s from ``below`` [mm]."""
+    top, right = float(curve.imag.max()) + OVERHANG, float(curve.real.max()) + OVERHANG
+    return (
+        Arrow(below * UP, top * UP, Role.SCALE),
+        Arrow(curve.real.min() + 0j, right + 0j, Role.SCALE),
+        Label(top * UP, "s", towards=-1 + 0j),
+        Label(right + 0j, "a", towards=-1j),
+    )
+
+
+def _curve(region: Construction) -> tuple[Mark, ...]:
+    """The accelerations, and the smooth curves through their ends, each with the name of its first station."""
+    stations, curve = region.givens["integrated"].givens["stations"], region.first("curve")
+    ends = np.cumsum([stretch.stop - stretch.start for stretch in stations.stretches])
+    pieces = np.split(curve, ends[:-1])
+    names = station_names(stations)
+    return (
+        Segments(UP * curve.imag, curve, Role.CONSTRUCTION),
+        *(Line(faired(piece), Role.RESULT) for piece in pieces),
+        Dots(region.first("rests"), Role.RESULT),
+        *(
+            Label(complex(piece[0]), names[stretch.start], towards=complex(np.sign(piece[0].real)), small=True)
+            for piece, stretch in zip(pieces, stations.stretches, strict=True)
+        ),
+    )

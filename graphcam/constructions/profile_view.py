@@ -24,16 +24,30 @@ from graphcam.drafting.ink import (
     Line,
     Mark,
     Points,
+    Reading,
     Role,
     Segments,
     Step,
+    reading,
     say,
 )
+from graphcam.drafting.pencil import Hand
+from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
 from graphcam.given.motion import FULL_TURN, Motion
 
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
+
+
+def curve_readings(points: Points, mu_l: Scale, hand: Hand) -> dict[str, Reading]:
+    """``x``, ``y`` and ``radius`` [mm] and the ``polar_angle`` [rad] of points of a profile about the cam centre."""
+    return {
+        "x": reading(hand.read(points.real), mu_l.per_mm, "mm"),
+        "y": reading(hand.read(points.imag), mu_l.per_mm, "mm"),
+        "radius": reading(hand.read(np.abs(points)), mu_l.per_mm, "mm"),
+        "polar_angle": reading(np.angle(points), 1.0, "rad"),
+    }
 
 
 def pitch_curve(inverted: Construction) -> Points:

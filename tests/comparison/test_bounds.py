@@ -16,7 +16,8 @@ from graphcam.given.laws import LAWS
 from graphcam.main_job import solve
 from graphcam.main_job.note import against_exact
 from graphcam.mechanism.cam import Cam
-from graphcam.task import CamTable, LimitsTable, MotionTable, TranslatingTable
+from graphcam.motion_tables import MotionTable
+from graphcam.task import CamTable, LimitsTable, TranslatingTable
 from graphcam.task_file import builtin_task
 
 STATION_READINGS = {

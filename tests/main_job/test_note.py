@@ -12,18 +12,8 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS
 from graphcam.main_job import solve
 from graphcam.main_job.note import against_exact, note
-from graphcam.task import (
-    CamTable,
-    DwellTable,
-    LimitsTable,
-    MotionTable,
-    ReturnTable,
-    RiseTable,
-    SpringTable,
-    Task,
-    TitleTable,
-    TranslatingTable,
-)
+from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.task import CamTable, LimitsTable, SpringTable, Task, TitleTable, TranslatingTable
 from graphcam.task_file import builtin_task
 
 NOT_NUMBERS = re.compile(r"\b(nan|inf|None)\b|-0\.0+\b")
