@@ -93,7 +93,7 @@ def _print_matrix(found: Simulation) -> None:
         ("careful students remarked on as too exact", str(found.too_exact)),
         ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
         ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
-        ("draws a variant", f"{found.draws:.1f}"),
+        (f"draws a variant, all {found.variants} separable", f"{found.draws:.2f}, at most {len(found.issued)}"),
         ("hand-ins marked a second on one core", f"{found.marked_per_second:.0f}"),
     ):
         console.print(f"{what}: {value}")

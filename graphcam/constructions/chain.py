@@ -156,6 +156,10 @@ class Chain(Mapping[str, Construction]):
         perfect = self.pencil.perfect and self.pencil.samples is None
         return self if perfect and not self.done else replace(self, pencil=Pencil(), done={})
 
+    def by(self, pencil: Pencil) -> Chain:
+        """The same task, with the same decisions, drawn by another hand."""
+        return self._deciding_alike(replace(self, pencil=pencil, done={}))
+
     def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> Chain:
         """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
         board = self.board if refine == 1 else replace(self.board, refine=refine * self.board.refine)
@@ -170,7 +174,13 @@ class Chain(Mapping[str, Construction]):
         # What was drawn before stays; what comes later, or was not drawn yet, is drawn when it is asked for.
         kept = {name: drawn for name, drawn in self.__dict__.items() if isinstance(drawn, Construction)}
         done = {name: drawn for name, drawn in kept.items() if name not in later} | {construction.name: construction}
-        return replace(self, done=done)
+        return self._deciding_alike(replace(self, done=done))
+
+    def _deciding_alike(self, other: Chain) -> Chain:
+        # The same board is drawn alike by a perfect hand, so what the decisions rest on is not drawn again.
+        if other.perfect is not other:
+            other.__dict__["perfect"] = self.perfect
+        return other
 
     @property
     def spans(self) -> tuple[slice, ...]:
@@ -188,12 +198,12 @@ class Chain(Mapping[str, Construction]):
     @cached_property
     def place(self) -> float:
         """The adopted offset or centre distance: as given, else a round number near the one found."""
-        return self.decided.place if self.decided else self._adopted[1]
+        return self.decided.place if self.decided else self.perfect._adopted[1]
 
     @cached_property
     def prime_radius(self) -> float:
         """The adopted prime radius: as given, else the next round number above the least one at the adopted place."""
-        return self.decided.prime_radius if self.decided else self._adopted[0]
+        return self.decided.prime_radius if self.decided else self.perfect._adopted[0]
 
     @property
     def rounded(self) -> bool:

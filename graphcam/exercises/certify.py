@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from graphcam.errors import GraphcamError
 from graphcam.exercises.certificate import Certificate, Key
 from graphcam.exercises.hypothesis import Hypothesis
 from graphcam.exercises.redrawing import dependences
-from graphcam.exercises.scatter import answers_of, bulges_of, deviations, expected, lengths_of
-from graphcam.exercises.separation import alike, hypotheses
+from graphcam.exercises.scatter import answers_of, bulges_of, deviations, distances, expected
+from graphcam.exercises.separation import alike, hypotheses, passing, perfect_hands, promising
 from graphcam.exercises.variant import Variant
 
 HANDS = 2000
@@ -19,33 +20,44 @@ TOO_EXACT = 5e-4
 """A hand-in is remarked on as too exact where so few careful hands are as near to the key."""
 
 
-def certify(variant: Variant) -> Certificate:
-    """The certificate of a variant.
+def certify(variant: Variant) -> Certificate | None:
+    """The certificate of a variant; None where its answers cannot tell every mistake from every other.
+
+    What is quickly found out comes first: of several draws most are turned away.
 
     Raises
     ------
-    DesignError : there is no such cam
+    DesignError : a careful hand comes to nothing with it
     """
     exercise, task = variant.exercise, variant.task
-    lengths = lengths_of(exercise, task)
-    perfect = answers_of(exercise, task, None)
-    hands = answers_of(exercise, task, HANDS)
-    keys = expected(exercise, perfect, hands, lengths, bulges_of(exercise, task))
-    off = deviations(exercise, keys, hands)
+    try:
+        drawn = perfect_hands(exercise, task)
+    except GraphcamError:
+        return None
+    if not promising(exercise, drawn):
+        return None
+    wrong = hypotheses(exercise, drawn)
+    if alike(exercise, wrong):
+        return None
+    hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HANDS)))
+    far = distances(exercise, drawn.answers, hands)
+    keys = expected(exercise, drawn.answers, far, drawn.lengths, bulges_of(exercise, drawn.right))
+    off = deviations(exercise, keys, far)
     bound = float(np.quantile(off.max(axis=1), 1 - MARGIN * exercise.careful))
-    drawn = [float(np.std(samples)) > 0 for samples in hands]
-    wrong = hypotheses(variant, lengths)
-    near = np.sqrt(np.mean(off[:, drawn] ** 2, axis=1)) if any(drawn) else np.full(HANDS, np.nan)
+    if passing(exercise, keys, wrong, bound):
+        return None
+    by_hand = [float(np.std(samples)) > 0 for samples in hands]
+    near = np.sqrt(np.mean(off[:, by_hand] ** 2, axis=1)) if any(by_hand) else np.full(HANDS, np.nan)
     return Certificate(
         exercise.name, exercise.version, variant.student, variant.draw, variant.parameters, bound,
         float(np.mean(off.max(axis=1) > bound)),
         {
             asked.name: Key(key, tolerance, tolerance / length, is_drawn)
-            for asked, key, length, is_drawn in zip(exercise.answers, keys, lengths, drawn, strict=True)
+            for asked, key, length, is_drawn in zip(exercise.answers, keys, drawn.lengths, by_hand, strict=True)
             for tolerance in [bound * float(np.max(key.scatter))]
         },
         {name: Hypothesis.of(values) for name, values in wrong.items()},
-        tuple(alike(exercise, keys, wrong, bound)),
-        dependences(exercise, task, keys, bound),
-        float(np.quantile(near, TOO_EXACT)) if any(drawn) else 0.0,
+        (),
+        dependences(exercise, drawn.right, keys, bound),
+        float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
     )  # fmt: skip

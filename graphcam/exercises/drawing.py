@@ -93,17 +93,11 @@ def _in_phase(stations: Stations, number: int, phase: int, asked: Asked) -> int:
     return place
 
 
-def with_own(chain: Chain, own: list[tuple[Asked, NDArray[np.float64]]]) -> Chain:
-    """The drawing gone on with from a student's own values ([samples,]): what comes later follows them.
-
-    own : answers in the order of the drawing, numbers only
-    """
-    for asked, values in own:
-        construction = _construction(chain, asked)
-        if asked.points or not asked.reading:
-            continue  # a point's own coordinates go no further than its construction
-        chain = chain.going_on_from(_replaced(chain, construction, asked, values))
-    return chain
+def with_own(chain: Chain, asked: Asked, values: NDArray[np.float64]) -> Chain:
+    """The drawing gone on with from a student's own answers ([samples,]), numbers: what comes later follows them."""
+    if asked.points:
+        return chain  # a point's own coordinates go no further than its construction
+    return chain.going_on_from(_replaced(chain, _construction(chain, asked), asked, values))
 
 
 def _replaced(chain: Chain, construction: Construction, asked: Asked, values: NDArray[np.float64]) -> Construction:

@@ -207,8 +207,10 @@ def _other(rotation: Rotation) -> Rotation:
 
 
 def _redrawn(chain: Chain, board: Board) -> Chain:
-    """Everything drawn from the start with other givens."""
-    return replace(chain, board=board, done={})
+    """Everything drawn from the start with other givens; the diagrams stay where the motion does."""
+    same = board.motion is chain.board.motion
+    done = {"acceleration": chain.acceleration, "integration": chain.integration} if same else {}
+    return replace(chain, board=board, done=done)
 
 
 def _inverted(chain: Chain, prime_radius: float, rotation: Rotation) -> Chain:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from graphcam.constructions.chain import Chain
 from graphcam.drafting.pencil import Pencil
-from graphcam.exercises.drawing import ask, board_chain, with_own
+from graphcam.exercises.drawing import ask, with_own
 from graphcam.exercises.exercise import Asked, Exercise
-from graphcam.exercises.expectation import Expected
+from graphcam.exercises.expectation import Expected, Floats
 from graphcam.exercises.follow import NODES, Dependence, Effect, Together, span
-from graphcam.task import Task
 
 NOTHING = 0.05
 """Effects of less than this part of the tolerance are none."""
@@ -22,62 +22,75 @@ SPREAD = 0.4
 """By what part of themselves the own values of these are off at most."""
 
 
-def dependences(exercise: Exercise, task: Task, keys: list[Expected], bound: float) -> dict[str, Dependence]:
-    """How every numeric answer depends on the numeric ones before it; answers that depend on none are left out."""
+def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: float) -> dict[str, Dependence]:
+    """How every numeric answer depends on the numeric ones before it; answers that depend on none are left out.
+
+    chain : the right drawing
+    """
     numbers = [(asked, key) for asked, key in zip(exercise.answers, keys, strict=True) if asked.kind == "number"]
+    if len(numbers) < 2:
+        return {}
+    asked = [each for each, _ in numbers]
+    centres = np.array([float(np.real(key.value)) for _, key in numbers])
+    scatters = np.array([float(key.scatter) for _, key in numbers])
+    widths = np.maximum(np.abs(centres) / 4, 4 * scatters)
+    # One drawing for all: in its samples one own value each is off, then several at once.
+    alone, trials = _one_off(centres, widths), _several_off(centres)
+    own = np.concatenate([alone.reshape(-1, centres.size), trials.reshape(-1, centres.size)])
+    one, several = np.split(_drawn_again(chain, asked, own), [alone.size // centres.size])
+    one, several = one.reshape(alone.shape), several.reshape(trials.shape)
     found: dict[str, Dependence] = {}
-    for k in range(1, len(numbers)):
-        asked, key = numbers[k]
-        effects = _effects(task, numbers[:k], asked, bound * float(key.scatter), float(np.real(key.value)))
+    for k in range(1, centres.size):
+        effects = {
+            asked[i].name: Effect(float(centres[i]), float(widths[i]), _figures(one[i, :, k]))
+            for i in range(k)
+            if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NOTHING * bound * scatters[k]
+        }
         if effects:
-            found[asked.name] = _put_together(task, numbers[:k], asked, effects, float(np.real(key.value)))
+            rows = [dict(zip([each.name for each in asked[:k]], row, strict=False)) for row in trials[k - 1].tolist()]
+            found[asked[k].name] = _put_together(effects, float(centres[k]), rows, several[k - 1, :, k])
     return found
 
 
-def _effects(
-    task: Task, earlier: list[tuple[Asked, Expected]], asked: Asked, tolerance: float, key: float
-) -> dict[str, Effect]:
-    count = len(earlier)
-    centres = np.array([float(np.real(each.value)) for _, each in earlier])
-    widths = np.array([max(abs(c) / 4, 4 * float(each.scatter)) for c, (_, each) in zip(centres, earlier, strict=True)])
-    own = np.tile(centres, (count, NODES, 1))
-    for i in range(count):
+def _one_off(centres: Floats, widths: Floats) -> Floats:
+    """Own values (n - 1, NODES, n): in each row one of the first n - 1 is off, from little to far."""
+    own = np.tile(centres, (centres.size - 1, NODES, 1))
+    for i in range(centres.size - 1):
         t = np.linspace(-1, 1, NODES) * span(centres[i], widths[i])
         own[i, :, i] = centres[i] + widths[i] * np.sinh(t)
-    drawn = _drawn_again(task, earlier, asked, own.reshape(-1, count)).reshape(count, NODES)
-    effects: dict[str, Effect] = {}
-    for i, (before, _) in enumerate(earlier):
-        change = np.abs(drawn[i] - key)
-        if np.nanmax(change, initial=0.0) > NOTHING * tolerance:
-            # Seven figures are far finer than the parabola between the nodes, and quicker to read.
-            values = tuple(float(f"{value:.7g}") if math.isfinite(value) else None for value in drawn[i])
-            effects[before.name] = Effect(float(centres[i]), float(widths[i]), values)
-    return effects
+    return own
 
 
-def _put_together(
-    task: Task, earlier: list[tuple[Asked, Expected]], asked: Asked, effects: dict[str, Effect], key: float
-) -> Dependence:
-    centres = np.array([float(np.real(each.value)) for _, each in earlier])
-    random = np.random.RandomState(0)
-    own = centres * (1 + SPREAD * random.uniform(-1, 1, (TRIALS, centres.size)))
-    drawn = _drawn_again(task, earlier, asked, own)
-    names = [before.name for before, _ in earlier]
+def _several_off(centres: Floats) -> Floats:
+    """Own values (n - 1, TRIALS, n): those before the second answer are off at random, those before the third, ..."""
+    own = np.tile(centres, (centres.size - 1, TRIALS, 1))
+    for k in range(1, centres.size):
+        own[k - 1, :, :k] *= 1 + SPREAD * np.random.RandomState(0).uniform(-1, 1, (TRIALS, k))
+    return own
+
+
+def _drawn_again(chain: Chain, asked: Sequence[Asked], own: Floats) -> Floats:
+    """The answers (rows, n) of a perfect hand, each drawn from the own values (rows, n) of those before it."""
+    drawn = np.empty(own.shape)
+    chain = chain.by(Pencil(samples=len(own)))
+    with np.errstate(all="ignore"):
+        for k, each in enumerate(asked):
+            drawn[:, k] = ask(chain, each)
+            chain = with_own(chain, each, own[:, k])
+    return drawn
+
+
+def _figures(values: Floats) -> tuple[float | None, ...]:
+    """Seven figures, which are far finer than the parabola between the nodes, and quicker to read."""
+    return tuple(float(f"{value:.7g}") if math.isfinite(value) else None for value in values.tolist())
+
+
+def _put_together(effects: Mapping[str, Effect], key: float, own: list[dict[str, float]], drawn: Floats) -> Dependence:
+    """The effects, with the rule that comes nearer to what was drawn (rows,) from several own values at once."""
 
     def missed(together: Together) -> float:
         rule = Dependence(effects, together)
-        off = [rule.expected(key, dict(zip(names, row, strict=True))) for row in own.tolist()]
-        return float(np.nanmedian(np.abs(np.array(off) - drawn)))
+        return float(np.nanmedian(np.abs(np.array([rule.expected(key, row) for row in own]) - drawn)))
 
     by_factors = bool(key) and missed("product") <= missed("sum")
     return Dependence(effects, "product" if by_factors else "sum")
-
-
-def _drawn_again(
-    task: Task, earlier: list[tuple[Asked, Expected]], asked: Asked, own: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """The answer (n,) drawn by a perfect hand from rows of own values (n, earlier)."""
-    chain = board_chain(task, Pencil(samples=len(own)))
-    with np.errstate(all="ignore"):
-        chain = with_own(chain, [(before, own[:, i]) for i, (before, _) in enumerate(earlier)])
-        return np.broadcast_to(ask(chain, asked), (len(own),))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,14 +11,12 @@ from numpy.typing import NDArray
 from graphcam.constructions.chain import Chain
 from graphcam.exercises.bulges import bulges
 from graphcam.exercises.curve_distance import distance_to_curve
-from graphcam.exercises.drawing import ask, board_chain, per_mm
+from graphcam.exercises.drawing import ask, per_mm
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.expectation import Expected, Floats
-from graphcam.task import Task
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
-Change = Callable[[Chain], Chain]
 
 UNIFORM = 1 / math.sqrt(12)
 """Standard deviation of a rounding, in its steps."""
@@ -29,13 +26,9 @@ NORMAL_95 = 1.959964
 """95 % of normally distributed values lie within so many standard deviations."""
 
 
-def answers_of(
-    exercise: Exercise, task: Task, samples: int | None, seed: int = 0, change: Change | None = None
-) -> Drawn:
-    """What careful hands answer, each rounding as asked, or a perfect one (``samples`` None) that does not round."""
-    pencil = None if samples is None else exercise.hand.pencil(samples, seed)
-    chain = board_chain(task, pencil)
-    chain = change(chain) if change else chain
+def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
+    """What the hands that drew this answer: many hands round as asked, a perfect one without samples does not."""
+    samples = chain.pencil.samples
     given: Drawn = []
     for asked in exercise.answers:
         answer = np.asarray(ask(chain, asked))
@@ -57,57 +50,54 @@ def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float)
     return max(UNIFORM * 10.0**-asked.decimals, CALCULATED * abs(value), read)
 
 
-def expected(
-    exercise: Exercise, perfect: Drawn, hands: Drawn, lengths: list[float], bent: list[Floats] | None = None
-) -> list[Expected]:
-    """Values and scatters of all answers, from a perfect hand and from careful ones.
+def distances(exercise: Exercise, perfect: Drawn, hands: Drawn) -> Drawn:
+    """How far the answers of many hands lie from those of a perfect one: (samples,) each, of points (samples, m)."""
+    return [
+        distance_to_curve(value, samples) if asked.kind == "curve" else np.abs(samples - value)
+        for asked, value, samples in zip(exercise.answers, perfect, hands, strict=True)
+    ]
 
+
+def expected(
+    exercise: Exercise, perfect: Drawn, off: Drawn, lengths: list[float], bent: list[Floats] | None = None
+) -> list[Expected]:
+    """Values and scatters of all answers.
+
+    perfect : of a perfect hand; off : :func:`distances` of careful ones
     lengths : units of each answer in one mm of paper; bent : bulges of each, where it matters
     """
     bent = bent or [np.empty(0)] * len(lengths)
     found: list[Expected] = []
-    for asked, value, samples, length, bulge in zip(exercise.answers, perfect, hands, lengths, bent, strict=True):
-        off = _distances(asked, value, samples)
+    for asked, value, apart, length, bulge in zip(exercise.answers, perfect, off, lengths, bent, strict=True):
         if asked.kind == "number":
             least = least_scatter(exercise, asked, float(value), length)
-            found.append(Expected(float(value), max(least, float(np.sqrt(np.mean(off**2))))))
+            found.append(Expected(float(value), max(least, float(np.sqrt(np.mean(apart**2))))))
             continue
-        scatter = np.maximum(np.sqrt(np.mean(off**2, axis=0) / 2), exercise.hand.line)
+        scatter = np.maximum(np.sqrt(np.mean(apart**2, axis=0) / 2), exercise.hand.line)
         # The worst of many points strays farther than one number does; in this unit it strays as far.
-        worst = float(np.quantile((off / scatter).max(axis=1), 0.95))
+        worst = float(np.quantile((apart / scatter).max(axis=1), 0.95))
         found.append(Expected(np.asarray(value), scatter * worst / NORMAL_95, bulge))
     return found
 
 
-def lengths_of(exercise: Exercise, task: Task) -> list[float]:
-    """Units of each answer in one mm of paper, NaN for what is not a length."""
-    chain = board_chain(task)
+def lengths_of(exercise: Exercise, chain: Chain) -> list[float]:
+    """Units of each answer in one mm of paper, NaN for what is not a length; drawn by a perfect hand."""
     return [per_mm(chain, asked) for asked in exercise.answers]
 
 
-def bulges_of(exercise: Exercise, task: Task, change: Change | None = None) -> list[Floats]:
-    """The bulges of every answer that is a curve, of others none."""
-    chain = board_chain(task)
-    chain = change(chain) if change else chain
+def bulges_of(exercise: Exercise, chain: Chain) -> list[Floats]:
+    """The bulges of every answer that is a curve, of others none; drawn by a perfect hand."""
     return [bulges(chain, asked) if asked.kind == "curve" else np.empty(0) for asked in exercise.answers]
 
 
-def deviations(exercise: Exercise, keys: list[Expected], hands: Drawn) -> NDArray[np.float64]:
-    """How far each of many hand-ins is off, (samples, answers), in pencil units.
+def deviations(exercise: Exercise, keys: list[Expected], off: Drawn) -> NDArray[np.float64]:
+    """How far each of many hand-ins is off, (samples, answers), in pencil units, from its :func:`distances`.
 
     A hand that joins its plotted points is nowhere farther off than at one of them, so of curves these count alone.
     """
-    relative = [
-        _distances(asked, key.value, samples) / key.scatter
-        for asked, key, samples in zip(exercise.answers, keys, hands, strict=True)
-    ]
+    relative = [each / key.scatter for each, key in zip(off, keys, strict=True)]
     columns = [
-        off if asked.kind == "number" else off.max(axis=1)
-        for asked, off in zip(exercise.answers, relative, strict=True)
+        each if asked.kind == "number" else each.max(axis=1)
+        for asked, each in zip(exercise.answers, relative, strict=True)
     ]
     return np.stack(columns, axis=1)
-
-
-def _distances(asked: Asked, value: Any, samples: NDArray[Any]) -> NDArray[np.float64]:
-    """How far every sample lies from the value, of points (samples, m) from every point."""
-    return distance_to_curve(value, samples) if asked.kind == "curve" else np.abs(samples - value)

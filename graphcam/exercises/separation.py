@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import GraphcamError
+from graphcam.constructions.chain import Chain
+from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.expectation import Expected
 from graphcam.exercises.misconceptions import misconception
-from graphcam.exercises.scatter import answers_of, bulges_of, expected, lengths_of
-from graphcam.exercises.variant import Variant
+from graphcam.exercises.scatter import Drawn, answers_of, bulges_of, distances, expected, lengths_of
+from graphcam.task import Task
 
 HANDS = 200
 """Careful hands behind the scatter of a mistake's answers."""
@@ -25,31 +27,61 @@ CAREFUL = "careful"
 """What work without a mistake is called among the mistakes."""
 
 
-def hypotheses(variant: Variant, lengths: list[float] | None = None) -> dict[str, tuple[Expected, ...]]:
+@dataclass(frozen=True, eq=False)
+class PerfectHands:
+    """What perfect hands draw of one variant, and answer: one without a mistake, and one with each of the exercise's.
+
+    lengths : units of each answer in one mm of paper
+    """
+
+    right: Chain
+    wrong: dict[str, Chain]
+    answers: Drawn
+    wrong_answers: dict[str, Drawn]
+    lengths: list[float]
+
+
+def perfect_hands(exercise: Exercise, task: Task) -> PerfectHands:
+    """All drawings of a task by perfect hands; what is the same in several of them is drawn once.
+
+    Raises
+    ------
+    DesignError : the drawing, or one with a mistake, comes to nothing
+    """
+    right = board_chain(task)
+    answers, lengths = answers_of(exercise, right), lengths_of(exercise, right)
+    wrong = {name: misconception(name).change(right) for name in exercise.misconceptions}
+    return PerfectHands(
+        right, wrong, answers, {name: answers_of(exercise, chain) for name, chain in wrong.items()}, lengths
+    )
+
+
+def hypotheses(exercise: Exercise, drawn: PerfectHands) -> dict[str, tuple[Expected, ...]]:
     """What a student with each of the exercise's mistakes answers, and how it scatters.
 
     Raises
     ------
     DesignError : the drawing with a mistake comes to nothing
     """
-    exercise, task = variant.exercise, variant.task
-    lengths = lengths or lengths_of(exercise, task)
+    careful = drawn.right.by(exercise.hand.pencil(HANDS))
     found: dict[str, tuple[Expected, ...]] = {}
-    for name in exercise.misconceptions:
-        change = misconception(name).change
-        perfect = answers_of(exercise, task, None, change=change)
-        hands = answers_of(exercise, task, HANDS, change=change)
-        found[name] = tuple(expected(exercise, perfect, hands, lengths, bulges_of(exercise, task, change)))
+    for name, answers in drawn.wrong_answers.items():
+        off = distances(exercise, answers, answers_of(exercise, misconception(name).change(careful)))
+        bent = bulges_of(exercise, drawn.wrong[name])
+        found[name] = tuple(expected(exercise, answers, off, drawn.lengths, bent))
     return found
 
 
-def alike(
+def alike(exercise: Exercise, wrong: dict[str, tuple[Expected, ...]]) -> list[tuple[str, str]]:
+    """The pairs of mistakes that the answers do not tell apart."""
+    return [(a, b) for a, b in combinations(wrong, 2) if not _told(exercise, wrong[a], wrong[b])]
+
+
+def passing(
     exercise: Exercise, keys: list[Expected], wrong: dict[str, tuple[Expected, ...]], bound: float
 ) -> list[tuple[str, str]]:
-    """The pairs that the answers do not tell apart; a mistake that passes as careful work is paired with that."""
-    passing = [(name, CAREFUL) for name, values in wrong.items() if not _noticed(exercise, keys, values, bound)]
-    same = [(a, b) for a, b in combinations(wrong, 2) if not _told(exercise, wrong[a], wrong[b])]
-    return passing + same
+    """The mistakes that pass as careful work, paired with that."""
+    return [(name, CAREFUL) for name, values in wrong.items() if not _noticed(exercise, keys, values, bound)]
 
 
 def _noticed(exercise: Exercise, keys: Sequence[Expected], wrong: Sequence[Expected], bound: float) -> bool:
@@ -73,21 +105,13 @@ def _gap(asked: Asked, a: Expected, b: Expected) -> NDArray[np.float64]:
     return np.abs(np.asarray(a.value) - np.asarray(b.value))
 
 
-def promising(variant: Variant) -> bool:
+def promising(exercise: Exercise, drawn: PerfectHands) -> bool:
     """Whether no mistake answers plainly too near to the key or to another, by the rounding alone.
 
-    Drawings by a perfect hand, so it costs little; nothing that could be told apart is turned away.
+    It takes no careful hands, so it costs little; nothing that could be told apart is turned away.
     """
-    exercise, task = variant.exercise, variant.task
-    try:
-        lengths = lengths_of(exercise, task)
-        rows = [answers_of(exercise, task, None)]
-        rows += [
-            answers_of(exercise, task, None, change=misconception(name).change) for name in exercise.misconceptions
-        ]
-    except GraphcamError:
-        return False
+    rows = [drawn.answers, *drawn.wrong_answers.values()]
     if not all(np.isfinite(value).all() for row in rows for value in row):
         return False
-    values = [expected(exercise, row, [value[None] for value in row], lengths) for row in rows]
+    values = [expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths) for row in rows]
     return all(_told(exercise, a, b) for a, b in combinations(values, 2))

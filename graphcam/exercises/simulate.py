@@ -5,18 +5,18 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from graphcam.constructions.chain import Chain
 from graphcam.exercises.answers import Answers
 from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.issue import issue
 from graphcam.exercises.marking import mark
 from graphcam.exercises.misconceptions import misconception
-from graphcam.exercises.record import Record
-from graphcam.exercises.scatter import Change, Drawn, answers_of
-from graphcam.exercises.variant import Variant
+from graphcam.exercises.scatter import Drawn, answers_of
 
 NOTHING = "none"
 """In the matrix: no catalogued mistake was named."""
@@ -36,11 +36,28 @@ class Row:
 
 
 @dataclass
-class _Watch:
-    """Counts hand-ins, and the processor's seconds that marking them took."""
+class _Tally:
+    """What is counted of hand-ins of one kind, over all variants; ``seconds`` of the processor that marking took."""
 
-    count: int = 0
+    hands: int = 0
+    losing: int = 0
+    accepted: int = 0
+    too_exact: int = 0
+    named: Counter[str] = field(default_factory=Counter[str])
     seconds: float = 0.0
+
+    def mark(self, exercise: Exercise, certificate: Certificate, chain: Chain) -> None:
+        """Mark all that these hands drew."""
+        drawn = answers_of(exercise, chain)
+        given = [_hand_in(exercise, drawn, row) for row in range(chain.pencil.samples or 0)]
+        start = time.process_time()
+        records = [mark(exercise, certificate, answers) for answers in given]
+        self.seconds += time.process_time() - start
+        self.hands += len(records)
+        self.losing += sum(record.total < record.of for record in records)
+        self.accepted += sum(record.total >= record.of for record in records)
+        self.too_exact += sum(record.too_exact for record in records)
+        self.named.update(record.diagnosis.misconception if record.diagnosis else NOTHING for record in records)
 
 
 @dataclass(frozen=True)
@@ -50,16 +67,18 @@ class Simulation:
     losing : careful hands that lost any point; too_exact : those remarked on as too exact
     rows : by the misconception's name
     marked_per_second : hand-ins that one core marked in a second, certificates being at hand
-    draws : parameters drawn for every variant until all mistakes could be told
+    issued : how many variants were issued at the first draw of the parameters, at the second, and so on: the first in
+        which all mistakes could be told
     """
 
     exercise: str
+    version: int
     variants: int
     careful: int
     losing: int
     too_exact: int
     rows: dict[str, Row]
-    draws: float
+    issued: tuple[int, ...]
     marked_per_second: float
 
     @property
@@ -79,9 +98,14 @@ class Simulation:
         hands = sum(row.hands for row in self.rows.values())
         return sum(row.named.get(name, 0) for name, row in self.rows.items()) / hands if hands else 1.0
 
+    @property
+    def draws(self) -> float:
+        """Draws of the parameters for a variant, on average."""
+        return sum(count * draw for draw, count in enumerate(self.issued, 1)) / self.variants
+
     def to_dict(self) -> dict[str, Any]:
         """As JSON takes it."""
-        rates = ("false_rejections", "false_acceptances", "right_diagnoses")
+        rates = ("false_rejections", "false_acceptances", "right_diagnoses", "draws")
         return asdict(self) | {name: getattr(self, name) for name in rates}
 
 
@@ -91,43 +115,31 @@ def simulate(
     """Draw variants, and on each of them as many careful students, and as many with every mistake.
 
     step : hears how many variants of how many are done
+
+    Raises
+    ------
+    DesignError : there is a student for whom no draw of the parameters can be diagnosed
     """
-    careful: list[Record] = []
-    wrong: dict[str, list[Record]] = {name: [] for name in exercise.misconceptions}
-    draws, watch = 0, _Watch()
+    careful, wrong = _Tally(), {name: _Tally() for name in exercise.misconceptions}
+    issued: Counter[int] = Counter()
     for k in range(variants):
         variant, certificate = issue(exercise, f"student {k}", secret)
-        draws += variant.draw + 1
-        careful += _marked(variant, certificate, hands, None, k, watch)
-        for name in wrong:
-            wrong[name] += _marked(variant, certificate, hands, misconception(name).change, k, watch)
+        issued[variant.draw] += 1
+        # Never the seed of the hands that the certificate was made from.
+        drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
+        careful.mark(exercise, certificate, drawn)
+        for name, tally in wrong.items():
+            tally.mark(exercise, certificate, misconception(name).change(drawn))
         step(k + 1, variants)
+    everybody = [careful, *wrong.values()]
     return Simulation(
-        exercise.name, variants, len(careful), sum(record.total < record.of for record in careful),
-        sum(record.too_exact for record in careful), {name: _row(records) for name, records in wrong.items()},
-        draws / variants, watch.count / watch.seconds,
+        exercise.name, exercise.version, variants, careful.hands, careful.losing, careful.too_exact,
+        {name: Row(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()},
+        tuple(issued[draw] for draw in range(max(issued) + 1)),
+        sum(each.hands for each in everybody) / sum(each.seconds for each in everybody),
     )  # fmt: skip
-
-
-def _marked(
-    variant: Variant, certificate: Certificate, hands: int, change: Change | None, k: int, watch: _Watch
-) -> list[Record]:
-    exercise = variant.exercise
-    # Never the seed of the hands that the certificate was made from.
-    drawn = answers_of(exercise, variant.task, hands, seed=1 + k, change=change)
-    given = [_hand_in(exercise, drawn, row) for row in range(hands)]
-    start = time.process_time()
-    records = [mark(exercise, certificate, answers) for answers in given]
-    watch.seconds += time.process_time() - start
-    watch.count += hands
-    return records
 
 
 def _hand_in(exercise: Exercise, drawn: Drawn, row: int) -> Answers:
     pairs = zip(exercise.answers, drawn, strict=True)
     return Answers({a.name: float(v[row]) if a.kind == "number" else v[row] for a, v in pairs})
-
-
-def _row(records: list[Record]) -> Row:
-    named = Counter(record.diagnosis.misconception if record.diagnosis else NOTHING for record in records)
-    return Row(len(records), sum(record.total >= record.of for record in records), dict(named))

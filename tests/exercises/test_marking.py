@@ -182,7 +182,8 @@ def test_a_stored_certificate_marks_the_same():
     stored = Certificate.from_json(certificate.to_json())
     assert stored.to_json() == certificate.to_json()
     task = drawn(exercise, "Anna", SECRET, certificate.draw).task
-    hands = answers_of(exercise, task, 20, seed=5, change=misconception("offset-sign").change)
+    chain = board_chain(task, exercise.hand.pencil(20, seed=5))
+    hands = answers_of(exercise, misconception("offset-sign").change(chain))
     for row in range(20):
         answers = Answers(
             {

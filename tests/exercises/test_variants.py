@@ -12,7 +12,7 @@ from graphcam.exercises.exercise import Parameter
 from graphcam.exercises.exercise_file import find_exercise, library
 from graphcam.exercises.folders import LONGEST, folder_name, student_of
 from graphcam.exercises.issue import issue
-from graphcam.exercises.separation import promising
+from graphcam.exercises.separation import perfect_hands, promising
 from graphcam.exercises.variant import drawn
 
 GOLDEN = {
@@ -190,7 +190,8 @@ def test_what_cannot_be_told_apart_is_not_promising():
 
     exercise = find_exercise("acceleration-and-scales")
     same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
-    assert not promising(drawn(replace(exercise, parameters=same), "Anna", SECRET, 0))
+    task = drawn(replace(exercise, parameters=same), "Anna", SECRET, 0).task
+    assert not promising(exercise, perfect_hands(exercise, task))
 
 
 def test_an_exercise_without_a_diagnosable_variant_says_so(monkeypatch):
