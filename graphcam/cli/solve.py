@@ -135,12 +135,14 @@ def _solve(
 ) -> tuple[dict[str, Any], dict[str, str | None], list[str]]:
     """The solution's document, the files that were written into the folder, if there is one, and the warnings."""
     # Loads the renderers: only when the input has been found right.
-    from graphcam.main_job import solve, write
+    from graphcam.main_job import check_papers, solve, write
 
     progress("drawing and computing")
     solution = solve(task, pencil)
     document = solution.to_dict()
     if folder is None:
+        # A wrong choice is one even where nothing is drawn by it.
+        check_papers(solution, papers["upto"], dxf=papers["dxf"])
         return document, {}, solution.warnings
     files = write(solution, folder, progress, **papers)
     return document | {"files": files}, files, solution.warnings

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.euclid import UP, centre_of_circle, cross, crossing, dot, perpendicular_bisector, stepped_off
 from graphcam.drafting.ink import Arc, Caption, Construction, Dots, Label, Line, Mark, Points, Role, Step, reading, say
@@ -19,7 +19,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
-from graphcam.given.motion import FULL_TURN, Dwell, Moving
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
@@ -188,6 +188,11 @@ SAME_ANGLE = 1e-9
 """Cam angles this near to one another [rad] are the same: rounding."""
 READABLE_STEP = math.radians(10)
 """Over a smaller step of the cam angle a hand's error outweighs the bend."""
+ONLY_RESTS = say(
+    "In the moving phases no bend is readable, for too few points stand between the jumps of the acceleration: only "
+    "the rests are compared. More parts are needed."
+)
+"""What is said where the radius of the moving phases is not known."""
 
 
 def _draw(curved: Construction) -> list[Step]:
@@ -197,7 +202,7 @@ def _draw(curved: Construction) -> list[Step]:
     if np.isnan(centre):
         return [Step(say("Curvature at the sharpest place"), _unreadable(curved), PROFILE, ())]
     phi = curved.first("phi")
-    place, names = _named(stations, phi)
+    place, names = _named(inverted.givens["integrated"].givens["motion"], stations, phi)
     scale = standard_scale(float(curved.value("rho")), DETAIL)
     curvature = at_scale(CURVATURE, scale)
     enlarged = (triple - triple[1]) * mu_l.per_mm / scale.per_mm
@@ -210,7 +215,7 @@ def _draw(curved: Construction) -> list[Step]:
                 "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn "
                 "enlarged, at {ratio}: {first:.2f} mm and {second:.2f} mm. {spread}",
                 place=place, phi=np.degrees(phi[1] % FULL_TURN), ratio=ratio_text(scale.per_mm), first=chords[0],
-                second=chords[1], spread=_spread(phi[2] - phi[0]),
+                second=chords[1], spread=_spread(curved),
             ),
             curvature,
             (
@@ -251,12 +256,15 @@ def _draw(curved: Construction) -> list[Step]:
     ]  # fmt: skip
 
 
-def _spread(step: float) -> Caption:
-    """What step of the cam angle [rad] the chords span."""
-    spread = say("They span {step:.3g}° of the cam angle.", step=np.degrees(step))
-    if step >= READABLE_STEP:
-        return spread
-    return sequence([spread, say("Over so small a step a hand's error is large.")], " ")
+def _spread(curved: Construction) -> Caption:
+    """What step of the cam angle the chords span, and what that is worth."""
+    phi = curved.first("phi")
+    said = [say("They span {step:.3g}° of the cam angle.", step=np.degrees(phi[2] - phi[0]))]
+    if phi[2] - phi[0] < READABLE_STEP:
+        said.append(say("Over so small a step a hand's error is large."))
+    if np.isnan(curved.first("rho_candidates")[0]):
+        said.append(ONLY_RESTS)
+    return sequence(said, " ")
 
 
 def _unreadable(curved: Construction) -> Caption:
@@ -269,11 +277,12 @@ def _unreadable(curved: Construction) -> Caption:
     return say("No bend is readable: the bisectors of neighbouring chords cross at less than a degree.")
 
 
-def _named(stations: Stations, phi: Floats) -> tuple[Caption, tuple[str, str]]:
+def _named(motion: Motion, stations: Stations, phi: Floats) -> tuple[Caption, tuple[str, str]]:
     """What the middle place of three is called, at the cam angles phi (3,) [rad], and its two neighbours."""
     here = np.flatnonzero(np.abs(stations.phi - phi[1]) < SAME_ANGLE)
     if here.size == 0:  # no stations in dwells
-        return say("the middle of a dwell"), ("", "")
+        resting = int(np.searchsorted(motion.starts, phi[1] % FULL_TURN, side="right")) - 1
+        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, resting)), ("", "")
     names, k = station_names(stations), int(here[0])
     around = [np.flatnonzero(np.abs(stations.phi - phi[side]) < SAME_ANGLE) for side in (0, 2)]
     if not all(found.size for found in around):  # three points of the arc of an instant

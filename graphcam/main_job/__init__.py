@@ -2,7 +2,7 @@
 
 from graphcam.main_job.arcs import ArcsSolution
 from graphcam.main_job.kinds import sheet_of, solve, worksheet
-from graphcam.main_job.output import write
+from graphcam.main_job.output import check_papers, write
 from graphcam.main_job.solution import Solution
 
-__all__ = ["ArcsSolution", "Solution", "sheet_of", "solve", "worksheet", "write"]
+__all__ = ["ArcsSolution", "Solution", "check_papers", "sheet_of", "solve", "worksheet", "write"]

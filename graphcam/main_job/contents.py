@@ -50,13 +50,18 @@ def drawing(contents: Contents, upto: int | str | None = None, *, per_constructi
     ------
     DesignError : there is no such step or construction
     """
-    last = None if upto is None else _last_step(contents, upto)
+    last = None if upto is None else last_step(contents, upto)
     parts = _parts(contents) if per_construction else [_whole(contents)]
     return compose_parts(parts, contents.title, contents.sheet, last, contents.tell)
 
 
-def _last_step(contents: Contents, upto: int | str) -> int:
-    """The number of the last step that is drawn."""
+def last_step(contents: Contents, upto: int | str) -> int:
+    """The number of the last step that is drawn.
+
+    Raises
+    ------
+    DesignError : there is no such step or construction
+    """
     count, names = len(contents.steps), contents.constructions
     if isinstance(upto, str) and upto in names:
         return max(number for number, (name, _) in enumerate(contents.steps, 1) if name == upto)

@@ -11,7 +11,8 @@ from pathlib import Path
 from graphcam.errors import DesignError
 from graphcam.files import whole_folder
 from graphcam.main_job.arcs import AnySolution
-from graphcam.main_job.kinds import note_of, sheet_of
+from graphcam.main_job.contents import last_step
+from graphcam.main_job.kinds import contents_of, note_of, sheet_of
 from graphcam.main_job.note import comparison_file
 from graphcam.main_job.player import player_of
 from graphcam.main_job.profile_files import write_profile
@@ -20,6 +21,18 @@ from graphcam.sheet_tables import one_of
 
 DXF = "plain", "cad"
 """Kinds of DXF."""
+
+
+def check_papers(solution: AnySolution, upto: int | str | None = None, *, dxf: str = "plain") -> None:
+    """Refuse what :func:`write` would refuse of its choices, without drawing anything.
+
+    Raises
+    ------
+    DesignError : there is no such step, construction or kind of DXF
+    """
+    one_of("dxf", dxf, DXF)
+    if upto is not None:
+        last_step(contents_of(solution), upto)
 
 
 def write(
@@ -43,7 +56,7 @@ def write(
     DesignError : there is no such step, construction or kind of DXF
     OutputError : the folder cannot be written
     """
-    one_of("dxf", dxf, DXF)
+    check_papers(solution, upto, dxf=dxf)
     # The renderers take long to load, so they come when there is something to render.
     from graphcam.sheets.cad_renderer import write_cad
     from graphcam.sheets.dxf_renderer import write_dxf

@@ -97,6 +97,7 @@ class Text:
     angle : of the base line, rad
     of : the dimension that it is the text of
     field : of the title block, that it is the entry of: a name such as "author"
+    view : that it is the title of
     """
 
     at: complex
@@ -107,6 +108,7 @@ class Text:
     role: str = "text"
     of: Length | Angle | None = None
     field: str = ""
+    view: str = ""
 
 
 Entity = Stroke | Strokes | Curve | Circles | Arc | Heads | Text

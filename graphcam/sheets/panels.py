@@ -114,7 +114,7 @@ class Panel:
     def title(self, origin: complex) -> list[Entity]:
         """The title's texts on the page."""
         corner = origin + self.title_box.corner
-        return [replace(text, at=corner + text.at) for text in self.heading if text.text]
+        return [replace(text, at=corner + text.at, view=self.view.name) for text in self.heading if text.text]
 
 
 def panels(steps: Iterable[Step], letters: Lettering, tell: Tell = str) -> list[Panel]:

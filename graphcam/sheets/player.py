@@ -133,8 +133,25 @@ _FOLDER = Path(__file__).parents[1] / "data" / "player"
 def _page(page: Page) -> dict[str, Any]:
     from markupsafe import Markup
 
-    groups = [(group.key, _is_step(group), Markup(group_svg(group, page.height))) for group in page.groups]
+    groups = [(group.key, _is_step(group), _view(group), Markup(group_svg(group, page.height)))
+              for whole in page.groups for group in _by_view(whole)]  # fmt: skip
     return {"width": f"{page.width:g}", "height": f"{page.height:g}", "groups": groups}
+
+
+def _by_view(group: Group) -> list[Group]:
+    """The titles of several views as a group each, so that each can appear with its view; other groups as they are."""
+    views = dict.fromkeys(e.view for e in group.entities if isinstance(e, Text) and e.view)
+    if not views:
+        return [group]
+    return [
+        Group(f"{group.key}-{view}", tuple(e for e in group.entities if isinstance(e, Text) and e.view == view))
+        for view in views
+    ]
+
+
+def _view(group: Group) -> str:
+    """The view that a group holds the title of."""
+    return next((e.view for e in group.entities if isinstance(e, Text)), "")
 
 
 def _is_step(group: Group) -> bool:
@@ -153,7 +170,8 @@ def _places(drawing: Drawing, slides: Sequence[Slide]) -> list[dict[str, Any]]:
         box = around_all([box for box in boxes if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
         left, top = max(0.0, box.left), max(0.0, page.height - box.top)
         width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
-        found.append({"group": key, "page": number, "box": [round(x, 1) for x in (left, top, width, height)]})
+        around = [round(x, 1) for x in (left, top, width, height)]
+        found.append({"group": key, "page": number, "view": slide.view, "box": around})
     return found
 
 

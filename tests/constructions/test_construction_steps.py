@@ -165,6 +165,16 @@ def test_a_place_of_the_sharpest_bend_inside_a_dwell_is_named_so():
     assert "the middle of a dwell" in str(shallow["curvature"].steps()[0].caption)
 
 
+def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared_and_it_is_said():
+    """In two parts a rectangular phase jumps between them: no three points lie on a smooth piece."""
+    phases = (30, 80, "rectangular"), (0, 45), (-30, 60, "rectangular")
+    for parts in (2, 12):
+        curved = Chain(board_of(motion_of(*phases), divisions=parts, prime_radius=44.0))["curvature"]
+        caption = str(curved.steps()[0].caption)
+        assert ("only the rests are compared" in caption) == (parts == 2)
+        assert ("the middle of a dwell (φ₄)" in caption) == (parts == 2)
+
+
 @pytest.mark.parametrize(
     ("board", "expected"),
     [

@@ -18,6 +18,7 @@ import graphcam as gc
 from graphcam.main_job.kinds import sheet_of
 from graphcam.main_job.mechanism_scene import scene
 from graphcam.main_job.player import player_of, slides
+from graphcam.sheets.model import Text
 from graphcam.task import DrawingTable
 from graphcam.task_file import builtin_arcs_task, builtin_task
 
@@ -110,6 +111,8 @@ SEEN = """() => {
     return {
         steps: all("svg.page g.step").filter((g) => getComputedStyle(g).display !== "none").map((g) => g.id),
         current: [...document.querySelectorAll("g.step.current")].map((g) => g.id),
+        titles: page.flatMap((svg) => [...svg.querySelectorAll("[data-view]")])
+            .filter((g) => getComputedStyle(g).display !== "none").map((g) => g.dataset.view),
         frames: page.map((svg) => svg.querySelectorAll("g.frame").length),
         page: page.map((svg) => svg.id),
         chapter: texts("article .chapter"), title: texts("article h2"), caption: texts("article .caption"),
@@ -134,6 +137,9 @@ def check_step(page: Page, solved: Solved, k: int) -> None:
     slide, now, key = solved.slides[k], seen(page), f"step-{k + 1:02d}"
     on = next(n for n, p in enumerate(solved.drawing.pages, 1) if any(group.key == key for group in p.groups))
     assert sorted(now.pop("steps")) == step_keys(k + 1)
+    # A view is named when something stands in it.
+    views = {e.view for g in solved.drawing.pages[on - 1].groups for e in g.entities if isinstance(e, Text) and e.view}
+    assert set(now.pop("titles")) == views & {slide.view for slide in solved.slides[: k + 1]}
     assert now == {
         "current": [key], "frames": [1], "page": [f"page-{on}"],
         "chapter": [slide.chapter], "title": [slide.title], "caption": [slide.caption],

@@ -79,6 +79,15 @@ def test_a_step_that_is_not_there_is_refused_with_those_that_are(upto: int | str
         sheet_of(solution(), upto)
 
 
+@pytest.mark.parametrize(("choice", "known"), [("--upto=integral", "integration"), ("--dxf=cda", "cad")])
+def test_a_wrong_choice_is_refused_where_only_json_is_asked_for(choice: str, known: str) -> None:
+    result = CliRunner().invoke(app, ["solve", "--json", choice])
+    assert result.exit_code == 2
+    assert choice.split("=")[1] in result.stderr
+    assert known in result.stderr
+    assert result.stdout == ""
+
+
 def test_every_construction_that_draws_has_its_sheets() -> None:
     drawing = sheet_of(solution(), per_construction=True)
     assert overlaps(drawing) == []

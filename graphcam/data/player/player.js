@@ -7,6 +7,9 @@
   const pages = [...document.querySelectorAll("svg.page")];
   const slides = steps.map((_, k) => at(`slide-${k}`));
   const groups = steps.map((step) => at(step.group));
+  // The title of a view appears with the first step in it.
+  const titles = [...document.querySelectorAll("[data-view]")]
+    .map((title) => [title, steps.findIndex((step) => step.view === title.dataset.view)]);
   const starts = [...document.querySelectorAll(".breakpoint > button")].map((button) => Number(button.dataset.step));
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   let current = 0, shown = 0, follow = true;
@@ -20,6 +23,7 @@
       group.classList.toggle("former", j < current);
       group.classList.toggle("current", j === current);
     });
+    titles.forEach(([title, first]) => title.classList.toggle("later", first > current));
     slides.forEach((slide, j) => (slide.hidden = j !== current));
     document.body.classList.toggle("finished", current === steps.length - 1);
     const slide = slides[current], count = `${current + 1} / ${steps.length}`;
