@@ -29,6 +29,7 @@ from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
 from graphcam.given.three_arcs import Point
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Complexes, Values
+from graphcam.mechanism.roots import roots
 
 FIT = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
@@ -226,7 +227,6 @@ class ArcMotion:
 
     def _greatest(self, value: Callable[[Values], Floats], slope: Callable[[Values], Floats]) -> tuple[float, float]:
         """The value of greatest magnitude on the rise: at an end of an arc, or where its slope vanishes."""
-        from scipy.optimize.elementwise import find_root
 
         def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
             return slope(self._radius(arc, psi))
@@ -236,7 +236,7 @@ class ArcMotion:
         psi = start[:, None] + (end - start)[:, None] * SAMPLES
         signs = np.sign(slope_at(psi, arc[:, None]))
         on, left = np.nonzero(signs[:, :-1] * signs[:, 1:] < 0)
-        inner = find_root(slope_at, (psi[on, left], psi[on, left + 1]), args=(on,)).x if on.size else []
+        inner = roots(lambda psi: slope_at(psi, on), psi[on, left], psi[on, left + 1])
         arcs, psi = np.concatenate([arc, arc, on]), np.concatenate([start, end, inner])
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))

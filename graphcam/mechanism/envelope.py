@@ -23,6 +23,7 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
+from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import smooth_pieces, stationary_places
 
 if TYPE_CHECKING:
@@ -196,14 +197,11 @@ class Envelope:
 
     def _cusps(self, before: Indices) -> Floats:
         """The cam angles between a node and the next at which the profile turns back."""
-        from scipy.optimize.elementwise import find_root
-
         phi, piece = self._nodes
         cusps, inside = phi[before], piece[before] == piece[before + 1]
         if inside.any():
             low = before[inside]
-            root = find_root(self.speed, (phi[low], phi[low + 1]), args=(piece[low],))
-            cusps[inside] = root.x
+            cusps[inside] = roots(lambda phi: self.speed(phi, piece[low]), phi[low], phi[low + 1])
         return cusps
 
     def _jumps(self, before: Indices) -> NDArray[np.bool_]:

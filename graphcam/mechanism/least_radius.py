@@ -30,6 +30,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.spline_law import MEASURED
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, Line, arm_minimum_radius
+from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES, stationary_places
 
 USUAL_LIMIT = {"translating": math.radians(30), "oscillating": math.radians(45)}
@@ -287,7 +288,6 @@ def tangent_point(law: Law, k: float) -> float:
         return math.atan(math.pi * k if law.name == "cosine" else 2 * math.pi * k) / math.pi
     if law.name == "rectangular":
         return min(k, law.middle)
-    from scipy.optimize.elementwise import find_root
 
     def slope(u: Floats) -> Floats:
         _, f1, f2 = law(u, derivatives=2)
@@ -295,12 +295,12 @@ def tangent_point(law: Law, k: float) -> float:
 
     if law.name != MEASURED:
         # Up to its first break the acceleration does not fall, so f' <= u f'', and half of k or of the break is below.
-        return float(find_root(slope, (min(k, law.breaks[0]) / 2, law.middle)).x)
+        return float(roots(slope, min(k, law.breaks[0]) / 2, law.middle))
     edges = np.array([0.0, *law.edges, 1.0])
     u = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
     sign = np.sign(slope(u))
     top = np.flatnonzero((sign[:-1] > 0) & (sign[1:] <= 0))
-    places = find_root(slope, (u[top], u[top + 1])).x
+    places = roots(slope, u[top], u[top + 1])
     f, f1 = law(places, derivatives=1)
     return float(places[np.argmax(f1 - f / k)])
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
 from graphcam.mechanism.kinematics import Values
+from graphcam.mechanism.roots import roots
 
 _CLOSEST = np.logspace(-12, -4, 25)
 # Fractions of a piece: dense at its ends, where a small prime radius or a steep limit moves the extremes to.
@@ -70,16 +71,12 @@ def smooth_pieces(motion: Motion) -> tuple[NDArray[np.intp], Floats, Floats]:
 def _roots(
     motion: Motion, slope: Callable[[Values], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
 ) -> tuple[NDArray[np.intp], Floats]:
-    from scipy.optimize.elementwise import find_root
-
-    def slope_at(u: Floats, phase: NDArray[np.intp]) -> Floats:
-        return slope(motion.at(phase, u))
-
     moving = np.array([phase.direction != 0 for phase in motion.phases])[phase]  # in a dwell nothing changes
     phase, u0, u1 = phase[moving], u0[moving], u1[moving]
     u = u0[:, None] + (u1 - u0)[:, None] * SAMPLES
-    sign = np.sign(slope_at(u, phase[:, None]))
+    sign = np.sign(slope(motion.at(phase[:, None], u)))
     on_root = np.nonzero(sign == 0)
     piece, left = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
-    bracketed = find_root(slope_at, (u[piece, left], u[piece, left + 1]), args=(phase[piece],)).x if piece.size else []
-    return np.concatenate([phase[piece], phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])
+    inside = phase[piece]
+    bracketed = roots(lambda u: slope(motion.at(inside, u)), u[piece, left], u[piece, left + 1])
+    return np.concatenate([inside, phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])
