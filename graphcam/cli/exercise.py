@@ -112,7 +112,7 @@ def make(
         DEFAULT_FOLDER / "exercise"
     ),
     language: Annotated[
-        str, typer.Option("--language", metavar="en|ru", help="Of the task files and of the feedback.")
+        str, typer.Option("--language", metavar="en|ru", help="Of the papers and of the feedback.")
     ] = "en",
     workers: Annotated[int, typer.Option("--workers", min=1, metavar="N", help="Processes that draw.")] = 1,
 ) -> None:

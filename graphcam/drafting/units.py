@@ -22,6 +22,9 @@ UNITS: Mapping[str, Caption] = {
     "rad/s": say("rad/s"),
     "rad/s²": say("rad/s²"),
     "N": say("N"),
+    "mm/mm": say("mm/mm"),
+    "(mm/rad)/mm": say("(mm/rad)/mm"),
+    "(mm/rad²)/mm": say("(mm/rad²)/mm"),
 }
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from graphcam.drafting.ink import Points
+from graphcam.words import Words
 
 Given = float | Points
 """A number, or points (n,) of the paper: complex, in mm."""
@@ -21,5 +22,5 @@ class Answers:
     """
 
     values: Mapping[str, Given]
-    problems: Mapping[str, str] = field(default_factory=dict[str, str])
-    notes: tuple[str, ...] = ()
+    problems: Mapping[str, Words] = field(default_factory=dict[str, Words])
+    notes: tuple[Words, ...] = ()

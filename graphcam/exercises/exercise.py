@@ -7,8 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError
+from graphcam.language import ENGLISH, language
 from graphcam.sheet_tables import one_of, positive
+from graphcam.words import Tell, Words
 
 Kind = Literal["number", "points", "curve"]
 Of = Literal["value", "paper", "scale"]
@@ -104,6 +107,11 @@ class Asked:
         if self.kind != "number" and not (self.points and self.layer):
             raise DesignError("points", self.points, f"given with a layer where a {self.kind} is asked")
 
+    @property
+    def unit_said(self) -> Words:
+        """The unit as a language writes it; one that only this exercise has stays as its file writes it."""
+        return UNITS.get(self.unit, self.unit)
+
 
 @dataclass(frozen=True)
 class HandTable:
@@ -130,6 +138,7 @@ class Exercise:
     """An exercise as its file says it.
 
     name : of the file
+    language : in which its texts are, and in which it speaks to students
     version : goes into every variant, so that a changed exercise draws new ones
     title, text : for the student; ``{lift}`` in the text stands for a parameter's value
     parameters : by name
@@ -156,6 +165,7 @@ class Exercise:
     careful: float = 0.03
     version: int = 1
     name: str = ""
+    language: str = ENGLISH.name
 
     __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
@@ -168,6 +178,11 @@ class Exercise:
             raise DesignError("answers", doubled[0], "named once each")
         for asked in self.answers:
             one_of("kind", asked.kind, ("number", "points", "curve"))
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in its language."""
+        return language(self.language).text
 
     @property
     def marks(self) -> float:

@@ -12,11 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.texts import in_language
+from graphcam.language import ENGLISH
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
 
 HOW_TO = "see exercises/README.md"
+NO_KEYS = {"name", "language"}
+"""What an exercise has and its file does not say."""
 _EXPECTED = {
     "missing": "given", "float_type": "a number", "string_type": "text in quotes", "tuple_type": "a list",
     "dict_type": "a table", "dataclass_type": "a table", "finite_number": "a finite number",
@@ -40,14 +44,14 @@ def library() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
 
 
-def find_exercise(name: str) -> Exercise:
-    """An exercise by its name in the library, or by the path of its file.
+def find_exercise(name: str, language: str = ENGLISH.name) -> Exercise:
+    """An exercise by its name in the library, or by the path of its file; its texts in a language.
 
     Raises
     ------
     TaskError : there is none of that name, or its file is wrong
     """
-    return load_exercise(exercise_path(name))
+    return load_exercise(exercise_path(name), language)
 
 
 def exercise_path(name: str) -> Path:
@@ -68,8 +72,8 @@ def exercise_path(name: str) -> Path:
     return _folder() / f"{name}.toml"
 
 
-def load_exercise(path: str | Path) -> Exercise:
-    """The exercise in a TOML file.
+def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
+    """The exercise in a TOML file, its texts in a language.
 
     Raises
     ------
@@ -83,7 +87,10 @@ def load_exercise(path: str | Path) -> Exercise:
                         "check the name") from None  # fmt: skip
     except (ValueError, RecursionError) as error:
         raise TaskError(str(path), "the text", _Word(f"not TOML ({error})"), "a TOML file", HOW_TO) from None
-    exercise = dataclasses.replace(_exercise(str(path), data), name=path.stem)
+    for key in NO_KEYS & data.keys():
+        raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
+    told = in_language(str(path), data, language)
+    exercise = dataclasses.replace(_exercise(str(path), told), name=path.stem, language=language)
     _check(str(path), exercise)
     return exercise
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.ink import Caption, Words, say
 from graphcam.exercises.answers import Answers
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.misconceptions import misconception
 from graphcam.exercises.record import Diagnosis, Marked
-from graphcam.language import language as language_of
 
 
 def feedback(
-    exercise: Exercise, marked: Sequence[Marked], answers: Answers, diagnosis: Diagnosis | None, language: str
+    exercise: Exercise, marked: Sequence[Marked], answers: Answers, diagnosis: Diagnosis | None
 ) -> tuple[str, ...]:
     """Sentences for the student: about every answer, then about the mistake behind them."""
     captions = [caption for each in marked for caption in _about(each, answers)]
@@ -21,19 +20,17 @@ def feedback(
         captions += _mistake(diagnosis)
     elif any(each.outcome == "wrong" for each in marked):
         captions.append(say("No usual mistake explains these answers; go through the wrong steps once more."))
-    tell = language_of(language).text
-    return tuple(tell(caption) for caption in captions)
+    return tuple(map(exercise.tell, captions))
 
 
-def _about(answer: Marked, answers: Answers) -> list[Caption]:
+def _about(answer: Marked, answers: Answers) -> list[Words]:
     name = answer.name
     if answer.outcome == "right":
         return [say("{name}: right.", name=name)]
     if answer.outcome == "missing":
         return [say("{name}: no answer was given.", name=name)]
     if answer.outcome == "unreadable":
-        why = answers.problems.get(name)
-        reason = [say("{reason}", reason=why)] if why else []
+        reason = [answers.problems[name]] if name in answers.problems else []
         return [say("{name}: the answer cannot be read.", name=name), *reason]
     if answer.outcome == "follow-through":
         return [say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)]

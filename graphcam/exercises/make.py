@@ -30,7 +30,6 @@ class _Order:
     student: Student
     secret: bytes
     folder: Path
-    language: str
 
 
 def make(
@@ -45,20 +44,20 @@ def make(
 ) -> int:
     """Make every student's papers; how many students there are.
 
-    language : of the task files, and noted for the feedback; sheet, notebook and questions are in that of the exercise
+    language : of all papers, and noted for the feedback
 
     Raises
     ------
     GraphcamError : the exercise, the roster or the secret is not there, or the folder cannot be written
     """
     one_of("language", language, languages())
-    exercise, students, secret = find_exercise(name), read_roster(roster), read_secret(secret_file)
+    exercise, students, secret = find_exercise(name, language), read_roster(roster), read_secret(secret_file)
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
             raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
     with whole_folder(out) as draft, _pool(workers) as pool:
-        orders = [_Order(exercise, student, secret, draft, language) for student in students]
+        orders = [_Order(exercise, student, secret, draft) for student in students]
         results: Iterable[str] = pool.map(_papers, orders) if pool else map(_papers, orders)
         certificates: list[Certificate] = []
         for done, text in enumerate(results, 1):
@@ -83,7 +82,7 @@ def _papers(order: _Order) -> str:
     theirs, keys, kept = order.folder / STUDENTS / name, order.folder / TEACHER / "keys", order.folder / TEACHER
     for folder in (theirs, keys, kept / "certificates"):
         folder.mkdir(parents=True, exist_ok=True)
-    write_papers(variant, order.student, theirs, order.language)
+    write_papers(variant, order.student, theirs)
     write_pdf(key_sheet(variant, order.student, certificate), keys / f"{name}.pdf")
     text = certificate.to_json()
     (kept / "certificates" / f"{name}.json").write_text(text, encoding="utf-8")
@@ -98,5 +97,5 @@ def _write_keys(path: Path, exercise: Exercise, certificates: list[Certificate])
         )
         for each in certificates:
             for row in key_rows(exercise, each):
-                paper = f"{each.keys[row[0]].tolerance_paper:.3f}"
-                table.writerow([cell(each.student), each.draw, *row, paper, f"{each.bound:.3f}"])
+                paper = f"{each.keys[str(row[0])].tolerance_paper:.3f}"
+                table.writerow([cell(each.student), each.draw, *map(str, row), paper, f"{each.bound:.3f}"])

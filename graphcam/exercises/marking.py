@@ -21,9 +21,7 @@ FEWEST_DRAWN = 3
 """So many drawn answers it takes to remark that they are too exact."""
 
 
-def mark(
-    exercise: Exercise, certificate: Certificate, answers: Answers, *, language: str = "en", level: str = "L0"
-) -> Record:
+def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, level: str = "L0") -> Record:
     """Mark one hand-in.
 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
@@ -65,8 +63,8 @@ def mark(
         of=exercise.marks,
         diagnosis=diagnosis,
         too_exact=exact,
-        feedback=feedback(exercise, marked, answers, diagnosis, language),
-        notes=answers.notes,
+        feedback=feedback(exercise, marked, answers, diagnosis),
+        notes=tuple(map(exercise.tell, answers.notes)),
         level=level,
     )
 

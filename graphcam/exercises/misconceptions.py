@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from graphcam.constructions.chain import Chain
+from graphcam.constructions.law_names import LAWS
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises import mistakes
@@ -158,4 +159,6 @@ def misconception(name: str) -> Misconception:
     if bool(argument) != bool(entry.takes):
         wanted = f"followed by a colon and {entry.takes}" if entry.takes else "without an argument"
         raise DesignError("misconception", name, wanted)
-    return Misconception(name, replace(entry.said, values={"argument": argument}), entry.make(argument))
+    return Misconception(
+        name, replace(entry.said, values={"argument": LAWS.get(argument, argument)}), entry.make(argument)
+    )

@@ -19,51 +19,55 @@ from graphcam.exercises.exercise import Asked, Diagram, Exercise
 from graphcam.exercises.roster import Student
 from graphcam.exercises.template import sentence
 from graphcam.exercises.variant import Variant
+from graphcam.main_job.markdown import number
 from graphcam.main_job.sheet import title_block
 from graphcam.main_job.solution import board_of
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
 from graphcam.task import Task
+from graphcam.words import Caption, Words, say, say_many
 
 TAG = "answers"
 """The tag of the notebook's cell that holds the answers."""
-KEY_COLUMNS = ("name", "unit", "value", "tolerance", "marks")
+KEY_COLUMNS = (say("name"), say("unit"), say("value"), say("tolerance"), say("marks"))
 """Of the key's table, as :func:`key_rows` fills them."""
 KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
 
 
 def instructions(variant: Variant) -> str:
     """The exercise's text with the variant's numbers, its lines joined."""
-    return " ".join(sentence(variant.exercise.text, variant.parameters).split())
+    exercise = variant.exercise
+    return " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
 
 
 def answer_file(exercise: Exercise) -> str:
     """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong."""
-    lines = [f"# {exercise.title}. Take the # away before an answer and write the number behind the = sign.", ""]
+    how = say("Take the # away before an answer and write the number behind the = sign, with a decimal point.")
+    lines = [f"# {exercise.title}. {exercise.tell(how)}", ""]
     for asked in exercise.answers:
-        lines += [f"# {asked.text} {_how(asked)}", f"# {asked.name} = {_blank(asked)}", ""]
+        lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {_blank(asked)}", ""]
     return "\n".join(lines)
 
 
 def notebook(variant: Variant) -> str:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
-    asked = "\n".join(f"- `{a.name}`: {a.text} {_how(a)}" for a in exercise.answers)
+    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
+    how = say("Write your answers into the next cell: plain numbers with a decimal point, nothing else.")
     blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
     cells = [
         _cell("task", "markdown", f"# {exercise.title}\n\n{instructions(variant)}"),
-        _cell("asked", "markdown", f"Write your answers into the next cell: plain numbers, nothing else.\n\n{asked}"),
+        _cell("asked", "markdown", f"{exercise.tell(how)}\n\n{asked}"),
         _cell("answers", "code", blanks, {"tags": [TAG]}),
     ]
     whole = {"cells": cells, "metadata": KERNEL, "nbformat": 4, "nbformat_minor": 5}
     return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
 
 
-def task_file(variant: Variant, language: str = "en") -> str:
-    """The variant as a task file of graphcam, whose sheets are in the language."""
-    task = variant.task
-    return toml_text(replace(task, drawing=replace(task.drawing, language=language)).to_dict())
+def task_file(variant: Variant) -> str:
+    """The variant as a task file of graphcam."""
+    return toml_text(variant.task.to_dict())
 
 
 def worksheet(variant: Variant, student: Student) -> Drawing:
@@ -72,8 +76,8 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
     chain = board_chain(variant.task)
     steps = [(name, _axes(name, variant.task)) for name in exercise.axes]
     steps += [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
-    rows = tuple((asked.text, asked.name, asked.unit, " " * 16) for asked in exercise.answers)
-    table = Table("Answers", ("asked", "name", "unit", "answer"), rows)
+    rows = tuple((asked.text, asked.name, asked.unit_said, " " * 16) for asked in exercise.answers)
+    table = Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
     return _composed(variant, student, steps, [table], [instructions(variant)])
 
 
@@ -96,7 +100,7 @@ def key_sheet(variant: Variant, student: Student, certificate: Certificate) -> D
     exercise = variant.exercise
     chain = board_chain(variant.task)
     steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
-    table = Table("Key", KEY_COLUMNS, tuple(key_rows(exercise, certificate)))
+    table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, certificate)))
     return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
 
 
@@ -107,14 +111,15 @@ def _drawn_for(exercise: Exercise, order: tuple[str, ...]) -> list[str]:
     return [*order[: max(within) + 1 if within else 0], *sorted(asked - set(order))]
 
 
-def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[str, ...]]:
+def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[Words, ...]]:
     """A line an answer: name, unit, value, tolerance, marks."""
-    rows: list[tuple[str, ...]] = []
+    rows: list[tuple[Words, ...]] = []
     for asked in exercise.answers:
         key = certificate.keys[asked.name]
-        number = asked.kind == "number"
-        value = f"{key.expected.value:.{asked.decimals}f}" if number else "see the drawing"
-        rows.append((asked.name, asked.unit, value, f"{key.tolerance:.{asked.decimals + 1}f}", f"{asked.marks:g}"))
+        drawn = not isinstance(key.expected.value, float)
+        value = say("see the drawing") if drawn else number(key.expected.value, asked.decimals)
+        tolerance = number(key.tolerance, asked.decimals + 1)
+        rows.append((asked.name, asked.unit_said, value, tolerance, say("{marks:g}", marks=asked.marks)))
     return rows
 
 
@@ -124,16 +129,22 @@ def _composed(
     task = variant.task
     title = replace(task.title, name=variant.exercise.title, author=student.name or student.id)
     scale = board_chain(task).profile_scale
-    return compose(steps, tables, title_block(title, scale), task.drawing.format, task.drawing.frame, notes)
+    tell = variant.exercise.tell
+    block = title_block(title, scale, tell)
+    return compose(steps, tables, block, task.drawing.format, task.drawing.frame, notes, tell=tell)
 
 
-def _how(asked: Asked) -> str:
+def _how(asked: Asked) -> Caption:
     if asked.kind != "number":
-        what = "Points" if asked.kind == "points" else "A curve"
-        where = f"drawn on the layer {asked.layer} of a DXF file, its origin marked by a POINT on the layer ORIGIN"
-        return f"({what} in mm on paper, or {where}.)"
-    unit = f"in {asked.unit}, " if asked.unit else ""
-    return f"({unit}to {asked.decimals} decimals.)"
+        what = say("Points in mm on paper") if asked.kind == "points" else say("A curve in mm on paper")
+        return say(
+            "({what}, or drawn on the layer {layer} of a DXF file, its origin marked by a POINT on the layer ORIGIN.)",
+            what=what, layer=asked.layer,
+        )  # fmt: skip
+    decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
+    if not asked.unit:
+        return say("({decimals}.)", decimals=decimals)
+    return say("(in {unit}, {decimals}.)", unit=asked.unit_said, decimals=decimals)
 
 
 def _blank(asked: Asked) -> str:
@@ -164,7 +175,7 @@ def _value(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def write_papers(variant: Variant, student: Student, folder: Path, language: str) -> None:
+def write_papers(variant: Variant, student: Student, folder: Path) -> None:
     """Write all that the student gets into a folder."""
     from graphcam.sheets.dxf_renderer import write_dxf
     from graphcam.sheets.matplotlib_renderer import write_pdf
@@ -174,6 +185,6 @@ def write_papers(variant: Variant, student: Student, folder: Path, language: str
     write_dxf(sheet, folder / "worksheet.dxf")
     for name, text in (
         ("answers.toml", answer_file(variant.exercise)), ("exercise.ipynb", notebook(variant)),
-        ("task.toml", task_file(variant, language)),
+        ("task.toml", task_file(variant)),
     ):  # fmt: skip
         (folder / name).write_text(text, encoding="utf-8")

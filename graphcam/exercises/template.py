@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
+from graphcam.constructions.axes import turning
+from graphcam.constructions.law_names import LAWS
 from graphcam.errors import TaskError, nearest
 from graphcam.exercises.exercise import Exercise, Value
 from graphcam.task import Task
 from graphcam.task_file import task_of
+from graphcam.words import Tell, Words, say
 
 PLACE = re.compile(r"^\{(-?)([a-z_0-9]+)\}$")
 """A whole value of the template: a parameter's name in braces, perhaps with a minus."""
@@ -18,7 +22,7 @@ REST = "rest"
 
 
 def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "") -> Task:
-    """The task with these parameters.
+    """The task with these parameters, its sheets in the language of the exercise.
 
     Raises
     ------
@@ -28,20 +32,21 @@ def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "")
     table = _filled(exercise.task, {**parameters, REST: f"{{{REST}}}"}, path)
     phases = table.get("motion", {}).get("phases", [])
     taken = sum(phase["angle"] for phase in phases if isinstance(phase.get("angle"), int | float))
-    return task_of(path, _filled(table, {REST: 360 - taken}, path))
+    task = task_of(path, _filled(table, {REST: 360 - taken}, path))
+    return replace(task, drawing=replace(task.drawing, language=exercise.language))
 
 
-def sentence(text: str, parameters: Mapping[str, Value]) -> str:
-    """A text of the exercise with its parameters.
+def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> str:
+    """A text of the exercise with its parameters, said in the language of the text.
 
-    >>> sentence("A lift of {lift} mm.", {"lift": 30})
-    'A lift of 30 mm.'
+    >>> sentence("A lift of {lift} mm; it turns {sense}.", {"lift": 0.5, "sense": "cw"})
+    'A lift of 0.5 mm; it turns clockwise.'
     """
-    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: _said(parameters.get(place[1], place[0])), text)
+    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: tell(_said(parameters.get(place[1], place[0]))), text)
 
 
-def _said(value: Value) -> str:
-    return {"cw": "clockwise", "ccw": "counter-clockwise"}.get(str(value), str(value))
+def _said(value: Value) -> Words:
+    return {"cw": turning("cw"), "ccw": turning("ccw"), **LAWS}.get(str(value), say("{value}", value=value))
 
 
 def _filled(node: Any, parameters: Mapping[str, Value], path: str) -> Any:

@@ -60,11 +60,13 @@ def compose(
     frame: str = "gost",
     notes: Sequence[str] = (),
     orientation: str = "landscape",
+    tell: Tell = str,
 ) -> Drawing:
     """Lay the steps of constructions, tables and notes out on sheets.
 
     steps : (name of the construction, step), in order
     paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
+    tell : says all texts in the language of the sheets
 
     Each page has a group "frame", perhaps "tables" and "titles", and one for every step drawn on it, "step-03 name".
 
@@ -73,7 +75,8 @@ def compose(
     DesignError : there is no such format, frame or orientation
     """
     numbered = tuple((number, name, step) for number, (name, step) in enumerate(steps, 1))
-    return compose_parts([Part(numbered, tuple(tables), tuple(notes))], title, Format(paper, frame, orientation))
+    part = Part(numbered, tuple(tables), tuple(notes))
+    return compose_parts([part], title, Format(paper, frame, orientation), tell=tell)
 
 
 def compose_parts(

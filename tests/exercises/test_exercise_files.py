@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
+from russian import english_words
 
 from graphcam.errors import TaskError
-from graphcam.exercises.exercise_file import find_exercise, library, load_exercise
+from graphcam.exercises.exercise_file import exercise_path, find_exercise, library, load_exercise
 from graphcam.exercises.misconceptions import CATALOGUE, misconception
+from graphcam.language import languages
 
+TITLE = 'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"'
 TOPICS = {
     "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
     "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "whole-cam",
 }  # fmt: skip
+
+PLACE = re.compile(r"\{[a-z_0-9]+\}")
 
 
 def test_there_is_an_exercise_for_every_construction():
@@ -34,8 +41,12 @@ def test_the_text_names_every_parameter_of_the_task(name):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('title = "Graphical integration"', "", "title is missing"),
-        ('title = "Graphical integration"', "title = 3", "title is 3, but must be text in quotes"),
+        (TITLE, "", "title is missing"),
+        (TITLE, "title = 3", "title is 3, but must be text in quotes"),
+        (TITLE, "title.en = 3", "title is 3, but must be text in quotes"),
+        ("title.en", "title.eng", "title is 'eng', but must be a language, one of en, ru; did you mean 'en'"),
+        ('text.ru = "Наибольший', 'text.rus = "Наибольший', r"answers\[5\].text is 'rus'"),
+        (TITLE, f'{TITLE}\nlanguage = "ru"', "language is an unknown key"),
         ('reading = "max_v"', 'reading = "vmax"', "reading is 'vmax', but must be one of"),
         ('construction = "integration"', 'construction = "integral"', "construction is 'integral'"),
         ('station = "2"', 'station = "9"', r"station is '9', but must be up to 8"),
@@ -63,6 +74,34 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
         load_exercise(path)
     assert "\n" not in str(caught.value)
     assert str(caught.value).startswith(str(path))
+
+
+def texts(name: str, language: str) -> dict[str, str]:
+    exercise = find_exercise(name, language)
+    return {"title": exercise.title, "text": exercise.text} | {asked.name: asked.text for asked in exercise.answers}
+
+
+@pytest.mark.parametrize("language", [name for name in languages() if name != "en"])
+@pytest.mark.parametrize("name", library())
+def test_every_exercise_of_the_library_is_there_in_every_language(name, language):
+    english, told = texts(name, "en"), texts(name, language)
+    for key, text in told.items():
+        assert text != english[key], key
+        assert sorted(PLACE.findall(text)) == sorted(PLACE.findall(english[key])), key
+    if language == "ru":
+        assert {word for text in told.values() for word in english_words(PLACE.sub("", text))} <= {"min"}
+
+
+def test_a_text_without_a_language_is_said_in_every_one(tmp_path):
+    path = tmp_path / "mine.toml"
+    text = (exercise_path("integration")).read_text(encoding="utf-8")
+    assert TITLE in text
+    path.write_text(text.replace(TITLE, 'title = "Übung"'), encoding="utf-8")
+    for language in languages():
+        assert load_exercise(path, language).title == "Übung"
+    # What nobody has translated stays English.
+    path.write_text(text.replace(TITLE, TITLE.splitlines()[0]), encoding="utf-8")
+    assert load_exercise(path, "ru").title == "Graphical integration"
 
 
 def test_an_unknown_exercise_gets_a_suggestion():

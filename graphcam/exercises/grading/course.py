@@ -22,7 +22,6 @@ from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.limits import Limits
 from graphcam.exercises.running.probe import require
 from graphcam.files import OutputError
-from graphcam.language import language
 
 
 @dataclass(frozen=True)
@@ -60,18 +59,16 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     if course.out.is_dir():
         raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
     folder, kept = Certificates.of(course.folder)
-    exercise = find_exercise(course.exercise or _noted(course.folder, kept))
+    exercise = find_exercise(course.exercise or _noted(course.folder, kept), str(kept.course().get("language", "en")))
     require(course.level, (course.folder, course.secret_file, course.out))
-    assignment = Assignment(exercise, read_secret(course.secret_file), course.level, Limits(seconds=course.seconds),
-                            str(kept.course().get("language", "en")))  # fmt: skip
+    assignment = Assignment(exercise, read_secret(course.secret_file), course.level, Limits(seconds=course.seconds))
     store = Store.beside(course.out, assignment)
     with closing(_crew(course)) as crew:
         records = grade_folder(folder, assignment, crew, store, kept, step)
     certificates = _certificates(kept, records)
-    spoken = language(assignment.language)
-    names = write_reports(course.out, exercise, records, certificates, spoken.name, spoken.text)
+    names = write_reports(course.out, exercise, records, certificates)
     if course.feedback is not None:
-        write_feedback(course.feedback, exercise, records, certificates, spoken.name, spoken.text)
+        write_feedback(course.feedback, exercise, records, certificates)
     if course.gradebook:
         _enter(course.gradebook, exercise, records)
     store.clear()

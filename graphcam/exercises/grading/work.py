@@ -41,7 +41,6 @@ class Assignment:
     secret: bytes
     level: Level = Level.L0
     limits: Limits = field(default_factory=Limits)
-    language: str = "en"
 
 
 @dataclass(frozen=True)
@@ -59,8 +58,7 @@ def grade(assignment: Assignment, hand_in: HandIn) -> Graded:
         certificate, text = _certificate(assignment, hand_in)
         with _seconds(READING + (assignment.limits.seconds if assignment.level is not Level.L0 else 0.0)):
             answers = _answers(assignment, hand_in, certificate)
-            return Graded(mark(assignment.exercise, certificate, answers, language=assignment.language,
-                               level=assignment.level), text)  # fmt: skip
+            return Graded(mark(assignment.exercise, certificate, answers, level=assignment.level), text)
     except Exception as error:  # noqa: BLE001
         why = say("this hand-in could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
         return Graded(unmarked(assignment, hand_in.student, why), text)
@@ -71,7 +69,7 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
     exercise = assignment.exercise
     answers = tuple(Marked(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
     return Record(student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False,
-                  (str(why),), (str(why),), assignment.level)  # fmt: skip
+                  (exercise.tell(why),), (exercise.tell(why),), assignment.level)  # fmt: skip
 
 
 def _certificate(assignment: Assignment, hand_in: HandIn) -> tuple[Certificate, str]:

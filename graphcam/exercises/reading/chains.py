@@ -6,6 +6,7 @@ import numpy as np
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points
+from graphcam.words import say
 
 TOUCHING = 0.2
 """Ends as near as this meet, mm: the width of a pencil line."""
@@ -23,17 +24,17 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
     """
     left = _distinct(pieces)
     if not left:
-        raise UnreadableError("there is no curve on the layer {layer}", layer=layer)
+        raise UnreadableError(say("there is no curve on the layer {layer}", layer=layer))
     forward, left = _extended([left[0]], left[1:])
     backward, left = _extended([piece[::-1] for piece in reversed(forward)], left)
     curve = _joined(backward)
     if left:
         gap, at = min((abs(end - other), end) for end in curve[[0, -1]] for piece in left for other in piece[[0, -1]])
-        raise UnreadableError(
+        raise UnreadableError(say(
             "the layer {layer} holds {count} separate curves instead of one; the nearest gap, {gap:.1f} mm, is at "
             "({x:.1f}, {y:.1f})",
             layer=layer, count=1 + _curves(left), gap=float(gap), x=float(at.real), y=float(at.imag),
-        )  # fmt: skip
+        ))  # fmt: skip
     return curve
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from graphcam.exercises.reading.chains import one_curve
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points, shown
+from graphcam.words import say
 
 ORIGIN = "origin"
 """The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
@@ -45,7 +46,7 @@ class Drawn:
         layer = self._layer(name)
         found = layer.points or layer.centres
         if not found:
-            raise UnreadableError("there is no point on the layer {layer}; mark it with a POINT", layer=name)
+            raise UnreadableError(say("there is no point on the layer {layer}; mark it with a POINT", layer=name))
         return np.array(found) - self._origin(name)
 
     def curve(self, name: str) -> Points:
@@ -57,12 +58,12 @@ class Drawn:
         """
         layer = self._layer(name)
         if layer.strange:
-            raise UnreadableError(
+            raise UnreadableError(say(
                 "the layer {layer} holds {kinds}, which is no plain curve; draw lines, arcs, polylines or splines",
                 layer=name, kinds=", ".join(sorted(layer.strange)),
-            )  # fmt: skip
+            ))  # fmt: skip
         if not layer.curves:
-            raise UnreadableError("there is no curve on the layer {layer}", layer=name)
+            raise UnreadableError(say("there is no curve on the layer {layer}", layer=name))
         return one_curve(name, layer.curves) - self._origin(name)
 
     def marks_origin(self, name: str) -> bool:
@@ -71,10 +72,15 @@ class Drawn:
 
     def _layer(self, name: str) -> Layer:
         if name.lower() not in self.layers:
-            there = ", ".join([shown(layer) for layer in sorted(self.layers)[:LISTED]]) or "none"
+            there = [shown(layer) for layer in sorted(self.layers)[:LISTED]]
+            if not there:
+                raise UnreadableError(say("the drawing is empty"))
             raise UnreadableError(
-                "the drawing has nothing on the layer {layer}; its layers are {there}", layer=name, there=there
-            )
+                say(
+                    "the drawing has nothing on the layer {layer}; its layers are {there}",
+                    layer=name, there=", ".join(there),
+                )
+            )  # fmt: skip
         return self.layers[name.lower()]
 
     def _origin(self, name: str) -> complex:
@@ -83,10 +89,10 @@ class Drawn:
             if layer in self.layers:
                 marks = set(np.round(self.layers[layer].points, 6).tolist())
                 if len(marks) != 1:
-                    raise UnreadableError(
+                    raise UnreadableError(say(
                         "the layer {layer} must hold one POINT, the origin, but holds {count}",
                         layer=layer, count=len(marks),
-                    )  # fmt: skip
+                    ))  # fmt: skip
                 return marks.pop()
         return 0j
 

@@ -12,6 +12,7 @@ import numpy as np
 from graphcam.exercises.reading.drawing import Drawn, Layer
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import MOST_POINTS, Points, shown
+from graphcam.words import say
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -45,16 +46,14 @@ def read_dxf(name: str, data: bytes) -> Drawn:
     try:
         entities = list(islice(_dissolved(document.modelspace(), "0", 0), MOST_ENTITIES + 1))
         if len(entities) > MOST_ENTITIES:
-            raise UnreadableError("{name} has more than {most} entities", name=name, most=MOST_ENTITIES)
+            raise UnreadableError(say("{name} has more than {most} entities", name=name, most=MOST_ENTITIES))
         for entity, layer in entities:
             _add(layers.setdefault(layer.lower(), Layer()), entity, factor)
     except UnreadableError:
         raise
     # What a stranger wrote into a file can make a library stumble anywhere; it is his answer that is lost then.
-    except Exception as error:  # noqa: BLE001
-        raise UnreadableError(
-            "{name} holds an entity that cannot be read ({why})", name=name, why=shown(str(error))
-        ) from None
+    except Exception:  # noqa: BLE001
+        raise UnreadableError(say("{name} holds an entity that cannot be read", name=name)) from None
     return Drawn(layers)
 
 
@@ -63,14 +62,14 @@ def _document(name: str, data: bytes) -> Drawing:
     from ezdxf.lldxf.tagger import binary_tags_loader
 
     if data.startswith(b"AC10"):
-        raise UnreadableError("{name} is a DWG file; save it as DXF", name=name)
+        raise UnreadableError(say("{name} is a DWG file; save it as DXF", name=name))
     try:
         # What repairs faults reads text alone.
         if data.startswith(BINARY):
             return document.Drawing.load(binary_tags_loader(data))
         return recover.read(io.BytesIO(data))[0]
-    except Exception as error:  # noqa: BLE001  as above
-        raise UnreadableError("{name} is not a DXF file ({why})", name=name, why=shown(str(error))) from None
+    except Exception:  # noqa: BLE001  as above
+        raise UnreadableError(say("{name} is not a DXF file", name=name)) from None
 
 
 def _millimetres(name: str, document: Drawing) -> float:
@@ -83,8 +82,9 @@ def _millimetres(name: str, document: Drawing) -> float:
     try:
         return units.conversion_factor(units.InsertUnits(code), units.InsertUnits.Millimeters)
     except (ValueError, TypeError, IndexError):
+        unit = shown(str(code))
         raise UnreadableError(
-            "{name}: the drawing's unit ($INSUNITS {code}) is no length; set it to mm", name=name, code=shown(str(code))
+            say("{name}: the drawing's unit ($INSUNITS {code}) is no length; set it to mm", name=name, code=unit)
         ) from None
 
 
@@ -100,7 +100,7 @@ def _dissolved(entities: Iterable[Any], block_layer: str, depth: int) -> Generat
         if entity.dxftype() != "INSERT":
             continue
         if depth == DEEPEST_BLOCK:
-            raise UnreadableError("blocks stand within blocks more than {most} deep", most=DEEPEST_BLOCK)
+            raise UnreadableError(say("blocks stand within blocks more than {most} deep", most=DEEPEST_BLOCK))
         for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
             yield from _dissolved(single.virtual_entities(), layer, depth + 1)
 
@@ -122,9 +122,11 @@ def _place(at: Any, factor: float) -> complex:
     # NaN fails too.
     if not (abs(z.real) <= LARGEST and abs(z.imag) <= LARGEST):
         raise UnreadableError(
-            "a point lies {far:.3g} mm from the origin, and no sheet is so large; check the unit of the drawing "
-            "($INSUNITS)",
-            far=abs(z),
+            say(
+                "a point lies {far:.3g} mm from the origin, and no sheet is so large; check the unit of the drawing "
+                "($INSUNITS)",
+                far=abs(z),
+            )
         )
     return z
 
@@ -138,7 +140,7 @@ def _curve(entity: DXFGraphic, factor: float) -> Points:
         _place(vertex, factor)
     found = [_place(vertex, factor) for vertex in islice(path.flattening(FLAT / factor, segments=4), MOST_POINTS + 1)]
     if len(found) > MOST_POINTS:
-        raise UnreadableError("a {kind} has more than {most} points", kind=entity.dxftype(), most=MOST_POINTS)
+        raise UnreadableError(say("a {kind} has more than {most} points", kind=entity.dxftype(), most=MOST_POINTS))
     if not found:
-        raise UnreadableError("a {kind} is empty", kind=entity.dxftype())
+        raise UnreadableError(say("a {kind} is empty", kind=entity.dxftype()))
     return np.array(found)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import nearest
 from graphcam.exercises.answers import Answers, Given
 from graphcam.exercises.exercise import Asked
 from graphcam.exercises.reading.drawing import Drawn
@@ -25,8 +25,6 @@ LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
 """Bytes of a file that are read."""
 Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
 """Values by name out of a file's bytes, and sentences on it."""
-Speaker = Callable[[Caption], str]
-"""Says a caption in the student's language."""
 
 
 def data_of_notebook(name: str, data: bytes) -> tuple[Mapping[str, Any], list[Caption]]:
@@ -39,7 +37,7 @@ def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[U
     try:
         descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
     except OSError:
-        return {}, [UnreadableError("the hand-in is not a folder")]
+        return {}, [UnreadableError(say("the hand-in is not a folder"))]
     found: dict[str, bytes] = {}
     errors: list[UnreadableError] = []
     try:
@@ -54,13 +52,12 @@ def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[U
     finally:
         os.close(descriptor)
     if not found and not errors:
-        errors.append(UnreadableError("there is none of {names}", names=", ".join(LIMITS)))
+        errors.append(UnreadableError(say("there is none of {names}", names=", ".join(LIMITS))))
     return found, errors
 
 
 def from_files(asked: Iterable[Asked], files: Mapping[str, bytes], notes: Iterable[Caption] = (),
-               notebook: Reader = data_of_notebook, speak: Speaker = str,
-               rooms: Mapping[str, Room] | None = None) -> Answers:  # fmt: skip
+               notebook: Reader = data_of_notebook, rooms: Mapping[str, Room] | None = None) -> Answers:  # fmt: skip
     """What the files answer.
 
     asked : the answers that there should be
@@ -89,7 +86,7 @@ def from_files(asked: Iterable[Asked], files: Mapping[str, bytes], notes: Iterab
             drawing = read_dxf(DXF, files[DXF])
         except UnreadableError as error:
             notes.append(error.why)
-    return _answers(asked, given, drawing, notes, speak, rooms or {})
+    return _answers(asked, given, drawing, notes, rooms or {})
 
 
 def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
@@ -97,9 +94,9 @@ def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
 
 
 def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn | None, notes: list[Caption],
-             speak: Speaker, rooms: Mapping[str, Room]) -> Answers:  # fmt: skip
+             rooms: Mapping[str, Room]) -> Answers:  # fmt: skip
     values: dict[str, Given] = {}
-    problems: dict[str, str] = {}
+    problems: dict[str, Caption] = {}
     unmarked = False
     for one in asked:
         try:
@@ -109,12 +106,12 @@ def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn 
                 values[one.name] = _drawn(one, drawing, rooms.get(one.name))
                 unmarked = unmarked or not drawing.marks_origin(one.layer)
         except UnreadableError as error:
-            problems[one.name] = speak(error.why)
+            problems[one.name] = error.why
     if unmarked:
         notes = [*notes, say("{name} marks no origin by a POINT on the layer ORIGIN; its own zero is taken", name=DXF)]
     if not values and not problems:
         notes = [*notes, say("none of the answers is given")]
-    return Answers(values, problems, tuple(speak(note) for note in [*notes, *_unknown(asked, given)]))
+    return Answers(values, problems, (*notes, *_unknown(asked, given)))
 
 
 def _drawn(asked: Asked, drawing: Drawn, room: Room | None) -> Given:
@@ -130,7 +127,7 @@ def _agreed(asked: Asked, listed: list[Any]) -> Given:
             raise value
     found = [_value(asked, value) for value in listed]
     if any(np.shape(one) != np.shape(found[0]) or np.any(one != found[0]) for one in found[1:]):
-        raise UnreadableError("{answer} is answered differently in two files", answer=asked.name)
+        raise UnreadableError(say("{answer} is answered differently in two files", answer=asked.name))
     return found[0]
 
 
@@ -146,5 +143,7 @@ def _unknown(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption
     strange = [name for name in given if name not in names]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
-    remedy = nearest(shown(strange[0]), names)
-    return [say("{answer} is not asked; {remedy}", answer=shown(strange[0]), remedy=remedy)]
+    first = shown(strange[0])
+    if close := get_close_matches(first, names, n=1):
+        return [say("{answer} is not asked; did you mean {meant}?", answer=first, meant=close[0])]
+    return [say("{answer} is not asked; asked are {names}", answer=first, names=", ".join(names))]

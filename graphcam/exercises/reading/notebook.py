@@ -10,6 +10,7 @@ from typing import Any
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.tables import text_of
 from graphcam.exercises.reading.values import shown
+from graphcam.words import say
 
 TAG = "answers"
 """The tag of the cells that hold the answers."""
@@ -30,9 +31,9 @@ def notebook_values(name: str, data: bytes) -> dict[str, Any]:
     """
     tagged = [cell_source(cell) for cell in code_cells(name, data) if TAG in cell_tags(cell)]
     if not tagged:
-        raise UnreadableError("{name} has no cell with the tag {tag}", name=name, tag=TAG)
+        raise UnreadableError(say("{name} has no cell with the tag {tag}", name=name, tag=TAG))
     if sum(map(len, tagged)) > LONGEST_CELL:
-        raise UnreadableError("{name}: the answers are longer than {most} letters", name=name, most=LONGEST_CELL)
+        raise UnreadableError(say("{name}: the answers are longer than {most} letters", name=name, most=LONGEST_CELL))
     return _literals(name, tagged)
 
 
@@ -41,10 +42,10 @@ def code_cells(name: str, data: bytes) -> list[dict[str, Any]]:
     try:
         whole = json.loads(text_of(name, data))
     except (ValueError, RecursionError):
-        raise UnreadableError("{name} is not a notebook: it is not valid JSON", name=name) from None
+        raise UnreadableError(say("{name} is not a notebook: it is not valid JSON", name=name)) from None
     cells = whole.get("cells") if isinstance(whole, dict) else None
     if not isinstance(cells, list):
-        raise UnreadableError("{name} is not a notebook: it has no cells", name=name)
+        raise UnreadableError(say("{name} is not a notebook: it has no cells", name=name))
     return [cell for cell in cells if isinstance(cell, dict) and cell.get("cell_type") == "code"]
 
 
@@ -68,13 +69,15 @@ def _literals(name: str, sources: list[str]) -> dict[str, Any]:
     try:
         for key, node in (pair for source in sources for pair in _assignments(ast.parse(source))):
             if key in found:
-                raise UnreadableError("{name}: {answer} is answered twice", name=name, answer=shown(key))
+                raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=shown(key)))
             found[key] = ast.literal_eval(node)
     # Too deep for the parser is a MemoryError there; numbers too long are a ValueError or a SyntaxError.
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
         raise UnreadableError(
-            "{name}: the answer cell may hold only lines such as v_max = 12.5, with numbers and lists of numbers",
-            name=name,
+            say(
+                "{name}: the answer cell may hold only lines such as v_max = 12.5, with numbers and lists of numbers",
+                name=name,
+            )
         ) from None
     return found
 

@@ -13,20 +13,24 @@ from graphcam.drafting.ink import Caption, say
 class UnreadableError(Exception):
     """What is handed in cannot be read; ``why`` is the sentence for the record.
 
-    >>> print(UnreadableError("{name} is empty", name="answers.toml").why)
+    >>> print(UnreadableError(say("{name} is empty", name="answers.toml")))
     answers.toml is empty
     """
 
-    def __init__(self, template: str, **values: object) -> None:
-        super().__init__(template, values)
-        self.why: Caption = say(template, **values)
+    def __init__(self, why: Caption) -> None:
+        super().__init__(why)
+        self.why = why
 
     def __str__(self) -> str:
         return str(self.why)
 
 
-CANNOT = "{name} cannot be read ({why})"
-TOO_LONG = "{name} is longer than the {limit} bytes that are read"
+def _closed(name: str) -> UnreadableError:
+    return UnreadableError(say("{name} cannot be opened", name=name))
+
+
+def _too_long(name: str, limit: int) -> UnreadableError:
+    return UnreadableError(say("{name} is longer than the {limit} bytes that are read", name=name, limit=limit))
 
 
 def read_regular(path: str | os.PathLike[str], limit: int, folder: int | None = None) -> bytes:
@@ -54,22 +58,22 @@ def read_regular(path: str | os.PathLike[str], limit: int, folder: int | None = 
                              dir_fd=folder)  # fmt: skip
     except OSError as error:
         if error.errno == errno.ELOOP:
-            raise UnreadableError("{name} is a link; hand in the file itself", name=name) from None
-        raise UnreadableError(CANNOT, name=name, why=error.strerror) from None
+            raise UnreadableError(say("{name} is a link; hand in the file itself", name=name)) from None
+        raise _closed(name) from None
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise UnreadableError(_not_a_file(status.st_mode), name=name)
+            raise UnreadableError(_not_a_file(name, status.st_mode))
         if status.st_size > limit:
-            raise UnreadableError(TOO_LONG, name=name, limit=limit)
+            raise _too_long(name, limit)
         # One byte more tells a file that grew meanwhile.
         data = _read(descriptor, limit + 1)
-    except OSError as error:
-        raise UnreadableError(CANNOT, name=name, why=error.strerror) from None
+    except OSError:
+        raise _closed(name) from None
     finally:
         os.close(descriptor)
     if len(data) > limit:
-        raise UnreadableError(TOO_LONG, name=name, limit=limit)
+        raise _too_long(name, limit)
     return data
 
 
@@ -81,10 +85,10 @@ def _read(descriptor: int, limit: int) -> bytes:
     return b"".join(parts)
 
 
-def _not_a_file(mode: int) -> str:
-    templates = {
-        stat.S_IFDIR: "{name} is a folder, not a file",
-        stat.S_IFIFO: "{name} is a pipe, not a file",
-        stat.S_IFSOCK: "{name} is a socket, not a file",
+def _not_a_file(name: str, mode: int) -> Caption:
+    found = {
+        stat.S_IFDIR: say("{name} is a folder, not a file", name=name),
+        stat.S_IFIFO: say("{name} is a pipe, not a file", name=name),
+        stat.S_IFSOCK: say("{name} is a socket, not a file", name=name),
     }
-    return templates.get(stat.S_IFMT(mode), "{name} is a device, not a file")
+    return found.get(stat.S_IFMT(mode), say("{name} is a device, not a file", name=name))

@@ -9,6 +9,7 @@ import numpy as np
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points
+from graphcam.words import Caption, say
 
 SIZES = 5.0
 """A curve so many times larger or smaller than any that can be meant is drawn in another unit, or is a part only."""
@@ -55,24 +56,28 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         """
         low, high = _corners(points)
         if joined and not self.smallest / SIZES <= abs(high - low) <= self.largest * SIZES:
-            raise UnreadableError(
+            raise UnreadableError(say(
                 "the curve on the layer {layer} is {size:.3g} mm across, and no answer is of such a size; draw the "
                 "whole curve in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
                 layer=name, size=abs(high - low),
-            )  # fmt: skip
+            ))  # fmt: skip
         middle = (low + high) / 2
         if not (self.low.real <= middle.real <= self.high.real and self.low.imag <= middle.imag <= self.high.imag):
-            raise UnreadableError(MARKED if marked else UNMARKED, layer=name)
+            raise UnreadableError(_elsewhere(name, marked=marked))
 
 
-MARKED = (
-    "the drawing on the layer {layer} lies far from where it can be, counted from the POINT on the layer ORIGIN; check "
-    "that it marks the origin of this drawing"
-)
-UNMARKED = (
-    "the drawing on the layer {layer} lies far from where it can be, counted from the drawing's own zero; mark the "
-    "origin of the paper by a POINT on the layer ORIGIN"
-)
+def _elsewhere(name: str, *, marked: bool) -> Caption:
+    if marked:
+        return say(
+            "the drawing on the layer {layer} lies far from where it can be, counted from the POINT on the layer "
+            "ORIGIN; check that it marks the origin of this drawing",
+            layer=name,
+        )
+    return say(
+        "the drawing on the layer {layer} lies far from where it can be, counted from the drawing's own zero; mark the "
+        "origin of the paper by a POINT on the layer ORIGIN",
+        layer=name,
+    )
 
 
 def _corners(points: Points) -> tuple[complex, complex]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import tomllib
 from typing import Any
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points, decimal, shown
+from graphcam.words import Caption, say
 
 MOST_ROWS = 20_000
 MOST_PARTS = 16
@@ -23,16 +25,15 @@ def toml_values(name: str, data: bytes) -> dict[str, Any]:
     """
     text = text_of(name, data)
     if _longest_key(text) > MOST_PARTS:
-        raise UnreadableError("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS)
+        raise UnreadableError(say("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS))
     try:
         whole = tomllib.loads(text)
     # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
     except (ValueError, RecursionError) as error:
-        why = "it is nested too deeply" if isinstance(error, RecursionError) else str(error)
-        raise UnreadableError("{name} is not valid TOML ({why})", name=name, why=shown(why)) from None
+        raise UnreadableError(_no_toml(name, error)) from None
     answers = whole.get("answers", whole)
     if not isinstance(answers, dict):
-        raise UnreadableError("{name}: answers must be a table", name=name)
+        raise UnreadableError(say("{name}: answers must be a table", name=name))
     return answers
 
 
@@ -51,16 +52,26 @@ def csv_values(name: str, data: bytes) -> dict[str, float | Points | UnreadableE
     try:
         for count, row in enumerate(csv.reader(io.StringIO(text), delimiter=";" if ";" in first else ",")):
             if count > MOST_ROWS:
-                raise UnreadableError("{name} has more than {most} rows", name=name, most=MOST_ROWS)
+                raise UnreadableError(say("{name} has more than {most} rows", name=name, most=MOST_ROWS))
             cells = [cell.strip() for cell in row]
             while cells and not cells[-1]:
                 cells.pop()
             if cells and not (count == 0 and _is_heading(cells)):
                 rows.setdefault(cells[0], []).append(cells[1:])
-    except csv.Error as error:
-        raise UnreadableError("{name} is not valid CSV ({why})", name=name, why=shown(str(error))) from None
+    except csv.Error:
+        raise UnreadableError(say("{name} is not valid CSV", name=name)) from None
     # A row without a value is an answer that is still open.
     return {answer: _value(answer, listed) for answer, listed in rows.items() if listed != [[]]}
+
+
+def _no_toml(name: str, error: Exception) -> Caption:
+    """Why a text is not TOML; the library's own words are English, so only the line is taken from them."""
+    if line := re.search(r"at line (\d+)", str(error)):
+        return say(
+            "{name}: line {line} is not valid TOML; a line such as v_max = 12.5 is, with a decimal point",
+            name=name, line=line[1],
+        )  # fmt: skip
+    return say("{name} is not valid TOML", name=name)
 
 
 def _longest_key(text: str) -> int:
@@ -86,9 +97,9 @@ def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableErr
         if all(len(row) == 2 for row in rows):
             return np.array([complex(decimal(answer, x), decimal(answer, y)) for x, y in rows])
         if len(rows) > 1:
-            raise UnreadableError("{answer} is answered {count} times", answer=shown(answer), count=len(rows))
+            raise UnreadableError(say("{answer} is answered {count} times", answer=shown(answer), count=len(rows)))
         if len(rows[0]) != 1:
-            raise UnreadableError("{answer} must have one value, or x and y", answer=shown(answer))
+            raise UnreadableError(say("{answer} must have one value, or x and y", answer=shown(answer)))
         return decimal(answer, rows[0][0])
     except UnreadableError as error:
         return error
@@ -99,4 +110,4 @@ def text_of(name: str, data: bytes) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise UnreadableError("{name} is not UTF-8 text", name=name) from None
+        raise UnreadableError(say("{name} is not UTF-8 text", name=name)) from None

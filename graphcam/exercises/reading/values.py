@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.words import Words, say
 
 Points = NDArray[np.complex128]
 GREATEST = 1e9
@@ -35,10 +36,10 @@ def number(name: str, value: object) -> float:
     """
     # bool is an int in Python, not for a student.
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise UnreadableError("{answer} is {value}, which is not a number", answer=shown(name), value=shown(value))
+        raise _no_number(name, value)
     # An int of any length compares, but does not always convert.
     if not (math.isfinite(value) if isinstance(value, float) else True) or not -GREATEST <= value <= GREATEST:
-        raise UnreadableError("{answer} is no number that a drawing can show", answer=shown(name))
+        raise UnreadableError(say("{answer} is no number that a drawing can show", answer=shown(name)))
     return float(value)
 
 
@@ -51,15 +52,15 @@ def points(name: str, value: object) -> Points:
     array([1.+2.j])
     """
     if not isinstance(value, list | tuple) or not value:
-        raise UnreadableError("{answer} must be points [x, y] in mm of paper", answer=shown(name))
+        raise UnreadableError(say("{answer} must be points [x, y] in mm of paper", answer=shown(name)))
     listed: Sequence[Any] = value
     pairs: Sequence[Any] = (
         [listed] if len(listed) == 2 and not any(isinstance(x, list | tuple) for x in listed) else listed
     )
     if len(pairs) > MOST_POINTS:
-        raise UnreadableError("{answer} has more than {most} points", answer=shown(name), most=MOST_POINTS)
+        raise UnreadableError(say("{answer} has more than {most} points", answer=shown(name), most=MOST_POINTS))
     if not all(isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs):
-        raise UnreadableError("{answer} must be points [x, y] in mm of paper", answer=shown(name))
+        raise UnreadableError(say("{answer} must be points [x, y] in mm of paper", answer=shown(name)))
     return np.array([complex(number(name, x), number(name, y)) for x, y in pairs])
 
 
@@ -72,27 +73,34 @@ def decimal(name: str, text: str) -> float:
     # float() would also take "nan", "1_000" and digits of other scripts.
     plain = text.strip().replace(",", ".")
     if not plain or not plain.isascii() or "_" in plain:
-        raise UnreadableError("{answer} is {value}, which is not a number", answer=shown(name), value=shown(text))
+        raise _no_number(name, text)
     try:
         return number(name, float(plain))
     except ValueError:
-        raise UnreadableError(
-            "{answer} is {value}, which is not a number", answer=shown(name), value=shown(text)
-        ) from None
+        raise _no_number(name, text) from None
 
 
-def shown(value: object) -> str:
+def _no_number(name: str, value: object) -> UnreadableError:
+    return UnreadableError(
+        say("{answer} is {value}, which is not a number", answer=shown(name), value=_described(value))
+    )
+
+
+def _described(value: object) -> Words:
+    """What stands in place of a number, for a sentence."""
+    if isinstance(value, str):
+        return shown(value)
+    # repr() of a deep or long value may not end.
+    if value is None or isinstance(value, bool | float):
+        return str(value)
+    return say("a list") if isinstance(value, list | tuple) else say("something else")
+
+
+def shown(text: str) -> str:
     """A stranger's text for a sentence: short, in one line, without control characters.
 
     >>> shown("a" * 50)
     'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…'
     """
-    if isinstance(value, str):
-        text = value
-    elif value is None or isinstance(value, bool | float):
-        text = str(value)
-    else:
-        # repr() of a deep or long value may not end.
-        text = {"list": "a list", "dict": "a table", "int": "an integer"}.get(type(value).__name__, "something else")
     text = "".join(letter if letter.isprintable() else " " for letter in text[: SHOWN + 1])
     return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"

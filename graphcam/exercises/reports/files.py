@@ -13,14 +13,12 @@ from graphcam.exercises.folders import folder_name
 from graphcam.exercises.reports.grades import long_table, wide_table
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
-from graphcam.exercises.reports.words import Speaker
 from graphcam.files import whole_folder
 
 
 def write_reports(
-    out: Path, exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate],
-    language: str = "en", speak: Speaker = str,
-) -> list[str]:  # fmt: skip
+    out: Path, exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate]
+) -> list[str]:
     """The grades, wide into ``out`` and long beside it, the records and the report on the group; their names.
 
     Raises
@@ -31,7 +29,7 @@ def write_reports(
         out.name: wide_table(records),
         f"{out.stem}-long.csv": long_table(records),
         f"{out.stem}.json": json.dumps(list(records), indent=1, allow_nan=False) + "\n",
-        f"{out.stem}.html": group_page(exercise, records, certificates, language, speak),
+        f"{out.stem}.html": group_page(exercise, records, certificates),
     }
     with whole_folder(out.parent) as draft:
         for name, text in texts.items():
@@ -40,9 +38,8 @@ def write_reports(
 
 
 def write_feedback(
-    folder: Path, exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate],
-    language: str = "en", speak: Speaker = str,
-) -> None:  # fmt: skip
+    folder: Path, exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate]
+) -> None:
     """A page for every student, under the student's name as a file's name.
 
     Raises
@@ -51,5 +48,5 @@ def write_feedback(
     """
     with whole_folder(folder) as draft:
         for record in records:
-            text = student_page(exercise, record, certificates.get(record["student"]), language, speak)
+            text = student_page(exercise, record, certificates.get(record["student"]))
             (draft / f"{folder_name(record['student'])}.html").write_text(text, encoding="utf-8")

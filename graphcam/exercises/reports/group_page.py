@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.misconceptions import misconception
@@ -16,7 +15,8 @@ from graphcam.exercises.reports.charts import Chart, stacked
 from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
 from graphcam.exercises.reports.pages import page
 from graphcam.exercises.reports.statistics import EDGE, Mistake, StepErrors, mistakes, step_errors
-from graphcam.exercises.reports.words import Speaker, spoken
+from graphcam.exercises.reports.words import spoken
+from graphcam.words import Caption, Tell, say
 
 WORDS = {
     "again": say("What to teach again"), "nothing": say("Nothing: every step earned most of its marks."),
@@ -34,23 +34,20 @@ LARGEST_PICTURES = 6
 """Drawings that are shown singly for each curve: those farthest off."""
 
 
-def group_page(
-    exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate],
-    language: str = "en", speak: Speaker = str,
-) -> str:  # fmt: skip
+def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate]) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
 
     certificates : by student, as far as they are known
     """
-    steps, found = step_errors(exercise, records), mistakes(records)
+    steps, found, tell = step_errors(exercise, records), mistakes(records), exercise.tell
     bound = float(np.median([each.bound for each in certificates.values()])) if certificates else 0.0
     return page(
-        "group.html", language=language, title=exercise.title, summary=speak(_summary(records)),
-        words=spoken(WORDS, speak), again=[speak(caption) for caption in _again(exercise, steps, found, len(records))],
-        marks=_marks(exercise, records), steps=[_step(step, bound, len(records), speak) for step in steps],
-        mistakes=[_mistake(mistake, speak) for mistake in found],
-        pictures=[(speak(caption), drawn) for caption, drawn in _pictures(exercise, records, certificates)],
-        advised=[speak(caption) for caption in _advised(records)],
+        "group.html", language=exercise.language, title=exercise.title, summary=tell(_summary(records)),
+        words=spoken(WORDS, tell), again=[tell(caption) for caption in _again(exercise, steps, found, len(records))],
+        marks=_marks(exercise, records), steps=[_step(step, bound, len(records), tell) for step in steps],
+        mistakes=[_mistake(mistake, tell) for mistake in found],
+        pictures=[(tell(caption), drawn) for caption, drawn in _pictures(exercise, records, certificates)],
+        advised=[tell(caption) for caption in _advised(records)],
     )  # fmt: skip
 
 
@@ -80,10 +77,11 @@ def _marks(exercise: Exercise, records: Sequence[dict[str, Any]]) -> Chart:
     bars = [0] * 21
     for record in records:
         bars[round(20 * record["total"] / record["of"])] += 1
-    return stacked({"right": bars}, [(0.0, "0"), (0.5, f"{exercise.marks / 2:g}"), (1.0, f"{exercise.marks:g}")])
+    ticks = [(part, exercise.tell(say("{marks:g}", marks=part * exercise.marks))) for part in (0.0, 0.5, 1.0)]
+    return stacked({"right": bars}, ticks)
 
 
-def _step(step: StepErrors, bound: float, count: int, speak: Speaker) -> dict[str, Any]:
+def _step(step: StepErrors, bound: float, count: int, tell: Tell) -> dict[str, Any]:
     ticks = [((k + EDGE) / (2 * EDGE), f"{k:+g}".replace("-", "−") if k else "0") for k in range(-6, 7, 2)]
     ends = [(0.0, f"< −{EDGE:g}"), (1.0, f"> {EDGE:g}")]
     inside = min(bound / EDGE, 1.0) / 2
@@ -91,13 +89,13 @@ def _step(step: StepErrors, bound: float, count: int, speak: Speaker) -> dict[st
                 right=step.outcomes["right"], follow=step.outcomes["follow-through"], wrong=step.outcomes["wrong"],
                 rest=step.outcomes["unreadable"] + step.outcomes["missing"])  # fmt: skip
     chart = stacked(step.bars, [*ends, *ticks], (0.5 - inside, 0.5 + inside))
-    return {"text": f"{step.asked.name}. {step.asked.text}", "summary": speak(shown), "chart": chart}
+    return {"text": f"{step.asked.name}. {step.asked.text}", "summary": tell(shown), "chart": chart}
 
 
-def _mistake(mistake: Mistake, speak: Speaker) -> dict[str, Any]:
+def _mistake(mistake: Mistake, tell: Tell) -> dict[str, Any]:
     who = ", ".join(mistake.students[:12]) + (" …" if len(mistake.students) > 12 else "")
-    return {"text": speak(misconception(mistake.name).said), "count": len(mistake.students),
-            "lost": f"{mistake.lost:g}", "who": who}  # fmt: skip
+    return {"text": tell(misconception(mistake.name).said), "count": len(mistake.students),
+            "lost": tell(say("{marks:g}", marks=mistake.lost)), "who": who}  # fmt: skip
 
 
 def _pictures(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.ink import Caption, Words, say
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
 from graphcam.exercises.reports.pages import page
-from graphcam.exercises.reports.words import OUTCOMES, Speaker, given_text, spoken
+from graphcam.exercises.reports.words import OUTCOMES, given_text, spoken
 from graphcam.exercises.template import sentence
 
 WORDS = {
@@ -18,35 +18,32 @@ WORDS = {
 }  # fmt: skip
 
 
-def student_page(
-    exercise: Exercise, record: dict[str, Any], certificate: Certificate | None, language: str = "en",
-    speak: Speaker = str,
-) -> str:  # fmt: skip
+def student_page(exercise: Exercise, record: dict[str, Any], certificate: Certificate | None) -> str:
     """The feedback on one record as HTML.
 
     certificate : tells where on the student's own curve it is farthest off; of the key nothing is shown
     """
-    asked = {one.name: one for one in exercise.answers}
+    asked, tell = {one.name: one for one in exercise.answers}, exercise.tell
     rows = [
         {
-            "text": sentence(asked[answer["name"]].text, record["parameters"]),
-            "given": f"{given_text(answer, speak)} {_unit(asked[answer['name']], answer)}".strip(),
-            "kind": answer["outcome"], "outcome": speak(OUTCOMES[answer["outcome"]]),
-            "marks": speak(say("{marks:g} of {of:g}", marks=answer["marks"], of=answer["of"])),
+            "text": sentence(asked[answer["name"]].text, record["parameters"], tell),
+            "given": f"{given_text(answer, tell)} {tell(_unit(asked[answer['name']], answer))}".strip(),
+            "kind": answer["outcome"], "outcome": tell(OUTCOMES[answer["outcome"]]),
+            "marks": tell(say("{marks:g} of {of:g}", marks=answer["marks"], of=answer["of"])),
         }
         for answer in record["answers"]
     ]  # fmt: skip
     return page(
-        "feedback.html", language=language, title=exercise.title, student=record["student"], rows=rows,
-        total=speak(say("{marks:g} of {of:g} marks", marks=record["total"], of=record["of"])),
-        words=spoken(WORDS, speak), feedback=list(record["feedback"]), notes=list(record["notes"]),
-        pictures=[(speak(_caption(answer)), _own(asked[answer["name"]], answer, certificate))
+        "feedback.html", language=exercise.language, title=exercise.title, student=record["student"], rows=rows,
+        total=tell(say("{marks:g} of {of:g} marks", marks=record["total"], of=record["of"])),
+        words=spoken(WORDS, tell), feedback=list(record["feedback"]), notes=list(record["notes"]),
+        pictures=[(tell(_caption(answer)), _own(asked[answer["name"]], answer, certificate))
                   for answer in record["answers"] if isinstance(answer["given"], list)],
     )  # fmt: skip
 
 
-def _unit(asked: Asked, answer: dict[str, Any]) -> str:
-    return "" if answer["given"] is None or isinstance(answer["given"], list) else asked.unit
+def _unit(asked: Asked, answer: dict[str, Any]) -> Words:
+    return "" if answer["given"] is None or isinstance(answer["given"], list) else asked.unit_said
 
 
 def _caption(answer: dict[str, Any]) -> Caption:

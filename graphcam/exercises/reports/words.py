@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
-from graphcam.drafting.ink import Caption, say
-
-Speaker = Callable[[Caption], str]
+from graphcam.words import Caption, Tell, say
 
 OUTCOMES = {
     "right": say("right"), "follow-through": say("follows from your own values"), "wrong": say("off"),
@@ -15,16 +12,16 @@ OUTCOMES = {
 }  # fmt: skip
 
 
-def spoken(words: dict[str, Caption], speak: Speaker) -> dict[str, str]:
+def spoken(words: dict[str, Caption], tell: Tell) -> dict[str, str]:
     """The words in a language."""
-    return {name: speak(caption) for name, caption in words.items()}
+    return {name: tell(caption) for name, caption in words.items()}
 
 
-def given_text(answer: dict[str, Any], speak: Speaker) -> str:
+def given_text(answer: dict[str, Any], tell: Tell) -> str:
     """What was given, in a cell."""
     given = answer["given"]
     if given is None:
         return "–"
     if isinstance(given, list):
-        return speak(say("{count} points", count=len(given)))
-    return speak(say("{value:.6g}", value=given))
+        return tell(say("{count} points", count=len(given)))
+    return tell(say("{value:.6g}", value=given))

@@ -51,8 +51,8 @@ def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
         return {}, [say("{name} hands out no answers", name=name)]
     try:
         found = json.loads(lines[-1], object_pairs_hook=_once)
-    except (ValueError, RecursionError) as error:
-        return {}, [say("{name}: what it hands out cannot be read ({why})", name=name, why=shown(str(error)))]
+    except (ValueError, RecursionError):
+        return {}, [say("{name}: what it hands out cannot be read", name=name)]
     if not isinstance(found, dict):
         return {}, [say("{name}: what it hands out is no table of answers", name=name)]
     inner = found.pop("answers", {})
