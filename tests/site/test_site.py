@@ -116,6 +116,7 @@ def test_a_page_opens_without_a_fault_or_a_request(site, page):
     with opened(site / f"{page}.html", site) as (shown, wrong):
         assert shown.locator("h1").count() == 1
         if page in ("course/04_shaded_region", "reference/index"):
-            formula = shown.locator("math").first
-            assert formula.bounding_box()["height"] > 8
+            # A single small letter is as high as the machine's typeface makes it; the highest formula is not that.
+            heights = shown.locator("math").evaluate_all("all => all.map(one => one.getBoundingClientRect().height)")
+            assert max(heights) > 10
     assert wrong == []
