@@ -183,7 +183,6 @@ def test_what_nbgrader_collects_is_graded(course: Path):
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of nbgrader's own use of its database
 def test_nbgrader_takes_the_course_and_its_grade_book_the_scores(course: Path):
-    pytest.importorskip("nbgrader", reason="nbgrader, which is an extra of its own, is not installed")
     from nbgrader.api import Gradebook
 
     nbgrader(course, "generate_assignment", NAME)

@@ -6,6 +6,7 @@ import csv
 import json
 import tomllib
 
+import ezdxf
 import nbformat
 import pytest
 from issued_variants import SECRET, issued
@@ -94,7 +95,6 @@ def test_wrong_input_of_make_leaves_nothing(tmp_path):
 
 @pytest.mark.slow
 def test_a_course_is_made_whole(tmp_path):
-    ezdxf = pytest.importorskip("ezdxf")
     roster, secret, out = tmp_path / "r.csv", tmp_path / "secret", tmp_path / "out"
     students = ["s1", "../=cmd"]
     roster.write_text("id\n" + "\n".join(students) + "\n", encoding="utf-8")
