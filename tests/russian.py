@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 KNOWN = {
     # Points and a function of a Russian school's writing, the rule's own word, a file, and who wrote of three arcs.
@@ -10,6 +11,8 @@ KNOWN = {
 }  # fmt: skip
 
 
-def english_words(text: str) -> set[str]:
-    """Latin words of three letters or more, but for TeX's."""
+def english_words(text: str, names: Iterable[str] = ()) -> set[str]:
+    """Latin words of three letters or more, but for TeX's and for names, which are the same in every language."""
+    for name in names:
+        text = re.sub(rf"\b{re.escape(name)}\b", " ", text)
     return set(re.findall("[A-Za-z]{3,}", re.sub(r"\\[A-Za-z]+", "", text))) - KNOWN

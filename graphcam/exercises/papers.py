@@ -26,11 +26,11 @@ from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
 from graphcam.task import Task
-from graphcam.words import Caption, Words, say, say_many
+from graphcam.words import Caption, Words, say, say_in, say_many
 
 TAG = "answers"
 """The tag of the notebook's cell that holds the answers."""
-KEY_COLUMNS = (say("name"), say("unit"), say("value"), say("tolerance"), say("marks"))
+KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """Of the key's table, as :func:`key_rows` fills them."""
 KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
 

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments, Step, View, say
 from graphcam.given.laws import Floats
+from graphcam.language import ENGLISH
+from graphcam.language import language as language_of
 from graphcam.mechanism.sizing import SizedCam
 from graphcam.mechanism.sizing_region import FeasibleRegion, feasible_region
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
+from graphcam.words import Caption, sequence
 
 REGION = View("sizing", say("Permitted cams, prime radius r₀ over offset e"), across="sizing e", up="sizing r0")
+TITLE = say("The smallest cam")
 WIDTH, HEIGHT = 130.0, 100.0
 """The region is drawn as large as this [mm of paper]; its axes have scales of their own."""
 TICKS = 5
@@ -25,13 +30,35 @@ MARGIN = 0.05
 """The offset's axis is this part longer than its range, so that a range of one offset has an axis too."""
 
 
-def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso") -> Drawing:
+BINDING: Mapping[str, Caption] = {
+    "pressure angle on the rise": say("pressure angle on the rise"),
+    "pressure angle on the return": say("pressure angle on the return"),
+    "curvature": say("curvature"),
+    "stress": say("stress"),
+    "least prime radius": say("least prime radius"),
+    "greatest prime radius": say("greatest prime radius"),
+    "least offset": say("least offset"),
+    "greatest offset": say("greatest offset"),
+    "least roller radius": say("least roller radius"),
+    "greatest roller radius": say("greatest roller radius"),
+    "least face width": say("least face width"),
+    "greatest face width": say("greatest face width"),
+}
+"""What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
+
+
+def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso", language: str = ENGLISH.name) -> Drawing:
     """A sheet with the permitted region and the values of the cam, for the writers of :mod:`graphcam.sheets`.
 
-    paper : "A1" to "A4"; frame : "gost" or "iso"
+    paper : "A1" to "A4"; frame : "gost" or "iso"; language : "en" or "ru"
+
+    Raises
+    ------
+    DesignError : there is no such format, frame or language
     """
+    tell = language_of(language).text
     steps = [("sizing", step) for step in _steps(sized, feasible_region(sized.problem))]
-    return compose(steps, [_table(sized)], TitleBlock(name="The smallest cam"), paper, frame)
+    return compose(steps, [_table(sized)], TitleBlock(name=tell(TITLE)), paper, frame, tell=tell)
 
 
 def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
@@ -59,21 +86,24 @@ def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
             (
                 *_axes(e0, e0 + span, r0, r1),
                 *(Line(line, Role.CURVE) for line in lines.values() if line.size > 1),
-                *(Label(complex(line[line.size // 2]), name, towards=UP) for name, line in lines.items() if line.size),
+                *(
+                    Label(complex(line[line.size // 2]), BINDING[name], towards=UP)
+                    for name, line in lines.items() if line.size
+                ),
             ),
         ),
         Step(
-            say("The smallest cam"),
+            TITLE,
             say(
                 "Over all lines the cams are permitted. The least prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; "
                 "what binds there: {binding}.",
-                r0=sized.cam.prime_radius, e=sized.offset, binding=", ".join(sized.binding),
+                r0=sized.cam.prime_radius, e=sized.offset, binding=sequence([BINDING[name] for name in sized.binding]),
             ),
             REGION,
             (
                 *shaded,
                 Dots(np.array([found]), Role.RESULT),
-                Label(found, f"r₀ = {sized.cam.prime_radius:.2f}", towards=1 - 1j),
+                Label(found, say("r₀ = {r0:.2f}", r0=sized.cam.prime_radius), towards=1 - 1j),
             ),
         ),
     ]  # fmt: skip
@@ -87,8 +117,8 @@ def _axes(e0: float, e1: float, r0: float, r1: float) -> tuple[Mark, ...]:
         Arrow(0j, up + beyond * UP, Role.SCALE),
         *_ticks(across, e0, e1, -UP),
         *_ticks(up, r0, r1, -1 + 0j),
-        Label(across + beyond, "e, mm", towards=1 - 1j),
-        Label(up + beyond * UP, "r₀, mm", towards=-1 + 0j),
+        Label(across + beyond, say("e, mm"), towards=1 - 1j),
+        Label(up + beyond * UP, say("r₀, mm"), towards=-1 + 0j),
     )
 
 
@@ -97,7 +127,8 @@ def _ticks(end: complex, low: float, high: float, outwards: complex) -> tuple[Ma
     share = np.arange(TICKS + 1) / TICKS
     at = share * end
     labels = (
-        Label(complex(x), f"{low + t * (high - low):g}", outwards, small=True) for x, t in zip(at, share, strict=True)
+        Label(complex(x), say("{value:g}", value=low + t * (high - low)), outwards, small=True)
+        for x, t in zip(at, share, strict=True)
     )
     return (Segments(at, at + 1.5 * outwards, Role.SCALE), *labels)
 
@@ -106,24 +137,31 @@ def _table(sized: SizedCam) -> Table:
     """Sizes and limits with what is permitted; a star where that binds."""
     problem, limits = sized.problem, sized.problem.limits
     values = (
-        ("prime radius", sized.cam.prime_radius, problem.prime_radius),
-        ("offset", sized.offset, problem.offset),
-        ("roller radius", sized.cam.roller_radius, problem.roller_radius),
-        ("face width", sized.face_width, problem.face_width),
+        ("prime radius", say("prime radius"), sized.cam.prime_radius, problem.prime_radius),
+        ("offset", say("offset"), sized.offset, problem.offset),
+        ("roller radius", say("roller radius"), sized.cam.roller_radius, problem.roller_radius),
+        ("face width", say("face width"), sized.face_width, problem.face_width),
     )
-    rows = [(name, f"{value:.3f} mm", f"{low:g} to {high:g}") for name, value, (low, high) in values]
+    rows = [
+        (word, name, say("{length:.3f} mm", length=value), say("{low:g} to {high:g}", low=low, high=high))
+        for word, name, value, (low, high) in values
+    ]
     permitted = max(limits.rise, limits.return_ or 0.0)
     rows += [
-        ("pressure angle", f"{math.degrees(sized.max_pressure_angle):.2f}°", f"{math.degrees(permitted):g}°"),
-        ("least curvature radius", f"{sized.min_convex_radius:.3f} mm",
-         f"{sized.cam.roller_radius / limits.roller_share:.3f}"),
-        ("contact stress", f"{sized.stress:.1f} MPa", f"{limits.stress:g}"),
+        ("pressure angle", say("pressure angle"), say("{angle:.2f}°", angle=math.degrees(sized.max_pressure_angle)),
+         say("{angle:g}°", angle=math.degrees(permitted))),
+        ("curvature", say("least curvature radius"), say("{length:.3f} mm", length=sized.min_convex_radius),
+         say("{length:.3f}", length=sized.cam.roller_radius / limits.roller_share)),
+        ("stress", say("contact stress"), say("{stress:.1f} MPa", stress=sized.stress),
+         say("{stress:g}", stress=limits.stress)),
     ]  # fmt: skip
-    starred = [(name, value, allowed + " *" * _binds(name, sized.binding)) for name, value, allowed in rows]
-    return Table("The smallest cam", ("size", "value", "permitted, * binds"), tuple(starred))
+    starred = [
+        (name, value, sequence([allowed, "*"], " ") if _binds(word, sized.binding) else allowed)
+        for word, name, value, allowed in rows
+    ]
+    return Table(TITLE, (say("size"), say("value"), say("permitted, * binds")), tuple(starred))
 
 
-def _binds(row: str, binding: tuple[str, ...]) -> bool:
+def _binds(word: str, binding: tuple[str, ...]) -> bool:
     """Whether what a row of the table shows is among what binds."""
-    word = {"least curvature radius": "curvature", "contact stress": "stress"}.get(row, row)
     return any(word in name for name in binding)

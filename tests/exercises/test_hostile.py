@@ -12,9 +12,11 @@ from pathlib import Path
 import hostile
 import pytest
 from programs import program
+from russian import english_words
 
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Exercise
+from graphcam.exercises.exercise_file import find_exercise
 from graphcam.exercises.grading.hand_in import read_hand_in
 from graphcam.exercises.grading.work import Assignment, grade
 from graphcam.exercises.record import Record
@@ -74,6 +76,25 @@ def test_data_gives_one_record_and_no_point(case: str, tmp_path: Path, assignmen
     # It says what is wrong: of the file, or of the answer.
     assert record.notes or any("cannot be read" in said for said in record.feedback)
     assert not OWNED.exists()
+
+
+FORMATS = {"answers", "toml", "csv", "ipynb", "dxf", "TOML", "CSV", "JSON", "DXF", "DWG", "UTF", "max", "HYPERLINK"}
+
+
+@pytest.mark.parametrize("case", hostile.DATA)
+def test_what_cannot_be_read_is_told_in_the_language_of_the_course(
+    case: str, tmp_path: Path, assignment: Assignment, certificate: str
+):
+    exercise = find_exercise(assignment.exercise.name, "ru")
+    names = [asked.name for asked in exercise.answers]
+    folder = tmp_path / STUDENT
+    folder.mkdir()
+    hostile.DATA[case](folder)
+    filled(folder, names[0])
+    record = graded(replace(assignment, exercise=exercise), certificate, folder)
+    said = " ".join([*record.notes, *record.feedback])
+    assert english_words(said, [*names, "True"]) <= FORMATS
+    assert re.search("[а-я]", said)
 
 
 def test_the_key_itself_earns_its_marks(tmp_path: Path, assignment: Assignment, certificate: str):

@@ -4,23 +4,27 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import tomllib
 
 import ezdxf
 import nbformat
 import pytest
 from issued_variants import SECRET, issued
+from russian import english_words
 from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import TaskError
 from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise, library
 from graphcam.exercises.folders import folder_name
-from graphcam.exercises.papers import TAG, answer_file, instructions, notebook, task_file
+from graphcam.exercises.papers import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet
 from graphcam.exercises.roster import Student, read_roster
 from graphcam.exercises.variant import drawn
+from graphcam.sheets.model import Text
 
 
 @pytest.mark.parametrize("name", library())
@@ -39,6 +43,34 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     said = instructions(variant)
     assert "{" not in said
     assert f"{variant.parameters['lift']}" in said
+
+
+SPOKEN = {"DXF", "POINT", "ORIGIN", "PITCH", "min"}
+"""What is called so in every language."""
+
+
+def english(text: str, exercise: Exercise) -> set[str]:
+    return english_words(text, [asked.name for asked in exercise.answers]) - SPOKEN
+
+
+@pytest.mark.parametrize("name", library())
+def test_the_papers_of_a_russian_course_are_russian(name):
+    variant = drawn(find_exercise(name, "ru"), "Anna", SECRET, 0)
+    cells = json.loads(notebook(variant))["cells"]
+    told = [cell["source"] for cell in cells if cell["cell_type"] == "markdown"]
+    for text in (answer_file(variant.exercise), *told, instructions(variant)):
+        assert english(text, variant.exercise) == set()
+    assert variant.task.drawing.language == "ru"
+
+
+def test_the_sheets_of_a_russian_course_are_russian():
+    exercise, certificate = find_exercise("inversion-arm", "ru"), issued("inversion-arm")[1]
+    variant = drawn(exercise, "Anna", SECRET, certificate.draw)
+    student = Student("анна", "Анна")
+    for sheet in (worksheet(variant, student), key_sheet(variant, student, certificate)):
+        texts = [e.text for page in sheet.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
+        assert set().union(*(english(text, exercise) for text in texts)) == set()
+        assert [text for text in texts if re.search(r"\d\.\d", text)] == []
 
 
 def test_a_certificate_that_is_none_is_refused():

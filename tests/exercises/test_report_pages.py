@@ -10,12 +10,15 @@ import numpy as np
 import pytest
 from browsers import opened
 from issued_variants import SECRET, issued, key
+from russian import english_words
 
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path
+from graphcam.exercises.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.folders import folder_name
 from graphcam.exercises.grading.course import Course, grade_course
+from graphcam.exercises.reports.group_page import group_page
+from graphcam.exercises.reports.student_page import student_page
 
 NAME = "inversion-translating"
 HOSTILE = "<img src=http://127.0.0.1/x onerror=alert(1)>"
@@ -120,6 +123,21 @@ def test_the_report_tells_what_to_teach_again(pages: Path):
     assert str(misconception("offset-sign").said) in text
     assert "<img" not in text
     assert "<img" not in page_of(pages, HOSTILE).read_text()
+
+
+def test_the_pages_of_a_russian_course_are_russian(pages: Path):
+    kept = Certificates(pages / TEACHER)
+    exercise = find_exercise(NAME, "ru")
+    records = json.loads((pages / "grades.json").read_text())
+    certificates = {student: Certificate.from_json(kept.find(student)) for student in IDS}
+    # The sentences of a record were said when it was marked; here the pages' own words are looked at.
+    records = [record | {"feedback": [], "notes": []} for record in records if record["student"] != HOSTILE]
+    html = [group_page(exercise, records, certificates)]
+    html += [student_page(exercise, record, certificates[record["student"]]) for record in records]
+    for page in html:
+        text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)
+        assert english_words(text, (*IDS, *(asked.name for asked in exercise.answers))) == set()
+        assert not re.search(r"\d\.\d", text)
 
 
 def test_a_bump_is_circled_where_it_is(pages: Path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -154,6 +155,23 @@ def test_the_sheet_of_the_region_is_drawn(tmp_path):
     write_pdf(drawing, tmp_path / "region.pdf")
     write_png(drawing.pages[0], tmp_path / "region.png")
     assert (tmp_path / "region.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_sheet_of_the_region_speaks_russian():
+    from russian import english_words
+
+    from graphcam.main_job.sizing_sheet import BINDING
+    from graphcam.sheets.model import Text
+
+    for name in ("angle and stress", "spring"):
+        # What binds is told by its name.
+        assert set(sized(name).binding) <= BINDING.keys()
+        drawing = gc.sizing_sheet(sized(name), frame="gost", language="ru")
+        texts = [e.text for page in drawing.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
+        assert "угол давления на удалении" in texts
+        for text in texts:
+            assert english_words(text) == set()
+            assert not re.search(r"\d\.\d", text)
 
 
 @pytest.mark.parametrize(

@@ -17,17 +17,25 @@ MOST_PARTS = 16
 """Parts of a dotted key: tomllib takes minutes for thousands."""
 
 
+DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
+"""A number with a comma, as many countries write it: no line of TOML has this form, and one spoils the whole file."""
+
+
 def toml_values(name: str, data: bytes) -> dict[str, Any]:
     """The values of a TOML file: those of its table ``[answers]``, or all where it has none.
 
+    A number that stands alone in its line may have a decimal comma.
+
     >>> toml_values("answers.toml", b"[answers]\\nv_max = 12.5\\ntouch = [1, 2]")
     {'v_max': 12.5, 'touch': [1, 2]}
+    >>> toml_values("answers.toml", "v_max = 12,5  # мм/рад".encode())
+    {'v_max': 12.5}
     """
     text = text_of(name, data)
     if _longest_key(text) > MOST_PARTS:
         raise UnreadableError(say("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS))
     try:
-        whole = tomllib.loads(text)
+        whole = tomllib.loads(DECIMAL_COMMA.sub(r"\1.\2", text))
     # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
     except (ValueError, RecursionError) as error:
         raise UnreadableError(_no_toml(name, error)) from None
