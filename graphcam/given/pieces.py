@@ -110,7 +110,7 @@ class Piecewise:
         formula_of = self._formula_of[number]
         for k, count in enumerate(np.bincount(formula_of).tolist()):
             if count:
-                (here,) = (formula_of == k).nonzero()
+                here = slice(None) if count == number.size else (formula_of == k).nonzero()[0]
                 units = self._units.take(number[here], axis=1)
                 _store(out, here, self._formulas[k](x[here]), list(units))
         out += 0.0 * x  # so that zero is +0, and NaN stays NaN even where a constant takes its place

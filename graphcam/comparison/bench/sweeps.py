@@ -9,12 +9,10 @@ import numpy as np
 from graphcam.comparison.bench.timing import Timer
 from graphcam.mechanism.batch.designs import Designs
 from graphcam.mechanism.batch.quantities import QUANTITIES
-from graphcam.mechanism.batch.sweep import sweep
+from graphcam.mechanism.batch.sweep import CHUNK_OF_DESIGNS, sweep
 
 STATIONS = 181
 """Stations of one design, whose sines and cosines are the unit."""
-SWEPT = 1024
-"""Designs of one measurement, which is short enough to be left alone by other work once in a while."""
 LOOPED = 8
 """Designs of the loop, in which every cam takes as long as the other."""
 LAWS = ("3-4-5", "cycloidal", "modified-trapezoidal")
@@ -50,8 +48,8 @@ def sweep_times(timer: Timer) -> list[SweepTime]:
     pairs = timer.pairs(STATIONS * LOOPED) / LOOPED
     times: list[SweepTime] = []
     for law in LAWS:
-        many = designs(law, SWEPT)
-        seconds = timer.seconds(lambda many=many: sweep(many)) / SWEPT
+        many = designs(law, CHUNK_OF_DESIGNS)
+        seconds = timer.seconds(lambda many=many: sweep(many)) / CHUNK_OF_DESIGNS
         looped = timer.seconds(lambda many=many: [many.cam(k).extremes() for k in range(LOOPED)]) / LOOPED
         times.append(SweepTime(law, seconds, looped, pairs, _error(many)))
     return times

@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.batch.legs import LawTable, Legs, law_table
 from graphcam.mechanism.kinematics import Values
 
-BLOCK = 32_768
+BLOCK = 16_384
 """Places that are looked at together: their arrays stay in the cache, and bound the memory."""
 CLOSE = 1e-8
 """A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
@@ -125,14 +125,14 @@ def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> 
     low, high = np.where(place == table.first[place], w, low), np.where(place == table.last[place], w, high)
     close = CLOSE * (high - low)
     low, high = np.where(slope > 0, w, low), np.where(slope > 0, high, w)
-    state = np.array([_within(summits.guess, low, high), low, high, w, slope, close])
+    state = np.array([_within(summits.guess, low, high, close), low, high, w, slope, close])
     active = np.arange(place.size)
     for step in count():
         w, low, high, before, slope_before, close = state
-        going = (high - low > close) & (np.abs(w - before) > close) & (slope_before != 0)
-        if not going.any():
+        (going,) = np.nonzero((high - low > close) & (np.abs(w - before) > close) & (slope_before != 0))
+        if not going.size:
             break
-        active, (w, low, high, before, slope_before, close) = active[going], state[:, going]
+        active, (w, low, high, before, slope_before, close) = active[going], state.take(going, axis=1)
         some, part = sought.part(active), legs.part(active)
         values = part.at(w)
         reading, slope = some.reading(values), _uphill(some, part, values)
@@ -141,7 +141,7 @@ def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> 
         low, high = np.where(slope > 0, w, low), np.where(slope > 0, high, w)
         secant = w - slope * (w - before) / (slope - slope_before)
         halved = step > PATIENCE and step % 2
-        state = np.array([_within(np.nan if halved else secant, low, high), low, high, w, slope, close])
+        state = np.array([_within(np.nan if halved else secant, low, high, close), low, high, w, slope, close])
     return best
 
 
@@ -151,6 +151,10 @@ def _uphill(sought: Sought, legs: Legs, values: Values) -> Floats:
     return slope * np.sign(sought.reading(values)) if sought.signed else slope
 
 
-def _within(w: Floats | float, low: Floats, high: Floats) -> Floats:
-    """The place if it lies between the two, else the one halfway."""
-    return np.where((w > low) & (w < high), w, (low + high) / 2)
+def _within(w: Floats | float, low: Floats, high: Floats, close: Floats) -> Floats:
+    """The place if it lies between the two, else the one halfway.
+
+    At an end it is drawn off a little: what is found there closes the bracket.
+    """
+    near = close / 2
+    return np.where((w >= low) & (w <= high), np.clip(w, low + near, high - near), (low + high) / 2)

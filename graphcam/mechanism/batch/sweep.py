@@ -24,6 +24,12 @@ CHUNKS_PER_TASK = 8
 AHEAD = 32
 """Tasks that wait for an executor at a time: they bound the memory."""
 
+WORKING_SET = 2**22
+"""Bytes that a chunk needs."""
+# The C library on Linux keeps free memory only up to twice the largest array that it was given back.  What it does not
+# keep it asks the system for again at once, which would cost more than all arithmetic.
+np.empty(WORKING_SET, dtype=np.uint8)
+
 Columns = dict[str, NDArray[Any]]
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
