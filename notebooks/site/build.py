@@ -68,6 +68,7 @@ def build(out: Path, notebook: Callable[[Path], NotebookNode] = run, sheets: Ite
         source = Path(folder) / "source"
         shutil.copytree(HERE / "pages", source)
         shutil.copy(COURSE.parent / ".readme" / "coursework.png", source)
+        shutil.copy(COURSE.parent / "exercises" / "README.md", source / "exercises.md")
         for path in NOTEBOOKS:
             nbformat.write(notebook(path), source / "course" / f"{path.stem}.ipynb")
         write_gallery(source / "gallery", sheets)

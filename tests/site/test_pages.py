@@ -24,6 +24,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
     for page in (
         "sheets-for-my-group",
         "grade-a-group",
+        "write-an-exercise",
         "check-my-drawing",
         "add-a-law",
         "add-a-language",
