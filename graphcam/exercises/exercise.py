@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
@@ -106,6 +107,8 @@ class Asked:
             raise DesignError("component", self.component, "x or y where points are asked as a number")
         if self.kind != "number" and not (self.points and self.layer):
             raise DesignError("points", self.points, f"given with a layer where a {self.kind} is asked")
+        if self.layer and not re.fullmatch(r"[\w-]+", self.layer):
+            raise DesignError("layer", self.layer, "of letters, digits, hyphens and underscores")
 
     @property
     def unit_said(self) -> Words:

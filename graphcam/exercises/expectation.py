@@ -13,6 +13,7 @@ from graphcam.drafting.ink import Points
 from graphcam.exercises.answers import Given
 from graphcam.exercises.curve_distance import distance_from_drawn, distance_to_curve
 from graphcam.exercises.exercise import Kind
+from graphcam.exercises.pairing import paired
 
 Floats = NDArray[np.float64]
 Scatter = float | Floats
@@ -58,17 +59,20 @@ class Expected:
     def off(self, given: Given, kind: Kind, far: float = math.inf) -> Off:
         """How far an answer is off, and where most; what is farther off than ``far`` need not be told exactly.
 
-        Of points the worst counts.  Of a curve it is the worst distance of an expected point to the curve, or of a
-        place on the curve to what is expected, whichever is larger: else a scribble that passes through everything
-        would be as good as the curve.  Where the number of points differs, or one is missing, it is infinite.
+        Of points, in whatever order, the worst counts.  Of a curve it is the worst distance of an expected point to
+        the curve, or of a place on the curve to what is expected, whichever is larger: else a scribble that passes
+        through everything would be as good as the curve.  Where the number of points differs it is infinite, and
+        nowhere.
         """
         if not isinstance(given, np.ndarray):
             off = math.inf if isinstance(self.value, np.ndarray) else (given - self.value) / float(self.scatter)
             return Off(off)
         distances = self.distances(given, kind)
         relative = distances / self.scatter
+        if not np.isfinite(relative).all():
+            return Off(math.inf)
         worst = int(np.argmax(relative))
-        found = Off(math.inf if np.isnan(relative).any() else float(relative[worst]), worst, float(distances[worst]))
+        found = Off(float(relative[worst]), worst, float(distances[worst]))
         if kind != "curve" or found.deviation > far:
             return found
         distances, part = distance_from_drawn(given, np.asarray(self.value), self.bulge)
@@ -84,7 +88,7 @@ class Expected:
             return distance_to_curve(value, np.asarray(given, dtype=np.complex128))
         if given.shape != value.shape:
             return np.full(value.shape, np.inf)
-        return np.abs(given - value)
+        return np.abs(paired(given, value) - value)
 
 
 def plain(expected: Expected) -> list[Any]:

@@ -34,6 +34,13 @@ def _about(answer: Marked, answers: Answers) -> list[Words]:
         return [say("{name}: the answer cannot be read.", name=name), *reason]
     if answer.outcome == "follow-through":
         return [say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)]
+    if answer.station is None and isinstance(answer.given, list):
+        return [
+            say(
+                "{name}: points read: {count}; another number is asked. Mark every place once, and nothing else.",
+                name=name, count=len(answer.given),
+            )
+        ]  # fmt: skip
     if answer.station is None:
         return [say("{name}: farther off than a careful hand draws or calculates.", name=name)]
     return [

@@ -16,6 +16,7 @@ from graphcam.drafting.ink import Step, View
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Asked, Diagram, Exercise
+from graphcam.exercises.reading.drawing import ORIGIN
 from graphcam.exercises.roster import Student
 from graphcam.exercises.template import sentence
 from graphcam.exercises.variant import Variant
@@ -123,6 +124,23 @@ def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[Words, 
     return rows
 
 
+def origins(variant: Variant) -> dict[str, str]:
+    """The views in which answers are drawn, by the layer on which a POINT of worksheet.dxf marks the view's origin.
+
+    >>> from graphcam.exercises.exercise_file import find_exercise
+    >>> from graphcam.exercises.variant import drawn
+    >>> origins(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
+    {'ORIGIN': 'profile'}
+    """
+    chain = board_chain(variant.task)
+    of = {asked.layer: asked.construction for asked in variant.exercise.answers if asked.kind != "number"}
+    views = {layer: {step.view.name for step in getattr(chain, name).steps()} for layer, name in of.items()}
+    if len(set().union(*views.values())) == 1:
+        return {ORIGIN.upper(): next(iter(views.values())).pop()}
+    # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
+    return {f"{layer}-{ORIGIN}".upper(): found.pop() for layer, found in views.items() if len(found) == 1}
+
+
 def _composed(
     variant: Variant, student: Student, steps: list[tuple[str, Step]], tables: list[Table], notes: list[str]
 ) -> Drawing:
@@ -138,7 +156,8 @@ def _how(asked: Asked) -> Caption:
     if asked.kind != "number":
         what = say("Points in mm on paper") if asked.kind == "points" else say("A curve in mm on paper")
         return say(
-            "({what}, or drawn on the layer {layer} of a DXF file, its origin marked by a POINT on the layer ORIGIN.)",
+            "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file, its origin marked by a "
+            "POINT on the layer ORIGIN.)",
             what=what, layer=asked.layer,
         )  # fmt: skip
     decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
@@ -182,7 +201,8 @@ def write_papers(variant: Variant, student: Student, folder: Path) -> None:
 
     sheet = worksheet(variant, student)
     write_pdf(sheet, folder / "worksheet.pdf")
-    write_dxf(sheet, folder / "worksheet.dxf")
+    layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
+    write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
     for name, text in (
         ("answers.toml", answer_file(variant.exercise)), ("exercise.ipynb", notebook(variant)),
         ("task.toml", task_file(variant)),

@@ -99,8 +99,11 @@ def _told(exercise: Exercise, a: Sequence[Expected], b: Sequence[Expected]) -> b
 
 
 def _gap(asked: Asked, a: Expected, b: Expected) -> NDArray[np.float64]:
-    """How far two expected answers lie apart; of a curve, which shows no shift along itself, the clear distance."""
-    if asked.kind == "curve":
+    """How far two expected answers lie apart; of what is drawn the clear distance.
+
+    A curve shows no shift along itself, and points do not show their numbers.
+    """
+    if asked.kind != "number":
         return a.distances(np.asarray(b.value), asked.kind)
     return np.abs(np.asarray(a.value) - np.asarray(b.value))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,7 @@ from ezdxf.enums import TextEntityAlignment
 from numpy.typing import NDArray
 
 from graphcam.drafting.ink import Points
-from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Group, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES, Style
 
@@ -36,6 +36,8 @@ LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
     CENTER: ("CENTER", "Center ____ _ ____ _"),
     DASHED: ("DASHED", "Dashed __ __ __"),
 }
+POINT_STYLE, POINT_SIZE = 34, 3.0
+"""A POINT is shown as a cross in a circle, so many mm wide."""
 COLOURS = {GREY: 8, ACCENT: 1}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
 ALIGNED = {
@@ -46,12 +48,31 @@ DrawGroup = Callable[["Document", Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
 
 
-def write_dxf(drawing: Drawing, path: str | os.PathLike[str]) -> None:
-    """All pages of a drawing, side by side in the model space of one file."""
+def write_dxf(
+    drawing: Drawing, path: str | os.PathLike[str], origins: Mapping[str, str] | None = None, layers: Sequence[str] = ()
+) -> None:
+    """All pages of a drawing, side by side in the model space of one file.
+
+    origins : names of views by that of the layer on which a POINT marks the view's origin
+    layers : names of empty layers to be drawn on
+    """
     with repeatable():
         document = sheet_document(drawing)
         draw_pages(document, drawing, draw_group)
+        for name in layers:
+            document.layers.add(name)
+        _mark_origins(document, drawing, origins or {})
         document.saveas(path)
+
+
+def _mark_origins(document: Document, drawing: Drawing, origins: Mapping[str, str]) -> None:
+    for name, view in origins.items():
+        for left, page in _side_by_side(drawing):
+            if view in page.origins:
+                document.layers.add(name, color=COLOURS[ACCENT])
+                at = page.origins[view]
+                document.modelspace().add_point((at.real + left, at.imag), dxfattribs={"layer": name})
+                document.header["$PDMODE"], document.header["$PDSIZE"] = POINT_STYLE, POINT_SIZE
 
 
 def write_spline(
@@ -112,11 +133,17 @@ def sheet_document(drawing: Drawing) -> Document:
 
 def draw_pages(document: Document, drawing: Drawing, draw_group: DrawGroup) -> None:
     """Every group of every page, the pages side by side."""
-    left = 0.0
-    for number, page in enumerate(drawing.pages, 1):
+    for number, (left, page) in enumerate(_side_by_side(drawing), 1):
         for group in page.groups:
             prefix = f"p{number}-" if len(drawing.pages) > 1 else ""
             draw_group(document, group, prefix, left)
+
+
+def _side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
+    """The pages, each with how far to the right it stands [mm]."""
+    left = 0.0
+    for page in drawing.pages:
+        yield left, page
         left += page.width + BETWEEN_PAGES
 
 

@@ -164,4 +164,5 @@ def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: int | None)
     names = {number: f"step-{number:02d} {name}" for number, name, _ in part.steps}
     groups = [empty, *([Group("tables", tuple(tables))] if tables else []), titles]
     groups += [Group(names[number], tuple(of_step)) for number, of_step in entities.items()]
-    return Page(*sheet.size, sheet.content, tuple(groups))
+    origins = {name: origin for name, (panel, origin) in leaf.views.items() if panel.factor == 1}
+    return Page(*sheet.size, sheet.content, tuple(groups), origins)

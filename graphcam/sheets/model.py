@@ -6,7 +6,8 @@ every output holds the same ones.  Points are complex numbers, x to the right an
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.box import Box
@@ -153,12 +154,14 @@ class Page:
     """A sheet of paper, ``width`` x ``height`` mm, and its groups, the later ones over the earlier.
 
     frame : the box that the drawing must not leave
+    origins : where the origins of its views lie, by the view's name; of those that are shown true to scale
     """
 
     width: float
     height: float
     frame: Box
     groups: tuple[Group, ...]
+    origins: Mapping[str, complex] = field(default_factory=dict[str, complex])
 
 
 @dataclass(frozen=True)

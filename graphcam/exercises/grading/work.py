@@ -10,8 +10,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from types import FrameType
 
-import numpy as np
-
 from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.answers import Answers
 from graphcam.exercises.certificate import Certificate
@@ -102,8 +100,9 @@ def _rooms(exercise: Exercise, certificate: Certificate) -> dict[str, Room]:
     rooms: dict[str, Room] = {}
     for k, asked in enumerate(exercise.answers):
         if asked.kind != "number":
-            known = [certificate.keys[asked.name].expected, *(wrong[k] for wrong in certificate.hypotheses.values())]
-            rooms[asked.name] = Room.around(np.atleast_1d(np.asarray(one.value)) for one in known)
+            key = certificate.keys[asked.name]
+            known = [key.expected, *(wrong[k] for wrong in certificate.hypotheses.values())]
+            rooms[asked.name] = Room.around(asked.kind, known, key.tolerance)
     return rooms
 
 

@@ -13,6 +13,8 @@ from graphcam.words import say
 
 ORIGIN = "origin"
 """The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
+SAME = 3
+"""Points that agree to so many decimals of a mm are one."""
 LISTED = 8
 """Layers that a sentence names."""
 
@@ -34,7 +36,7 @@ class Drawn:
     layers: dict[str, Layer]
 
     def points(self, name: str) -> Points:
-        """The points on a layer, in the order of the drawing: POINTs, or the centres of circles where there are none.
+        """The points on a layer, each once: POINTs, or the centres of circles where there are none.
 
         Raises
         ------
@@ -47,7 +49,9 @@ class Drawn:
         found = layer.points or layer.centres
         if not found:
             raise UnreadableError(say("there is no point on the layer {layer}; mark it with a POINT", layer=name))
-        return np.array(found) - self._origin(name)
+        # One that was copied onto itself is seen as one.
+        _, first = np.unique(np.round(found, SAME), return_index=True)
+        return np.array(found)[np.sort(first)] - self._origin(name)
 
     def curve(self, name: str) -> Points:
         """The one curve on a layer, of whatever pieces it is drawn.

@@ -103,7 +103,8 @@ def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn 
             if one.name in given:
                 values[one.name] = _agreed(one, given[one.name])
             elif drawing is not None and one.kind != "number":
-                values[one.name] = _drawn(one, drawing, rooms.get(one.name))
+                values[one.name], more = _drawn(one, drawing, rooms.get(one.name))
+                notes = [*notes, *more]
                 unmarked = unmarked or not drawing.marks_origin(one.layer)
         except UnreadableError as error:
             problems[one.name] = error.why
@@ -114,11 +115,18 @@ def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn 
     return Answers(values, problems, (*notes, *_unknown(asked, given)))
 
 
-def _drawn(asked: Asked, drawing: Drawn, room: Room | None) -> Given:
+def _drawn(asked: Asked, drawing: Drawn, room: Room | None) -> tuple[Given, list[Caption]]:
+    """What is drawn, and sentences on it."""
     points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
-    if room is not None:
-        room.admit(asked.layer, points, joined=asked.kind == "curve", marked=drawing.marks_origin(asked.layer))
-    return points
+    if room is None:
+        return points, []
+    marked = drawing.marks_origin(asked.layer)
+    room.admit(asked.layer, points, marked=marked)
+    if not (marked and room.moved(points)):
+        return points, []
+    # It is marked as it lies: the place is part of the answer.
+    return points, [say("the drawing on the layer {layer} looks moved as a whole against the POINT on the layer "
+                        "ORIGIN; check that it marks the origin of this drawing", layer=asked.layer)]  # fmt: skip
 
 
 def _agreed(asked: Asked, listed: list[Any]) -> Given:

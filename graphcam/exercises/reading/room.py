@@ -7,63 +7,97 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphcam.exercises.exercise import Kind
+from graphcam.exercises.expectation import Expected
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points
 from graphcam.words import Caption, say
 
 SIZES = 5.0
-"""A curve so many times larger or smaller than any that can be meant is drawn in another unit, or is a part only."""
+"""A drawing so many times larger or smaller than any that can be meant is in another unit, or is a part only."""
+NEAR = 3.0
+"""What is drawn by hand strays less from what is meant, mm, where a certificate permits no more."""
+VERTICES = 400
+"""So many of a curve's vertices are enough to see whether it is moved."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Room:
-    """The box of all that the answer can be, the usual mistakes among it [mm of paper].
+    """What a drawn answer can be: the right one, or what a usual mistake makes of it [mm of paper].
 
-    smallest, largest : diagonals of the boxes of the single ones
+    kind : whether points or a curve;  near : how far a hand strays from them
     """
 
-    low: complex
-    high: complex
-    smallest: float
-    largest: float
+    kind: Kind
+    known: tuple[Expected, ...]
+    near: float = NEAR
 
     @staticmethod
-    def around(drawings: Iterable[Points]) -> Room:
-        """The room of some drawings (n,) each.
+    def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> Room:
+        """The room of the right answer and of wrong ones, where a hand may stray by the tolerance."""
+        return Room(kind, tuple(known), max(NEAR, tolerance))
 
-        >>> Room.around([np.array([0j, 3 + 4j]), np.array([1j, 6 + 9j])])
-        Room(low=0j, high=(6+9j), smallest=5.0, largest=10.0)
-        """
-        corners = np.array([_corners(points) for points in drawings])
-        low, high = _corners(corners.ravel())
-        sizes = np.abs(corners[:, 1] - corners[:, 0])
-        return Room(low, high, float(sizes.min()), float(sizes.max()))
-
-    def admit(self, name: str, points: Points, *, joined: bool, marked: bool) -> None:
+    def admit(self, name: str, points: Points, *, marked: bool) -> None:
         """Refuse what lies elsewhere, with a remedy; nothing is said of where it should be.
 
-        joined : whether the points are a curve;  marked : whether the drawing marks its origin
+        marked : whether the drawing marks its origin; one that does not must not be marked as if it were drawn wrongly
 
         Raises
         ------
         UnreadableError : the drawing is not where, or not of the size, that any answer could be
 
-        >>> Room(0j, 6 + 9j, 5.0, 10.0).admit("pitch", np.array([300j, 3 + 304j]), joined=True, marked=False)
+        >>> room = Room("curve", (Expected(np.array([0j, 6 + 8j]), 1.0),))
+        >>> room.admit("pitch", np.array([300j, 6 + 308j]), marked=False)
         Traceback (most recent call last):
         ...
         graphcam.exercises.reading.regular_file.UnreadableError: the drawing on the layer pitch lies far from where \
 it can be, counted from the drawing's own zero; mark the origin of the paper by a POINT on the layer ORIGIN
         """
-        low, high = _corners(points)
-        if joined and not self.smallest / SIZES <= abs(high - low) <= self.largest * SIZES:
+        sizes = [_size(_points(each)) for each in self.known]
+        if not min(sizes) / SIZES <= _size(points) <= max(sizes) * SIZES:
             raise UnreadableError(say(
-                "the curve on the layer {layer} is {size:.3g} mm across, and no answer is of such a size; draw the "
-                "whole curve in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
-                layer=name, size=abs(high - low),
+                "the drawing on the layer {layer} is {size:.3g} mm across, and no answer is of such a size; draw the "
+                "whole of it in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
+                layer=name, size=_size(points),
             ))  # fmt: skip
-        middle = (low + high) / 2
-        if not (self.low.real <= middle.real <= self.high.real and self.low.imag <= middle.imag <= self.high.imag):
+        low, high = _corners(np.concatenate([_points(each) for each in self.known]))
+        middle = sum(_corners(points)) / 2
+        if not (low.real <= middle.real <= high.real and low.imag <= middle.imag <= high.imag):
             raise UnreadableError(_elsewhere(name, marked=marked))
+        if not marked and self.moved(points):
+            raise UnreadableError(say(
+                "the drawing on the layer {layer} looks moved as a whole, and it marks no origin; mark the origin of "
+                "the paper by a POINT on the layer ORIGIN",
+                layer=name,
+            ))  # fmt: skip
+
+    def moved(self, points: Points) -> bool:
+        """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
+
+        >>> room = Room("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
+        >>> room.moved(np.array([8 + 0j, 38 + 40j])), room.moved(np.array([1 + 0j, 31 + 40j]))
+        (True, False)
+        """
+        if self.kind == "curve":
+            points = points[np.unique(np.linspace(0, points.size - 1, VERTICES).astype(int))]
+        if any(self._off(each, points, 0j) <= self.near for each in self.known):
+            return False
+        return any(self._off(each, points, self._shift(each, points)) <= self.near for each in self.known)
+
+    def _off(self, known: Expected, points: Points, shift: complex) -> float:
+        """How far the known points lie at most from the drawing, once that is put back by the shift."""
+        return float(known.distances(points - shift, self.kind).max())
+
+    def _shift(self, known: Expected, points: Points) -> complex:
+        """The shift after which the drawing comes nearest."""
+        from scipy.optimize import minimize
+
+        first = sum(_corners(points)) / 2 - sum(_corners(_points(known))) / 2
+        if self._off(known, points, first) > _size(points):
+            return first  # not even the number of points agrees
+        best = minimize(lambda at: self._off(known, points, complex(*at)), [first.real, first.imag],
+                        method="Nelder-Mead")  # fmt: skip
+        return complex(*best.x)
 
 
 def _elsewhere(name: str, *, marked: bool) -> Caption:
@@ -78,6 +112,15 @@ def _elsewhere(name: str, *, marked: bool) -> Caption:
         "origin of the paper by a POINT on the layer ORIGIN",
         layer=name,
     )
+
+
+def _points(known: Expected) -> Points:
+    return np.atleast_1d(np.asarray(known.value))
+
+
+def _size(points: Points) -> float:
+    low, high = _corners(points)
+    return abs(high - low)
 
 
 def _corners(points: Points) -> tuple[complex, complex]:

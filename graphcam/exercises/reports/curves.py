@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Points
+from graphcam.exercises.exercise import Kind
 from graphcam.exercises.expectation import Expected
+from graphcam.exercises.pairing import paired
 
 MARGIN = 5.0
 """mm around what is shown."""
@@ -56,12 +58,17 @@ def points_of(answer: dict[str, Any]) -> Points:
     return np.array([complex(x, y) for x, y in answer["given"]])
 
 
-def worst_place(key: Expected, answer: dict[str, Any]) -> complex | None:
-    """The place on the student's own curve that lies nearest to the key's worst point; None where there is none."""
+def worst_place(key: Expected, answer: dict[str, Any], kind: Kind) -> complex | None:
+    """The student's own place that is meant to be the key's worst point; None where there is none.
+
+    Of points it is the one that is paired with it, of a curve the nearest place.
+    """
     if answer["station"] is None or not isinstance(answer["given"], list):
         return None
-    wanted = complex(np.atleast_1d(np.asarray(key.value))[answer["station"]])
-    own = points_of(answer)
+    stations = np.atleast_1d(np.asarray(key.value))
+    wanted, own = complex(stations[answer["station"]]), points_of(answer)
+    if kind == "points":
+        return complex(paired(own, stations)[answer["station"]])
     if own.size < 2:
         return complex(own[0])
     start, way = own[:-1], np.diff(own)

@@ -105,17 +105,17 @@ def _pictures(
     for asked in exercise.answers:
         drawn = [
             (record["student"], answer) for record in records if record["student"] in certificates
-            for answer in record["answers"] if answer["name"] == asked.name and isinstance(answer["given"], list)
+            for answer in record["answers"] if answer["name"] == asked.name and answer["off_paper"] is not None
         ]  # fmt: skip
-        drawn.sort(key=lambda one: -(one[1]["off_paper"] or 0.0))
+        drawn.sort(key=lambda one: -one[1]["off_paper"])
         for student, answer in drawn[:LARGEST_PICTURES]:
             key = certificates[student].keys[asked.name].expected
             # The key knows the stations; what lies between them is not straight.
             stations = np.atleast_1d(np.asarray(key.value))
             curves = [("key", stations, False), ("own", points_of(answer), asked.kind == "curve")]
             caption = say("{name}, {student}: {off:.2f} mm off at most (key blue, drawing red).", name=asked.name,
-                          student=student, off=answer["off_paper"] or 0.0)  # fmt: skip
-            shown.append((caption, picture(curves, worst_place(key, answer))))
+                          student=student, off=answer["off_paper"])  # fmt: skip
+            shown.append((caption, picture(curves, worst_place(key, answer, asked.kind))))
     return shown
 
 

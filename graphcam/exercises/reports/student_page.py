@@ -54,6 +54,7 @@ def _caption(answer: dict[str, Any]) -> Caption:
 
 def _own(asked: Asked, answer: dict[str, Any], certificate: Certificate | None) -> Picture:
     own = points_of(answer)
-    wrong = certificate is not None and answer["outcome"] == "wrong"
-    spot = worst_place(certificate.keys[asked.name].expected, answer) if certificate is not None and wrong else None
+    spot = None
+    if certificate is not None and answer["outcome"] == "wrong":
+        spot = worst_place(certificate.keys[asked.name].expected, answer, asked.kind)
     return picture([("own", own, asked.kind == "curve")], spot)
