@@ -42,7 +42,11 @@ class Language:
         """What somebody who speaks the language writes."""
         if isinstance(words, str):
             return words
-        return _Formatter(self).vformat(self._template(words), (), words.values)
+        template = self._template(words)
+        # Texts alone are written in every language as they are.
+        if all(isinstance(value, str) for value in words.values.values()):
+            return template.format_map(words.values)
+        return _Formatter(self).vformat(template, (), words.values)
 
     def _template(self, caption: Caption) -> str:
         one, many, context = caption.template, caption.plural, caption.context

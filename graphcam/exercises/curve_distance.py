@@ -23,6 +23,8 @@ MOST_PLACES = 2000
 """Places between the vertices: a line longer than any curve is looked at in longer steps."""
 STRAIGHT = 1e-6
 """A part of less bulge is as good as straight, and still has a radius."""
+ROUNDING = 1e-9
+"""More than rounding makes of a length, of itself."""
 POINT = 1e-9
 """A part of less length is as good as a point, and still has a direction [mm of paper]."""
 
@@ -35,11 +37,12 @@ def distance_to_curve(points: Points, curve: Points) -> NDArray[np.float64]:
     """
     if curve.shape[-1] < 2:
         return np.abs(points - curve) if curve.size else np.full(points.shape, np.inf)
-    start, way = curve[..., None, :-1], np.diff(curve)[..., None, :]
+    start, way = curve[..., None, :-1], (curve[..., 1:] - curve[..., :-1])[..., None, :]
     to = points[:, None] - start
     length = np.abs(way) ** 2
-    along = np.divide((to * way.conj()).real, length, out=np.zeros(to.shape), where=length > 0)
-    return np.abs(to - np.clip(along, 0.0, 1.0) * way).min(axis=-1)
+    # A part of no length has its start alone.
+    along = (to * way.conj()).real / np.where(length > 0, length, 1.0)
+    return np.abs(to - np.minimum(np.maximum(along, 0.0), 1.0) * way).min(axis=-1)
 
 
 def distance_from_drawn(drawn: Points, stations: Points, bulge: Floats) -> tuple[Floats, NDArray[np.intp]]:
@@ -53,14 +56,21 @@ def distance_from_drawn(drawn: Points, stations: Points, bulge: Floats) -> tuple
     """
     bulge = bulge if bulge.size else np.zeros(max(stations.size - 1, 1))
     starts, ends = stations[: bulge.size], np.append(stations, stations[0])[1 : bulge.size + 1]
-    half = (ends - starts) / 2
+    half, middle = (ends - starts) / 2, (starts + ends) / 2
     half[np.abs(half) < POINT] = POINT
+    size, height = np.abs(half), np.maximum(np.abs(bulge), STRAIGHT)
+    at = places(drawn)
+    # A part holds the middle of its chord, and a circle about that holds the part: few can be the nearest.
+    far = np.abs(at[:, None] - middle)
+    reach = size * np.maximum(height, 1.0) * (1 + ROUNDING)
+    place, part = np.nonzero(far - reach <= far.min(axis=1)[:, None])
     # Every part in a frame of its own: its chord from -1 to 1, its arc on the upper side.
-    placed = places(drawn)[:, None] * (1 / half) - (starts + ends) / 2 / half
-    up = placed.imag * np.where(bulge < 0, 1.0, -1.0)
-    distance = _from_segment(placed.real, up, np.maximum(np.abs(bulge), STRAIGHT)) * np.abs(half)
-    part = np.argmin(distance, axis=1)
-    return distance[np.arange(part.size), part], part
+    own = at[place] * (1 / half)[part] - (middle / half)[part]
+    up = own.imag * np.where(bulge < 0, 1.0, -1.0)[part]
+    distance = np.full(far.shape, np.inf)
+    distance[place, part] = _from_segment(own.real, up, height[part]) * size[part]
+    nearest = distance.argmin(axis=1)
+    return distance[np.arange(nearest.size), nearest], nearest
 
 
 def places(line: Points) -> Points:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, ClassVar, Literal
 
 from graphcam.drafting.pencil import Pencil
@@ -48,7 +49,7 @@ class Parameter:
             if self.stop is not None and self.start is not None and self.stop < self.start:
                 raise DesignError("stop", self.stop, f"at least start, {self.start:g}")
 
-    @property
+    @cached_property
     def values(self) -> tuple[Value, ...]:
         """All values, in order."""
         if self.choices is not None:

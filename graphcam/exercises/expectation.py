@@ -69,16 +69,18 @@ class Expected:
             return Off(off)
         distances = self.distances(given, kind)
         relative = distances / self.scatter
-        if not np.isfinite(relative).all():
+        # Where one is infinite or a NaN, that is the place.
+        worst = int(relative.argmax())
+        deviation = float(relative[worst])
+        if not math.isfinite(deviation):
             return Off(math.inf)
-        worst = int(np.argmax(relative))
-        found = Off(float(relative[worst]), worst, float(distances[worst]))
+        found = Off(deviation, worst, float(distances[worst]))
         if kind != "curve" or found.deviation > far:
             return found
         distances, part = distance_from_drawn(given, np.asarray(self.value), self.bulge)
         scatter = np.asarray(self.scatter)
         relative = distances / np.maximum(scatter[part], scatter[(part + 1) % scatter.size])
-        worst = int(np.argmax(relative))
+        worst = int(relative.argmax())
         return max(found, Off(float(relative[worst]), int(part[worst]), float(distances[worst])))
 
     def distances(self, given: Points, kind: Kind) -> Floats:

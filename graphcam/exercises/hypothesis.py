@@ -6,6 +6,8 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any, overload
 
+from pydantic_core import from_json
+
 from graphcam.exercises.expectation import Expected, from_plain, plain
 
 
@@ -44,4 +46,4 @@ class Hypothesis(Sequence[Expected]):
 
 
 def _read(said: list[Any] | str) -> Expected:
-    return from_plain(json.loads(said) if isinstance(said, str) else said)
+    return from_plain(from_json(said) if isinstance(said, str) else said)

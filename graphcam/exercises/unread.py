@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any, TypeVar
+
+from pydantic_core import from_json
 
 V = TypeVar("V")
 
@@ -26,7 +27,7 @@ class Unread(Mapping[str, V]):
 
     @cached_property
     def _said(self) -> dict[str, Any]:
-        return json.loads(self._text)
+        return from_json(self._text)
 
     def __getitem__(self, name: str) -> V:
         if name not in self._made:

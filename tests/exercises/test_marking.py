@@ -291,3 +291,19 @@ def test_the_distance_from_an_arc_is_that_from_its_circle(angle, far, direction)
     # Between chord and arc nothing is wrong.
     inside = (stations.mean() + 50 * np.exp(1j * angle / 2)) / 2
     assert distance_from_drawn(np.array([inside]), stations, np.array([math.tan(angle / 4)]))[0][0] == 0
+
+
+PLACES = st.complex_numbers(max_magnitude=100, allow_nan=False)
+
+
+@given(
+    st.lists(PLACES, min_size=3, max_size=8), st.lists(st.floats(-3, 3), min_size=8, max_size=8), PLACES, st.booleans()
+)
+def test_the_distance_from_a_curve_is_that_from_its_nearest_part(stations, bulges, place, closed):
+    # Also where the stations lie anyhow and the arcs are greater than half a turn.
+    parts = len(stations) - (not closed)
+    around, bulge, at = np.array([*stations, stations[0]]), np.array(bulges[:parts]), np.array([place])
+    alone = [distance_from_drawn(at, around[k : k + 2], bulge[k : k + 1])[0][0] for k in range(parts)]
+    distance, part = distance_from_drawn(at, np.array(stations), bulge)
+    assert distance[0] == pytest.approx(min(alone), abs=1e-9)
+    assert alone[part[0]] == pytest.approx(min(alone), abs=1e-9)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import re
 import tomllib
 from typing import Any
@@ -31,14 +32,9 @@ def toml_values(name: str, data: bytes) -> dict[str, Any]:
     >>> toml_values("answers.toml", "v_max = 12,5  # мм/рад".encode())
     {'v_max': 12.5}
     """
-    text = text_of(name, data)
-    if _longest_key(text) > MOST_PARTS:
-        raise UnreadableError(say("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS))
-    try:
-        whole = tomllib.loads(DECIMAL_COMMA.sub(r"\1.\2", text))
-    # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
-    except (ValueError, RecursionError) as error:
-        raise UnreadableError(_no_toml(name, error)) from None
+    text = DECIMAL_COMMA.sub(r"\1.\2", text_of(name, data))
+    whole = _of_numbers(text)
+    whole = _of_anything(name, text) if whole is None else whole
     answers = whole.get("answers", whole)
     if not isinstance(answers, dict):
         raise UnreadableError(say("{name}: answers must be a table", name=name))
@@ -70,6 +66,41 @@ def csv_values(name: str, data: bytes) -> dict[str, float | Points | UnreadableE
         raise UnreadableError(say("{name} is not valid CSV", name=name)) from None
     # A row without a value is an answer that is still open.
     return {answer: _value(answer, listed) for answer, listed in rows.items() if listed != [[]]}
+
+
+_NUMBERS = re.compile(r"[ \t]*(?:([A-Za-z0-9_-]+)[ \t]*=([-+0-9.eE, \t\[\]]+)|#[^\x00-\x08\x0a-\x1f\x7f]*|)")
+"""A line of TOML with a name and what JSON would read as well, numbers in lists or alone; or a comment, or nothing."""
+
+
+def _of_numbers(text: str) -> dict[str, Any] | None:
+    """The values of a TOML file that holds numbers and lists of them, a line each; None of any other.
+
+    Such a line means the same in JSON, which is read in a tenth of the time.
+
+    >>> _of_numbers("a = 1.5\\nb = [[1, 2], [3, 4e0]]  "), _of_numbers("a = 1_000")
+    ({'a': 1.5, 'b': [[1, 2], [3, 4.0]]}, None)
+    """
+    found: dict[str, Any] = {}
+    for line in text.replace("\r\n", "\n").split("\n"):
+        said = _NUMBERS.fullmatch(line)
+        if said is None or said[1] in found:
+            return None
+        if said[1] is not None:
+            try:
+                found[said[1]] = json.loads(said[2])
+            except (ValueError, RecursionError):
+                return None
+    return found
+
+
+def _of_anything(name: str, text: str) -> dict[str, Any]:
+    if _longest_key(text) > MOST_PARTS:
+        raise UnreadableError(say("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS))
+    try:
+        return tomllib.loads(text)
+    # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
+    except (ValueError, RecursionError) as error:
+        raise UnreadableError(_no_toml(name, error)) from None
 
 
 def _no_toml(name: str, error: Exception) -> Caption:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -35,10 +34,10 @@ def number(name: str, value: object) -> float:
     graphcam.exercises.reading.regular_file.UnreadableError: v_max is True, which is not a number
     """
     # bool is an int in Python, not for a student.
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise _no_number(name, value)
-    # An int of any length compares, but does not always convert.
-    if not (math.isfinite(value) if isinstance(value, float) else True) or not -GREATEST <= value <= GREATEST:
+    # An int of any length compares, but does not always convert; a NaN is not less than anything.
+    if not -GREATEST <= value <= GREATEST:
         raise UnreadableError(say("{answer} is no number that a drawing can show", answer=shown(name)))
     return float(value)
 
@@ -59,9 +58,9 @@ def points(name: str, value: object) -> Points:
     )
     if len(pairs) > MOST_POINTS:
         raise UnreadableError(say("{answer} has more than {most} points", answer=shown(name), most=MOST_POINTS))
-    if not all(isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs):
+    if not all(isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs):
         raise UnreadableError(say("{answer} must be points [x, y] in mm of paper", answer=shown(name)))
-    return np.array([complex(number(name, x), number(name, y)) for x, y in pairs])
+    return np.array([number(name, x) for pair in pairs for x in pair]).view(np.complex128)
 
 
 def decimal(name: str, text: str) -> float:
