@@ -93,6 +93,7 @@ def imported(module: ast.Module) -> set[str]:
 
 
 def test_every_caption_is_written_where_the_tools_of_gettext_find_it():
+    found = {singular(message.id) for message in texts_of_the_code()}
     for path in PACKAGE.rglob("*.py"):
         if path.name in {"words.py", "ink.py"}:
             continue
@@ -101,6 +102,9 @@ def test_every_caption_is_written_where_the_tools_of_gettext_find_it():
         for call in ast.walk(module):
             if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id in names and call.args:
                 assert isinstance(call.args[0], ast.Constant), f"{path}:{call.lineno}"
+                template = call.args[1 if call.func.id == "say_in" else 0].value
+                # They do not look into an f-string.
+                assert template in found or not has_words(template), f"{path}:{call.lineno}"
 
 
 def test_a_text_that_is_not_in_the_catalog_stays_english_words():

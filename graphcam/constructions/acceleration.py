@@ -115,16 +115,17 @@ def _draw(diagram: Construction) -> list[Step]:
             say("Acceleration by the law"),
             say(
                 "In each moving phase the acceleration is plotted by its law: {laws}.",
-                laws=sequence([
-                    say("{phase} {law}", phase=phase_title(motion, k), law=law_name(motion.phases[k].normalised))
-                    for k in stations.phase[stations.last].tolist()
-                ]),
+                laws=sequence([_law_of_phase(motion, k) for k in stations.phase[stations.last].tolist()]),
             ),
             ACCELERATION,
             tuple(Line(line, Role.RESULT) for line in curves),
         ),
         _middle_ordinates(diagram, x),
     ]  # fmt: skip
+
+
+def _law_of_phase(motion: Motion, k: int) -> Caption:
+    return say("{phase} {law}", phase=phase_title(motion, k), law=law_name(motion.phases[k].normalised))
 
 
 def _axis(diagram: Construction, heights: Floats) -> Step:

@@ -9,7 +9,7 @@ import nbformat
 
 from graphcam.arcs_task import ArcsTask
 from graphcam.files import OutputError, whole_folder
-from graphcam.notebooks.generate import task_files, write_notebook
+from graphcam.notebooks.generate import notebook_title, task_files, write_notebook
 from graphcam.notebooks.pages import to_html
 from graphcam.notebooks.printing import NO_BROWSER, browser, print_pdf
 from graphcam.notebooks.running import execute
@@ -52,7 +52,7 @@ def write_folder(
         nbformat.write(notebook, draft / NOTEBOOK)
         if html or pdf:
             progress("making a page of it")
-            page = to_html(notebook, task.title.name or "Cam", task.drawing.language)
+            page = to_html(notebook, notebook_title(task), task.drawing.language)
             (draft / PAGE).write_text(page, encoding="utf-8")
         if pdf:
             progress("printing the page")

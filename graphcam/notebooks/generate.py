@@ -10,12 +10,15 @@ import nbformat.v4 as nb
 from nbformat import NotebookNode
 
 from graphcam.arcs_task import ArcsTask
+from graphcam.drafting.units import unit
 from graphcam.main_job import markdown
 from graphcam.main_job.arcs import AnySolution, ArcsSolution
 from graphcam.main_job.kinds import solve
-from graphcam.notebooks.backgrounds import BACKGROUNDS, CHECKED, ERRORS, FIRST, QUESTIONS
+from graphcam.main_job.sheet import UNNAMED, title_name
+from graphcam.notebooks.backgrounds import BACKGROUNDS, CHECKED, ERRORS, FIRST, MOVED, QUESTIONS
 from graphcam.notebooks.extra import needed
 from graphcam.task import Task
+from graphcam.words import Tell, Words, say, say_in
 
 TASK_FILE = "task.toml"
 """The task's file, beside the notebook."""
@@ -24,7 +27,8 @@ import graphcam as gc
 from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, player, show_steps
 
 task = gc.load_task("{TASK_FILE}")
-solution = gc.solve(task)"""
+solution = gc.solve(task)
+tell = task.drawing.tell"""
 PYTHON = {
     "language_info": {"name": "python"},
     "kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"},
@@ -32,9 +36,9 @@ PYTHON = {
 PARTS = """\
 def with_parts(parts):
     finer = gc.solve(changed(task, {{"drawing.divisions": parts}}))
-    return drawing(finer.drawn["{construction}"], "{view}")
+    return drawing(finer.drawn["{construction}"], "{view}", tell=tell)
 
-explore(with_parts, parts=Slider("parts", {values}, {start}, {shown}))"""
+explore(with_parts, parts=Slider("{parts}", {values}, {start}, {shown}))"""
 
 
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
@@ -78,53 +82,64 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     """
     solution = solve(task)
-    toml = task_files(task)[TASK_FILE]
+    toml, tell = task_files(task)[TASK_FILE], solution.tell
+    warned = (say("**Mind:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
     cells = [
-        _text(f"# {markdown.text(task.title.name) or 'Cam'}\n\n{FIRST}"),
-        _text(f"## The task\n\n```toml\n{toml.strip()}\n```"),
+        _text(f"# {markdown.text(notebook_title(task))}\n\n{tell(FIRST)}"),
+        _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
         _hidden(SETUP),
-        *(_text(f"> **Mind:** {markdown.text(sentence)}") for sentence in solution.warnings),
-        *(cell for name in solution.drawn for cell in _chapter(name)),
+        *(_text(f"> {tell(warning)}") for warning in warned),
+        *(cell for name in solution.drawn for cell in _chapter(name, f'solution.drawn["{name}"]', tell)),
         *_spring(solution),
-        _text(f"## Try it yourself\n\n{CHECKED}"),
+        _section(tell, say("Try it yourself"), CHECKED),
         *(cell for name in _asked(solution) for cell in _question(solution, name)),
-        _text("## Move it\n\nMore parts, fewer parts: what changes, and what is worth the work?"),
+        _section(tell, say("Move it"), MOVED),
         _hidden(_parts(solution)),
-        _text("## Drawn and exact\n\nError and bound are millimetres on the paper."),
+        _section(tell, say("Drawn and exact"), say("Error and bound are millimetres on the paper.")),
         _hidden("compared(solution)"),
-        _text(f"## Where the error comes from\n\n{ERRORS}"),
-        _text("## The sheet, step by step"),
+        _section(tell, say("Where the error comes from"), ERRORS),
+        _section(tell, say("The sheet, step by step")),
         _hidden("player(solution)"),
-        _text(f"## Questions\n\n{QUESTIONS}"),
+        _section(tell, say("Questions"), QUESTIONS),
     ]
     # Without random names a notebook that is written anew is the same.
     for k, cell in enumerate(cells):
         cell["id"] = f"cell-{k}"
-    title = {"title": task.title.name, "language_info": {"name": "python"}}
+    title = {"title": notebook_title(task), "language_info": {"name": "python"}}
     return nb.new_notebook(
         cells=cells, metadata={**title, "kernelspec": {"name": "python3", "display_name": "Python 3"}}
     )
+
+
+def notebook_title(task: Task | ArcsTask) -> str:
+    """What the notebook of a task is called: as its sheet."""
+    tell = task.drawing.tell
+    return title_name(task.title, tell) or tell(UNNAMED)
 
 
 def _text(source: str) -> NotebookNode:
     return nb.new_markdown_cell(source)
 
 
+def _section(tell: Tell, title: Words, *paragraphs: Words) -> NotebookNode:
+    return _text(markdown.blocks(f"## {tell(title)}", *map(tell, paragraphs)))
+
+
 def _hidden(source: str) -> NotebookNode:
     return nb.new_code_cell(source, metadata={"tags": ["remove-input"], "jupyter": {"source_hidden": True}})
 
 
-def _chapter(name: str) -> list[NotebookNode]:
+def _chapter(name: str, construction: str, tell: Tell) -> list[NotebookNode]:
+    """Title, background and steps of a construction, which stands in the notebook's code as an expression."""
     title, background = BACKGROUNDS[name]
-    return [_text(f"## {title}\n\n{background}"), _hidden(f'show_steps(solution.drawn["{name}"])')]
+    return [_section(tell, title, background), _hidden(f"show_steps({construction}, tell=tell)")]
 
 
 def _spring(solution: AnySolution) -> list[NotebookNode]:
     """The force plan of a follower that a spring holds on its cam."""
     if isinstance(solution, ArcsSolution) or not solution.spring or not solution.spring.force_plan:
         return []
-    title, background = BACKGROUNDS["force_plan"]
-    return [_text(f"## {title}\n\n{background}"), _hidden("show_steps(solution.spring.force_plan)")]
+    return _chapter("force_plan", "solution.spring.force_plan", solution.tell)
 
 
 def _asked(solution: AnySolution) -> list[str]:
@@ -136,9 +151,8 @@ def _asked(solution: AnySolution) -> list[str]:
 
 def _question(solution: AnySolution, name: str) -> list[NotebookNode]:
     q = solution.comparison.quantities[name]
-    source = (
-        f'your_{name} = None  # {q.unit}\nQuestion.about(solution.comparison.quantities["{name}"]).check(your_{name})'
-    )
+    question = f'Question.about(solution.comparison.quantities["{name}"], tell)'
+    source = f"your_{name} = None  # {solution.tell(unit(q.unit))}\n{question}.check(your_{name})"
     return [nb.new_code_cell(source, metadata={"tags": ["try-it"]})]
 
 
@@ -149,4 +163,5 @@ def _parts(solution: AnySolution) -> str:
     start = solution.task.drawing.divisions
     values = sorted({2, 4, 8, 12, 24, start})
     shown = tuple(sorted({4, start}))
-    return PARTS.format(construction=construction, view=view, values=values, start=start, shown=shown)
+    parts = solution.tell(say_in("of a slider", "parts"))
+    return PARTS.format(construction=construction, view=view, values=values, start=start, shown=shown, parts=parts)

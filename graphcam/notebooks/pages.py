@@ -42,13 +42,14 @@ def markdown_page(source: str) -> str:
     return MarkdownWithMath(renderer=_Renderer(escape=False, exclude_anchor_links=True)).render(source)
 
 
-def _exporter() -> HTMLExporter:
+def _exporter(language: str) -> HTMLExporter:
     """nbconvert's exporter with graphcam's template, plain colours for code, and stills for sliders."""
     config = Config(
         NbConvertBase={"display_data_priority": SHOWN},
         CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
     )
-    exporter = HTMLExporter(config=config, template_name="graphcam", extra_template_basedirs=[str(TEMPLATES)])
+    exporter = HTMLExporter(config=config, template_name="graphcam", extra_template_basedirs=[str(TEMPLATES)],
+                            language_code=language)  # fmt: skip
     exporter.register_filter("markdown2html", markdown_page)
     return exporter
 
@@ -62,7 +63,5 @@ def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     ------
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     """
-    page, _ = _exporter().from_notebook_node(
-        notebook, resources={"metadata": {"title": title, "name": title}, "language_code": language}
-    )
+    page, _ = _exporter(language).from_notebook_node(notebook, resources={"metadata": {"title": title, "name": title}})
     return page

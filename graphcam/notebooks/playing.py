@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from graphcam.main_job.arcs import AnySolution
 from graphcam.main_job.kinds import sheet_of
 from graphcam.main_job.player import player_of
+from graphcam.words import say
 
 if TYPE_CHECKING:
     from IPython.display import HTML
@@ -27,5 +28,6 @@ def player(solution: AnySolution) -> HTML:
     from IPython.display import HTML
 
     page = escape(player_of(solution, sheet_of(solution)))
-    frame = f'<iframe title="Step player" style="width: 100%; height: {HEIGHT}px" srcdoc="{page}"></iframe>'
+    title = escape(solution.tell(say("Step player")))
+    frame = f'<iframe title="{title}" style="width: 100%; height: {HEIGHT}px" srcdoc="{page}"></iframe>'
     return HTML(f'<div class="player">{frame}</div>')

@@ -11,10 +11,13 @@ import numpy as np
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.drafting.ink import Reading
+from graphcam.drafting.units import UNITS
+from graphcam.words import Caption, Tell, Words, say
 
 CAREFUL_HAND = 1.0
 """How far a careful drawing may be off [mm of paper]: twice half a division, for a line drawn and a length read."""
 RIGHT, NEARLY, WRONG, OPEN = "right", "nearly", "wrong", "open"
+ON_PAPER = say("that is the length on paper; multiply by the scale")
 ROUGH = 3.0
 """Up to so many tolerances the way was right and the hand was not."""
 
@@ -37,6 +40,7 @@ class Question:
     value, tolerance : in ``unit``
     look : where to look again if nothing else is known ("step 3")
     mistakes : hints by the wrong answer that each belongs to
+    tell : says the texts of the verdicts; ``look`` and ``mistakes`` are said as they are
 
     >>> radius = Question(43.28, 0.6, "mm", "step 5", {"the distance is still in mm of paper": 72.13})
     >>> print(radius.check(43.0).text)
@@ -52,6 +56,7 @@ class Question:
     unit: str
     look: str
     mistakes: Mapping[str, float] = field(default_factory=dict[str, float])
+    tell: Tell = str
 
     @classmethod
     def of(
@@ -65,12 +70,12 @@ class Question:
         """
         paper = float(reading.paper if at is None else reading.paper[at])
         scale = float(np.ravel(reading.scale)[0])
-        on_paper = {} if scale == 1 else {"that is the length on paper; multiply by the scale": paper}
+        on_paper = {} if scale == 1 else {str(ON_PAPER): paper}
         return cls(scale * paper, CAREFUL_HAND * scale, reading.unit, look, {**on_paper, **(mistakes or {})})
 
     @classmethod
-    def about(cls, quantity: Quantity) -> Question:
-        """The question for a quantity of a solution, to be answered as a careful hand draws.
+    def about(cls, quantity: Quantity, tell: Tell = str) -> Question:
+        """The question for a quantity of a solution, to be answered as a careful hand draws; ``tell`` says its texts.
 
         >>> from graphcam.main_job import solve
         >>> from graphcam.task_file import builtin_task
@@ -78,37 +83,44 @@ class Question:
         >>> print(Question.about(greatest).check(-57.3).text)
         Not yet: the size is right, the sign is not. Look again at greatest v.
         """
-        on_paper = {"that is the length on paper; multiply by the scale": quantity.drawn / quantity.per_mm}
         # A length of paper that is the value itself is no mistake.
-        mistakes = {} if math.isclose(quantity.per_mm, 1.0) else on_paper
-        return cls(quantity.drawn, CAREFUL_HAND * quantity.per_mm, quantity.unit, str(quantity.title), mistakes)
+        equal = math.isclose(quantity.per_mm, 1.0)
+        mistakes = {} if equal else {tell(ON_PAPER): quantity.drawn / quantity.per_mm}
+        tolerance = CAREFUL_HAND * quantity.per_mm
+        return cls(quantity.drawn, tolerance, quantity.unit, tell(quantity.title), mistakes, tell)
 
     def check(self, answer: float | None) -> Verdict:
         """What the answer is worth; without one an invitation."""
-        if answer is None:
-            return Verdict(OPEN, f"Your turn: put your number (in {self.unit}) in place of None and run this cell.")
-        if not math.isfinite(answer):
-            return Verdict(WRONG, f"Not yet: a finite number is asked for, in {self.unit}.")
-        off = abs(answer - self.value)
-        if off <= self.tolerance:
-            return Verdict(RIGHT, "Right, within what a pencil can do.")
-        if hint := self._mistake(answer):
-            return Verdict(WRONG, f"Not yet: {hint}. Look again at {self.look}.")
-        if off <= ROUGH * self.tolerance:
-            return Verdict(NEARLY, f"Nearly: the way is right, a line is not sharp enough. Repeat {self.look}.")
-        return Verdict(WRONG, f"Not yet: that is too {'large' if answer > self.value else 'small'}. "
-                       f"Look again at {self.look}.")  # fmt: skip
+        status, words = self._verdict(answer)
+        return Verdict(status, self.tell(words))
 
-    def _mistake(self, answer: float) -> str:
+    def _verdict(self, answer: float | None) -> tuple[str, Caption]:
+        unit = UNITS.get(self.unit, self.unit)
+        if answer is None:
+            return OPEN, say("Your turn: put your number (in {unit}) in place of None and run this cell.", unit=unit)
+        if not math.isfinite(answer):
+            return WRONG, say("Not yet: a finite number is asked for, in {unit}.", unit=unit)
+        off, look = abs(answer - self.value), self.look
+        if off <= self.tolerance:
+            return RIGHT, say("Right, within what a pencil can do.")
+        if hint := self._mistake(answer):
+            return WRONG, say("Not yet: {hint}. Look again at {look}.", hint=hint, look=look)
+        if off <= ROUGH * self.tolerance:
+            return NEARLY, say("Nearly: the way is right, a line is not sharp enough. Repeat {look}.", look=look)
+        if answer > self.value:
+            return WRONG, say("Not yet: that is too large. Look again at {look}.", look=look)
+        return WRONG, say("Not yet: that is too small. Look again at {look}.", look=look)
+
+    def _mistake(self, answer: float) -> Words:
         degree = math.degrees(1.0)
-        usual = {
-            "the size is right, the sign is not": -self.value,
-            "that is twice as much: a diameter for a radius, or the whole for the half": 2 * self.value,
-            "that is half of it: a radius for a diameter, or the half for the whole": self.value / 2,
-            "degrees and radians are mixed up": self.value * degree,
-            "radians and degrees are mixed up": self.value / degree,
-        }
-        for hint, wrong in {**self.mistakes, **usual}.items():
+        usual: list[tuple[Words, float]] = [
+            (say("the size is right, the sign is not"), -self.value),
+            (say("that is twice as much: a diameter for a radius, or the whole for the half"), 2 * self.value),
+            (say("that is half of it: a radius for a diameter, or the half for the whole"), self.value / 2),
+            (say("degrees and radians are mixed up"), self.value * degree),
+            (say("radians and degrees are mixed up"), self.value / degree),
+        ]
+        for hint, wrong in [*self.mistakes.items(), *usual]:
             if abs(answer - wrong) <= self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0):
                 return hint
         return ""

@@ -21,6 +21,7 @@ from graphcam.sheets.lettered import lettered, shading_parted
 from graphcam.sheets.model import Entity, Group, Page
 from graphcam.sheets.panels import Panel
 from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
+from graphcam.words import Tell, say
 
 LETTERS = Lettering(3.5, 3.0, 2.4)
 """Heights of letters [mm], for a page that is read on a screen."""
@@ -38,12 +39,14 @@ class Stage:
     step : what is done, in words
     page : the drawing so far; None for a step of words alone
     reads : what is read off the paper with this step
+    tell : says all texts
     """
 
     number: int
     step: Step
     page: Page | None
     reads: tuple[Row, ...]
+    tell: Tell
 
     @property
     def picture(self) -> Picture | None:
@@ -53,32 +56,39 @@ class Stage:
         # The renderer loads matplotlib.
         from graphcam.sheets.matplotlib_renderer import svg
 
-        title, view = str(self.step.title), str(self.step.view.title)
-        alt = f"{view}. Drawn so far, with step {self.number} in colour: {title}. {self.step.caption}"
-        return Picture(svg(self.page), alt, f"{view}: {title[0].lower()}{title[1:]}")
+        title, view = self.tell(self.step.title), self.tell(self.step.view.title)
+        alt = say(
+            "{view}. Drawn so far, with step {number} in colour: {title}. {caption}",
+            view=view, number=self.number, title=title, caption=self.step.caption,
+        )  # fmt: skip
+        return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
     def html(self) -> str:
         """Title, caption, drawing and readings."""
-        words = f"<h4>{self.number}. {escape(str(self.step.title))}</h4><p>{escape(str(self.step.caption))}</p>"
+        title, caption = escape(self.tell(self.step.title)), escape(self.tell(self.step.caption))
+        words = f"<h4>{self.number}. {title}</h4><p>{caption}</p>"
         shown = self.picture.html if self.picture else ""
-        read = "".join(f"<li>{_reading(row)}</li>" for row in self.reads)
+        read = "".join(f"<li>{_reading(row, self.tell)}</li>" for row in self.reads)
         readings = f'<ul class="readings">{read}</ul>' if read else ""
         return f'<section class="step">{words}{shown}{readings}</section>'
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
-        return {"text/html": self.html, "text/plain": f"{self.number}. {self.step.title}: {self.step.caption}"}
+        return {
+            "text/html": self.html,
+            "text/plain": f"{self.number}. {self.tell(self.step.title)}: {self.tell(self.step.caption)}",
+        }
 
 
-def _reading(row: Row) -> str:
+def _reading(row: Row, tell: Tell) -> str:
     """A reading as mm x mu = value; of one at many stations the greatest, and all of them to be unfolded."""
-    title = escape(str(row.title))
     if not row.paper.ndim:
-        return f"{title} = {escape(str(row.said()))}"
+        return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
     greatest = int(np.nanargmax(np.abs(row.paper)))
-    lines = "".join(f"<li>{place}: {escape(str(row.said(k)))}</li>" for k, place in enumerate(row.places))
-    first = f"{title}, the greatest at {row.places[greatest]} = {escape(str(row.said(greatest)))}"
-    return f"<details><summary>{first}</summary><ul>{lines}</ul></details>"
+    lines = "".join(f"<li>{place}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places))
+    first = say("{title}, the greatest at {place} = {said}",
+                title=row.title, place=row.places[greatest], said=row.said(greatest))  # fmt: skip
+    return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,10 +150,10 @@ def ancestors(construction: Construction) -> list[Construction]:
     return list(found.values())
 
 
-def boards(construction: Construction) -> dict[str, Board]:
+def boards(construction: Construction, tell: Tell = str) -> dict[str, Board]:
     """The views that a construction draws in, by name, each with what stood in it before."""
-    steps = construction.steps()
-    before = [step for c in ancestors(construction) for step in c.steps()]
+    steps = [step.told(tell) for step in construction.steps()]
+    before = [step.told(tell) for c in ancestors(construction) for step in c.steps()]
     names = dict.fromkeys(step.view.name for step in steps if step.marks)
     return {name: Board(_in_view(before, name), _in_view(steps, name)) for name in names}
 
@@ -152,18 +162,18 @@ def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
     return tuple(step for step in steps if step.view.name == name)
 
 
-def stages(construction: Construction) -> Iterator[Stage]:
-    """The steps of a construction, each with the drawing so far."""
-    of_view, drawn = boards(construction), Counter[str]()
+def stages(construction: Construction, tell: Tell = str) -> Iterator[Stage]:
+    """The steps of a construction, each with the drawing so far; ``tell`` says all texts."""
+    of_view, drawn = boards(construction, tell), Counter[str]()
     for number, step in enumerate(construction.steps(), 1):
         name = step.view.name
         page = of_view[name].page(drawn[name]) if name in of_view else None
         drawn[name] += 1
-        yield Stage(number, step, page, tuple(rows(construction, step)))
+        yield Stage(number, step, page, tuple(rows(construction, step)), tell)
 
 
-def drawing(construction: Construction, view: str | None = None) -> Picture:
-    """The finished drawing of a construction in one of its views, by default the first.
+def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:
+    """The finished drawing of a construction in one of its views, by default the first; ``tell`` says all texts.
 
     >>> from graphcam.main_job import solve
     >>> from graphcam.task_file import builtin_task
@@ -176,7 +186,7 @@ def drawing(construction: Construction, view: str | None = None) -> Picture:
     """
     from graphcam.sheets.matplotlib_renderer import svg
 
-    of_view = boards(construction)
+    of_view = boards(construction, tell)
     if view is not None and view not in of_view:
         raise DesignError("view", view, f"one of {', '.join(of_view)}")
     board = of_view[view] if view is not None else next(iter(of_view.values()))
@@ -184,10 +194,13 @@ def drawing(construction: Construction, view: str | None = None) -> Picture:
     return Picture(svg(board.page()), f"{title}. {board.steps[-1].caption}", title)
 
 
-def show_steps(construction: Construction, *numbers: int) -> None:
-    """Show steps of a construction in a notebook, by their numbers from 1; without a number all of them."""
+def show_steps(construction: Construction, *numbers: int, tell: Tell = str) -> None:
+    """Show steps of a construction in a notebook, by their numbers from 1; without a number all of them.
+
+    tell : says all texts, such as ``task.drawing.tell`` in the language of the task
+    """
     from IPython.display import display
 
-    for stage in stages(construction):
+    for stage in stages(construction, tell):
         if not numbers or stage.number in numbers:
             display(stage)

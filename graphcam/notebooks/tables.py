@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from graphcam.drafting.units import unit
 from graphcam.main_job import markdown
 from graphcam.main_job.arcs import AnySolution
 from graphcam.main_job.markdown import number
+from graphcam.words import say
 
 if TYPE_CHECKING:
     from IPython.display import Markdown
@@ -38,9 +40,18 @@ def compared(solution: AnySolution, *names: str) -> Markdown:
     >>> print(compared(solve(builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
     [' greatest v, mm/rad ', ' 57.296 ', ' 57.296 ']
     """
+    from IPython.display import Markdown
+
     quantities = solution.comparison.quantities
     chosen = [quantities[name] for name in names] or [q for q in quantities.values() if q.drawn == q.drawn]
     rows = [
-        (f"{q.title}, {q.unit}", q.drawn, q.exact, q.error, q.error_paper, q.tolerance_paper) for q in chosen
-    ]  # fmt: skip
-    return table(("quantity", "drawn", "exact", "error", "on paper, mm", "bound, mm"), rows)
+        (
+            say("{title}, {unit}", title=q.title, unit=unit(q.unit)),
+            *(number(value, 3) for value in (q.drawn, q.exact, q.error, q.error_paper, q.tolerance_paper)),
+        )
+        for q in chosen
+    ]
+    header = (
+        say("quantity"), say("drawn"), say("exact"), say("error"), say("on paper, mm"), say("bound, mm"),
+    )  # fmt: skip
+    return Markdown(markdown.table(header, rows, solution.tell))

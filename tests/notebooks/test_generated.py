@@ -5,11 +5,13 @@ from __future__ import annotations
 import base64
 import re
 from dataclasses import replace
+from html import unescape
 
 import nbformat
 import pytest
 from browsers import opened
 from programs import program
+from russian import english_words
 from typer.testing import CliRunner
 
 import graphcam as gc
@@ -61,9 +63,44 @@ def test_every_construction_has_its_chapter(name):
     nbformat.validate(notebook)
     source = "\n".join(cell.source for cell in notebook.cells)
     for construction in gc.solve(TASKS[name]).drawn:
-        assert f'show_steps(solution.drawn["{construction}"])' in source
+        assert f'show_steps(solution.drawn["{construction}"], tell=tell)' in source
     assert not any(cell.get("outputs") for cell in notebook.cells)
     assert nbformat.writes(write_notebook(TASKS[name])) == nbformat.writes(notebook)
+
+
+def in_russian(name):
+    task = TASKS[name]
+    titled = replace(task, title=replace(task.title, name="Кулачок"))  # the name is the user's
+    return changed(titled, {"drawing.language": "ru"})
+
+
+NAMES = ("graphcam", "None")
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_russian_notebook_has_no_english_word_and_no_decimal_point(name):
+    told = [cell.source for cell in write_notebook(in_russian(name)).cells if cell.cell_type == "markdown"]
+    text = "\n".join(source for source in told if "```toml" not in source)
+    assert english_words(text, NAMES) == set()
+    assert re.findall(r"\d\.\d", text) == []
+
+
+@pytest.mark.slow
+def test_a_russian_page_has_no_english_word(tmp_path):
+    task = in_russian("arcs")
+    page = to_html(execute(write_notebook(task), written(tmp_path, task)), "Кулачок", "ru")
+    # Without the player, which is looked at elsewhere, the task's file and the code of the questions.
+    page = re.sub(r"<iframe.*?</iframe>|<style>.*?</style>|<pre.*?</pre>|<annotation.*?</annotation>", "", page,
+                  flags=re.DOTALL)  # fmt: skip
+    alts = re.findall(r'alt="([^"]*)"', page)
+    pictures = [base64.b64decode(data).decode() for data in re.findall(r"svg\+xml;base64,([^\"]+)", page)]
+    lettered = [text for picture in pictures for text in re.findall(r"<text[^>]*>(.*?)</text>", picture, re.DOTALL)]
+    assert '<html lang="ru">' in page
+    assert len(alts) >= 8
+    assert lettered
+    for text in (page, *lettered):
+        assert english_words(unescape(re.sub(r"<[^>]*>", " ", text)), NAMES) == set()
+    assert set().union(*map(english_words, alts)) == set()
 
 
 def test_warnings_are_told():

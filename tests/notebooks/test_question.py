@@ -6,8 +6,11 @@ import re
 
 import numpy as np
 import pytest
+from russian import english_words
 
+import graphcam as gc
 from graphcam.drafting.ink import reading
+from graphcam.language import language
 from graphcam.notebooks.question import Question
 
 RADIUS = Question(43.28, 0.6, "mm", "step 5", {"the pole distance is forgotten": 1731.2})
@@ -36,6 +39,19 @@ def test_a_mistake_gets_its_hint_and_not_the_number(answer, status, hint):
     assert (verdict.status, hint in verdict.text) == (status, True)
     assert "43" not in verdict.text
     assert re.search(r"step 5|Your turn|Right|finite", verdict.text)
+
+
+@pytest.mark.parametrize(
+    "factor", [None, 1.0, 1.02, 1.2, 0.8, -1.0, 2.0, 0.5, 57.2958, 1 / 57.2958, float("inf"), "paper"]
+)
+def test_a_russian_question_answers_in_russian(factor):
+    quantity = gc.solve(gc.builtin_task()).comparison.quantities["minimum_prime_radius"]
+    question = Question.about(quantity, language("ru").text)
+    on_paper = quantity.drawn / quantity.per_mm
+    answer = on_paper if factor == "paper" else None if factor is None else factor * quantity.drawn
+    said = question.check(answer).text
+    assert english_words(said, ("None",)) == set()
+    assert re.search("[а-я]{3}", said)
 
 
 def test_a_reading_gives_scale_unit_and_tolerance():
