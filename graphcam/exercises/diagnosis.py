@@ -49,11 +49,11 @@ def diagnose(
     numbers = [(k, given) for k, _, given in seen if isinstance(given, float)]
     drawn = [each for each in seen if not isinstance(each[2], float)]
     hypotheses = certificate.hypotheses
-    fits = {name: _numbers_fit(values, numbers, wrong) for name, values in hypotheses.items()}
+    fits = {name: _numbers_fit(values, numbers, wrong, certificate.bound) for name, values in hypotheses.items()}
     if drawn:
         # A drawing takes longer to compare than all numbers: only with what these leave possible.
         least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.explained)])
-        fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong)
+        fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong, certificate.bound)
                 for name, fit in fits.items() if fit.badness <= least + HOPELESS}  # fmt: skip
     badness = {name: fit.badness for name, fit in fits.items() if fit.explained}
     if not badness:
@@ -68,7 +68,7 @@ def diagnose(
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
 
 
-def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int]) -> _Fit:
+def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int], bound: float) -> _Fit:
     badness = 0.0
     explained: list[int] = []
     # Most of the time of marking wrong work is spent here.
@@ -77,14 +77,15 @@ def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong
         off = (given - value) / scatter
         near = -FAR <= off <= FAR
         badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
-        if near and k in wrong:
+        # A mistake that makes an answer small is not made by who answers nought.
+        if near and k in wrong and abs(off) <= bound and abs(given) > bound * scatter:
             explained.append(k)
     return _Fit(badness, frozenset(explained))
 
 
-def _with_drawn(fit: _Fit, values: Hypothesis, drawn: Seen, wrong: set[int]) -> _Fit:
+def _with_drawn(fit: _Fit, values: Hypothesis, drawn: Seen, wrong: set[int], bound: float) -> _Fit:
     off = {k: values[k].deviation(given, asked.kind, FAR) for k, asked, given in drawn}
-    explained = {k for k in off if k in wrong and off[k] <= FAR}
+    explained = {k for k in off if k in wrong and off[k] <= bound}
     return _Fit(fit.badness + sum(min(each, FAR) ** 2 for each in off.values()), fit.explained | explained)
 
 

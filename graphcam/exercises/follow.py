@@ -17,7 +17,8 @@ from typing import Literal
 NODES = 33
 """Own values from which each later answer is drawn again."""
 REACH = 16.0
-"""The own values reach over so many times the right one, to both sides."""
+"""The own values reach over so many times the right one, to both sides, and down to that part of it: from an absurd
+value, and from nought above all, anything follows."""
 Together = Literal["product", "sum"]
 
 
@@ -33,7 +34,10 @@ class Effect:
     values: tuple[float | None, ...]
 
     def at(self, own: float) -> float:
-        """The answer that follows; NaN where none was drawn."""
+        """The answer that follows; NaN where none was drawn, and from a value too small to have been drawn."""
+        # What is nought but for the scatter may be small: there the width is more than a part of the centre.
+        if abs(own) * REACH < abs(self.centre) and self.width < abs(self.centre):
+            return math.nan
         t = (math.asinh((own - self.centre) / self.width) / span(self.centre, self.width) + 1) * (NODES - 1) / 2
         if not 0 <= t <= NODES - 1:
             return math.nan

@@ -14,11 +14,12 @@ from graphcam.exercises.diagnosis import Seen, diagnose
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.expectation import Expected, Off
 from graphcam.exercises.feedback import feedback
-from graphcam.exercises.hypothesis import Hypothesis
-from graphcam.exercises.record import Diagnosis, Marked, Outcome, Record
+from graphcam.exercises.record import Marked, Outcome, Record
 
 FEWEST_DRAWN = 3
 """So many drawn answers it takes to remark that they are too exact."""
+SMALL = 8.0
+"""A key of fewer tolerances is no length that grows with a scale: its tolerance would grow without bounds."""
 
 
 def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, level: str = "L0") -> Record:
@@ -26,7 +27,8 @@ def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, leve
 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
     the tolerance of what follows from the student's own earlier answers, or where the diagnosed mistake was made in an
-    earlier step and everything since was done right: one slip costs its own step only.
+    earlier step and everything since was done right: one slip costs its own step only.  From an absurd earlier answer
+    nothing follows, and nought follows from nothing.
 
     answers : untrusted data; whatever it holds, there is one record
     level : how the answers were come by, for the record
@@ -46,7 +48,7 @@ def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, leve
     wrong = {k for k in off if not abs(off[k]) <= certificate.bound}
     diagnosed = diagnose(certificate, keys, seen, off, wrong) if wrong else None
     diagnosis, explained = diagnosed or (None, frozenset[int]())
-    following = _following(certificate, keys, seen, wrong, diagnosis, explained) if wrong else set[int]()
+    following = _following(certificate, keys, seen, wrong, explained) if wrong else set[int]()
     marked = tuple(
         _marked(asked, readable[asked.name], _outcome(k, asked, answers, off, wrong, following), found.get(k))
         for k, asked in enumerate(exercise.answers)
@@ -105,7 +107,6 @@ def _following(
     keys: Sequence[Expected],
     seen: Seen,
     wrong: set[int],
-    diagnosis: Diagnosis | None,
     explained: frozenset[int],
 ) -> set[int]:
     """The wrong answers that follow from the student's own earlier ones.
@@ -115,10 +116,9 @@ def _following(
     found: set[int] = set()
     own: dict[str, float] = {}
     first = min(wrong)
-    mistake = certificate.hypotheses[diagnosis.misconception] if diagnosis else None
-    shown = _first_shown(mistake, keys, certificate.bound) if mistake else len(keys)
+    shown = min(explained, default=len(keys))
     for k, asked, given in seen:
-        # Once the mistake has shown, what it brings with it is a consequence.
+        # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
         caused = k > shown and k in explained
         if k in wrong and k > first and (caused or _follows(certificate, keys[k], asked, given, own)):
             found.add(k)
@@ -127,23 +127,19 @@ def _following(
     return found
 
 
-def _first_shown(mistake: Hypothesis, keys: Sequence[Expected], bound: float) -> int:
-    """The number of the first answer in which the mistake shows."""
-    for k, key in enumerate(keys):
-        gap = abs(mistake[k].value - key.value) > bound * key.scatter
-        if gap if isinstance(gap, bool) else gap.any():
-            return k
-    return len(keys)
-
-
 def _follows(certificate: Certificate, key: Expected, asked: Asked, given: Given, own: Mapping[str, float]) -> bool:
     dependence = certificate.dependences.get(asked.name)
     if dependence is None or not isinstance(given, float) or not isinstance(key.value, float):
         return False
     expected = dependence.expected(key.value, own)
-    # A hand's error grows with the lengths that a wrong scale makes, and does not shrink with them.
-    larger = max(1.0, abs(expected / key.value)) if key.value and dependence.together == "product" else 1.0
-    return abs(given - expected) <= certificate.bound * float(key.scatter) * larger
+    tolerance = certificate.bound * float(key.scatter)
+    # Nought follows from too much that was never drawn.
+    if abs(given) <= tolerance < abs(key.value):
+        return False
+    if dependence.together == "product" and not asked.unit.startswith("deg"):
+        # A hand's error grows with the lengths that a wrong scale makes, and does not shrink with them.
+        tolerance *= max(1.0, abs(expected) / max(abs(key.value), SMALL * tolerance))
+    return abs(given - expected) <= tolerance
 
 
 def _marked(asked: Asked, given: Given | None, outcome: Outcome, off: Off | None) -> Marked:

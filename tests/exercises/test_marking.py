@@ -110,6 +110,44 @@ def test_follow_through_draws_again_where_no_formula_is_linear():
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_nothing_follows_from_nought(name):
+    """From a scale of nought every later value is nought, which nobody needs to draw."""
+    exercise, certificate = issued(name)
+    numbers = {
+        asked.name: certificate.keys[asked.name].expected for asked in exercise.answers if asked.kind == "number"
+    }
+    for small in (0.0, -0.0, 1e-9, -1e-6, 1e-3):
+        record = mark(exercise, certificate, Answers(dict.fromkeys(numbers, small)))
+        # But for what is nought itself within its tolerance.
+        earned = {answer.name for answer in record.answers if answer.marks}
+        assert earned <= {key for key, one in numbers.items() if abs(one.value) <= certificate.bound * one.scatter}
+
+
+def test_the_tolerance_of_an_angle_does_not_grow_with_it():
+    # The right angle is half a degree; one of ten that follows from the own velocity is not twenty times as uncertain.
+    exercise, certificate = issued("pressure-angle")
+    right = key(certificate)
+    own = {"v_4": 1.6 * right["v_4"], "D_4": 1.6 * right["D_4"]}
+    alpha = certificate.dependences["alpha_4"].expected(right["alpha_4"], own)
+    tolerance = certificate.keys["alpha_4"].tolerance
+    assert abs(alpha) > 10 * abs(right["alpha_4"])
+    assert outcomes(marked("pressure-angle", **own, alpha_4=alpha + 0.9 * tolerance))["alpha_4"] == "follow-through"
+    assert outcomes(marked("pressure-angle", **own, alpha_4=alpha + 1.5 * tolerance))["alpha_4"] == "wrong"
+
+
+def test_a_slip_beside_a_mistake_is_not_excused_by_it():
+    # What the mistake leaves right is a slip of its own where it is wrong, also when it is not far off.
+    exercise, certificate = issued("pressure-angle")
+    at = [asked.name for asked in exercise.answers].index("alpha_8")
+    mistaken = certificate.hypotheses["offset-sign"]
+    answers = {asked.name: each.value for asked, each in zip(exercise.answers, mistaken, strict=True)}
+    slip = mistaken[at].value + 1.5 * certificate.bound * mistaken[at].scatter
+    found = outcomes(mark(exercise, certificate, Answers(answers)))
+    assert found["alpha_8"] == "follow-through"
+    assert outcomes(mark(exercise, certificate, Answers(answers | {"alpha_8": slip})))["alpha_8"] == "wrong"
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_every_mistake_is_named_and_costs_something(name):
     exercise, certificate = issued(name)
     for mistake, values in certificate.hypotheses.items():
