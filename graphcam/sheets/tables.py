@@ -11,11 +11,11 @@ from graphcam.sheets.model import Entity, Text, moved
 from graphcam.sheets.title_block import Ruling, rules
 from graphcam.words import Tell, Words
 
-ROW = 2.0
+ROW = 2.2
 """Height of a row, in heights of its letters."""
 LEADING = 1.5
 """From line to line in a header, in heights of its letters."""
-MARGIN = 1.2
+MARGIN = 1.8
 """Left and right of the text in a cell, in heights of its letters, both together."""
 
 
