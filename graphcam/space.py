@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError, nearest
 from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
-from graphcam.mechanism.batch.designs import Designs
+from graphcam.mechanism.batch.designs import Designs, Kind
 from graphcam.mechanism.batch.quantities import QUANTITIES
-from graphcam.mechanism.batch.sweep import computed
+from graphcam.mechanism.batch.sweep import computed, usual_limit
 
 ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
 """What a file gives and gets in degrees."""
@@ -32,7 +32,10 @@ Columns = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True)
 class SpaceMotionTable:
-    """``[motion]``: lift [mm], angles [degrees] and laws of rise, high dwell and return; the low dwell is the rest."""
+    """``[motion]``: lift [mm], angles [degrees] and laws of rise, high dwell and return; the low dwell is the rest.
+
+    The lift of an arm is in degrees.
+    """
 
     lift: Any
     rise_angle: Any
@@ -50,10 +53,12 @@ class SpaceMotionTable:
 
 @dataclass(frozen=True)
 class SpaceCamTable:
-    """``[cam]``: mm."""
+    """``[cam]``: mm; each follower has its own of them."""
 
     prime_radius: Any
     offset: Any = 0.0
+    arm: Any = 0.0
+    distance: Any = 0.0
     roller_radius: Any = 0.0
 
     def __post_init__(self) -> None:
@@ -63,18 +68,21 @@ class SpaceCamTable:
 
 @dataclass(frozen=True)
 class SpaceLimitsTable:
-    """``[limits]``: permitted pressure angles [degrees]; None on the return is force closure."""
+    """``[limits]``: permitted pressure angles [degrees]; None is the usual one on the rise, none on the return."""
 
-    pressure_angle_rise: float = 30.0
+    pressure_angle_rise: float | None = None
     pressure_angle_return: float | None = None
 
     def __post_init__(self) -> None:
-        self()
+        self("translating")
 
-    def __call__(self) -> Limits:
+    def __call__(self, follower: str) -> Limits:
         """The limits in radians."""
-        back = self.pressure_angle_return
-        return Limits(math.radians(self.pressure_angle_rise), None if back is None else math.radians(back))
+        rise, back = (
+            None if given is None else math.radians(given)
+            for given in (self.pressure_angle_rise, self.pressure_angle_return)
+        )
+        return Limits(usual_limit(follower) if rise is None else rise, back)
 
 
 @dataclass(frozen=True)
@@ -92,7 +100,7 @@ class Space:
     motion: SpaceMotionTable
     cam: SpaceCamTable
     limits: SpaceLimitsTable = field(default_factory=SpaceLimitsTable)
-    follower: Literal["translating", "flat-faced"] = "translating"
+    follower: Kind = "translating"
     rotation: Any = "ccw"
     quantities: tuple[str, ...] = QUANTITIES
 
@@ -126,6 +134,11 @@ class Space:
         return math.prod(axis.size for axis in self.axes.values())
 
     @property
+    def angles(self) -> tuple[str, ...]:
+        """What is in degrees: an arm's lift too."""
+        return (*ANGLES, "lift") if self.follower == "oscillating" else ANGLES
+
+    @property
     def varied(self) -> tuple[str, ...]:
         """The parameters that have more than one value."""
         return tuple(name for name, axis in self.axes.items() if axis.size > 1)
@@ -139,15 +152,15 @@ class Space:
     def designs(self, start: int, stop: int) -> Designs:
         """The designs from number ``start`` up to ``stop``."""
         values = {name: axis[0] for name, axis in self.axes.items()} | self.columns(start, stop)
-        values |= {name: np.radians(values[name]) for name in values if name in ANGLES}
+        values |= {name: np.radians(values[name]) for name in values if name in self.angles}
         return Designs(**values, follower=self.follower)
 
     def results(self, numbers: tuple[int, int]) -> Columns:
         """Varied parameters and quantities of the designs between two numbers; a name of degrees ends in ``_deg``."""
-        found = computed(self.designs(*numbers), self.quantities, self.limits())
+        found = computed(self.designs(*numbers), self.quantities, self.limits(self.follower))
         found |= {name: np.degrees(column) for name, column in found.items() if name in ANGLES}
         columns = self.columns(*numbers) | found
-        return {name + "_deg" if name in ANGLES else name: column for name, column in columns.items()}
+        return {name + "_deg" if name in self.angles else name: column for name, column in columns.items()}
 
 
 def number_axis(name: str, value: Any) -> NDArray[np.float64]:

@@ -127,6 +127,25 @@ def test_another_ending_is_refused(space, tmp_path):
     assert ".csv nor .parquet" in result.stderr
 
 
+def test_an_arm_has_its_lift_in_degrees_and_its_own_limit(tmp_path):
+    path = tmp_path / "arms.toml"
+    path.write_text(
+        'follower = "oscillating"\n[motion]\nlift = [20, 25]\nrise_angle = 90\nreturn_angle = 80\n'
+        "[cam]\nprime_radius = [40, 60]\narm = 100\ndistance = 120\nroller_radius = 10\n"
+    )
+    assert run(path, "--out", tmp_path / "out.csv").exit_code == 0
+    rows = rows_of(tmp_path / "out.csv")
+    assert [(row["lift_deg"], row["prime_radius"]) for row in rows] == [
+        ("20.0", "40.0"), ("20.0", "60.0"), ("25.0", "40.0"), ("25.0", "60.0"),
+    ]  # fmt: skip
+    angles = [float(row["max_pressure_angle_rise_deg"]) for row in rows]
+    assert [row["feasible"] for row in rows] == [str(angle <= 45).lower() for angle in angles]
+    phases = [gc.Rise(math.radians(25), math.pi / 2), gc.Return(math.radians(25), math.radians(80))]
+    motion = gc.Motion([*phases, gc.Dwell(math.radians(190))])
+    cam = gc.Cam(motion, gc.Oscillating(100, 120, 10), 40)
+    assert angles[2] == pytest.approx(math.degrees(cam.extremes().pressure_angle_rise[0]), rel=1e-13)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -144,6 +163,8 @@ def test_another_ending_is_refused(space, tmp_path):
         ("offset = 12", "offset = 12\n[limits]\npressure_angle_rise = 95", "pressure_angle_rise is 95"),
         ("rotation", 'quantities = ["max_w"]\nrotation', "quantities.*did you mean 'max_v'"),
         ("rotation", 'follower = "flat"\nrotation', "follower is 'flat'"),
+        ("offset = 12", "arm = 12", "arm.*left out for a translating follower"),
+        ("rotation", 'follower = "oscillating"\nrotation', "offset.*left out for an oscillating follower"),
     ],
 )
 def test_a_wrong_file_is_told_in_its_own_words(space, old, new, message):

@@ -8,11 +8,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.circular import sine_cosine
+from graphcam.given.laws import Floats
 from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
 
 
@@ -49,14 +53,14 @@ class OscillatingKinematics(RollerKinematics):
                 "make the lift or the prime radius smaller, or the centre distance or the arm longer",
             )  # fmt: skip
 
-    @property
+    @cached_property
     def psi0(self) -> float:
         """The angle between the arm and the line of centres at the low rest [rad].
 
         >>> round(math.degrees(OscillatingKinematics(+1, arm=125, distance=150, prime_radius=61, swing=0.2).psi0), 2)
         23.45
         """
-        return angle_between(self.distance, self.arm, self.prime_radius)
+        return float(angle_between(self.distance, self.arm, self.prime_radius))
 
     def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
         """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
@@ -77,20 +81,51 @@ class OscillatingKinematics(RollerKinematics):
         i exp(-i psi), drawn from the end of the segment l v, which is laid off along the arm, to the cam centre.
         """
         s, v, a, _ = values
-        arm, c, psi = self.arm, self.distance, self.psi0 + s
-        across = (arm - c) + self.sigma * arm * v + 2 * c * np.sin(psi / 2) ** 2
-        sine, turning = np.sin(psi), c * v
-        return (c * sine, across), (turning * np.cos(psi), turning * sine + self.sigma * arm * a)
+        arm, c = self.arm, self.distance
+        sine, cosine = sine_cosine((self.psi0 + s) / 2)
+        up, forth = 2 * c * sine * cosine, c * (cosine - sine) * (cosine + sine)  # c sin(psi), c cos(psi)
+        across = (arm - c) + self.sigma * arm * v + 2 * c * sine * sine
+        return (up, across), (v * forth, v * up + self.sigma * arm * a)
 
 
-def angle_between(a: float, b: float, opposite: float) -> float:
-    """The angle [rad] between two sides of a triangle, from the three sides; NaN if they do not close.
+@dataclass(frozen=True, eq=False)
+class ManyOscillating(OscillatingKinematics):
+    """Arms on many cams at once: each size is an array.
 
-    >>> math.degrees(angle_between(3, 4, 5))
-    90.0
+    An arm that does not reach from its pivot to the prime circle, or swings beyond the line of centres, gives NaN.
+    """
+
+    sigma: Any
+    arm: Any
+    distance: Any
+    prime_radius: Any
+    swing: Any
+
+    def __post_init__(self) -> None:
+        """No error: within arrays a miss is NaN."""
+
+    @cached_property
+    def psi0(self) -> Any:
+        """The angles between arms and lines of centres at the low rest [rad]."""
+        angle = angle_between(self.distance, self.arm, self.prime_radius)
+        fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
+        return np.where(fits, angle, np.nan)
+
+    def part(self, which: NDArray[Any] | slice) -> ManyOscillating:
+        """The same of some of the cams."""
+        some = (self.sigma, self.arm, self.distance, self.prime_radius, self.swing)
+        return ManyOscillating(*(column[which] for column in some))
+
+
+def angle_between(a: ArrayLike, b: ArrayLike, opposite: ArrayLike) -> Floats:
+    """The angles [rad] between two sides of triangles, from the three sides; NaN where they do not close.
+
+    >>> np.degrees(angle_between(3, 4, [5, 8])).tolist()
+    [90.0, nan]
     """
     # Kahan's half-angle form: the law of cosines loses the digits of small angles.
-    a, b = max(a, b), min(a, b)
-    rest = opposite - (a - b) if b >= opposite else b - (a - opposite)
-    above, below = ((a - b) + opposite) * rest, (a + (b + opposite)) * ((a - opposite) + b)
-    return 2 * math.atan2(math.sqrt(above), math.sqrt(below)) if above >= 0 and below >= 0 else math.nan
+    (a, b), c = (np.maximum(a, b), np.minimum(a, b)), np.asarray(opposite)
+    rest = np.where(b >= c, c - (a - b), b - (a - c))
+    with np.errstate(invalid="ignore"):
+        above, below = np.sqrt(((a - b) + c) * rest), np.sqrt((a + (b + c)) * ((a - c) + b))
+    return 2 * np.arctan2(above, below)

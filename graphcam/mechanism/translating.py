@@ -11,6 +11,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
 from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
@@ -77,3 +78,7 @@ class ManyTranslating(TranslatingKinematics):
         """Heights of the trace points over the cam centre at the low rest [mm]."""
         with np.errstate(invalid="ignore"):
             return np.sqrt((self.prime_radius - self.offset) * (self.prime_radius + self.offset))
+
+    def part(self, which: NDArray[Any] | slice) -> ManyTranslating:
+        """The same of some of the cams."""
+        return ManyTranslating(self.sigma[which], self.offset[which], self.prime_radius[which])

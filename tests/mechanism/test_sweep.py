@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference import EPS, ReferenceCam, maximum
+from reference import EPS, ReferenceArm, ReferenceCam, maximum
 
 import graphcam as gc
 from graphcam.errors import DesignError
@@ -47,12 +47,33 @@ def some_designs(n: int, seed: int = 1) -> gc.Designs:
     )
 
 
+def some_arms(n: int, seed: int = 1) -> gc.Designs:
+    """Arms with every law, both senses, pivots nearer and farther than the arm is long, nearly folded and stretched."""
+    random = np.random.default_rng(seed)
+    arm = random.uniform(40, 150, n)
+    distance, psi0 = arm * random.uniform(0.6, 1.6, n), np.radians(random.uniform(2, 120, n))
+    return gc.Designs(
+        follower="oscillating",
+        lift=np.radians(random.uniform(2, 45, n)),
+        rise_angle=random.uniform(0.3, 2.5, n),
+        dwell_angle=np.where(random.random(n) < 0.3, 0, random.uniform(0, 1.2, n)),
+        return_angle=random.uniform(0.3, 2.5, n),
+        prime_radius=np.sqrt((distance - arm) ** 2 + 4 * distance * arm * np.sin(psi0 / 2) ** 2),
+        arm=arm,
+        distance=distance,
+        roller_radius=0.1,
+        rise_law=random.choice(gc.LAWS, n),
+        return_law=random.choice(gc.LAWS, n),
+        rotation=random.choice(["ccw", "cw"], n),
+    )
+
+
 def same_bits(one: dict, other: dict) -> bool:
     return one.keys() == other.keys() and all(one[name].tobytes() == other[name].tobytes() for name in one)
 
 
-def test_a_sweep_finds_what_each_cam_finds_by_itself():
-    designs = some_designs(60)
+@pytest.mark.parametrize("designs", [some_designs(60), some_arms(60)], ids=["translating", "oscillating"])
+def test_a_sweep_finds_what_each_cam_finds_by_itself(designs):
     found = gc.sweep(designs)
     for k in range(len(designs)):
         cam = designs.cam(k)
@@ -87,17 +108,35 @@ def test_extremes_lie_at_ends_at_breaks_and_inside(laws, lift, angles, radius, s
         assert found[name][0] == pytest.approx(value, rel=SAME), name
 
 
+@pytest.mark.parametrize(
+    ("reference", "sizes"),
+    [
+        (ReferenceCam, {"lift": 30, "offset": 9, "prime_radius": [42, 60]}),
+        (
+            ReferenceArm,
+            {
+                "follower": "oscillating",
+                "lift": 0.4,
+                "arm": 90,
+                "distance": 95,
+                "prime_radius": [42, 25],
+                "rotation": ["ccw", "cw"],
+            },
+        ),
+    ],
+)
 @pytest.mark.parametrize("laws", [("cycloidal", "3-4-5"), ("modified-sine", "cosine"), ("trapezoidal", "4-5-6-7")])
-def test_against_fifty_digits(laws):
+def test_against_fifty_digits(laws, reference, sizes):
     designs = gc.Designs(
-        lift=30, rise_angle=math.radians(110), dwell_angle=0.5, return_angle=math.radians(95), prime_radius=[42, 60],
-        offset=9, rise_law=laws[0], return_law=laws[1],
+        rise_angle=math.radians(110), dwell_angle=0.5, return_angle=math.radians(95), rise_law=laws[0],
+        return_law=laws[1], **sizes,
     )  # fmt: skip
     found = gc.sweep(designs, ["max_pressure_angle_rise", "max_pressure_angle_return"])
     for k in range(2):
         cam = designs.cam(k)
-        exact, phi = ReferenceCam(cam), (cam.extremes().pressure_angle_rise[1], cam.extremes().pressure_angle_return[1])
-        for name, sign, about in zip(found, (1, -1), phi, strict=True):
+        exact, extremes = reference(cam), (cam.extremes().pressure_angle_rise, cam.extremes().pressure_angle_return)
+        for name, (value, about) in zip(found, extremes, strict=True):
+            sign = math.copysign(1, value)
             peak = maximum(lambda t, sign=sign, exact=exact: sign * exact.pressure_angle(t), about - 0.05, about + 0.05)
             assert abs(found[name][k] / (sign * peak) - 1) < SAME
 
@@ -130,9 +169,9 @@ def test_under_a_flat_face():
     assert not found["max_pressure_angle_rise"].any()
 
 
+@pytest.mark.parametrize("designs", [some_designs(60), some_arms(60)], ids=["translating", "oscillating"])
 @pytest.mark.parametrize("chunk", [1, 7, 4096])
-def test_the_same_bits_for_any_chunking(chunk):
-    designs = some_designs(60)
+def test_the_same_bits_for_any_chunking(designs, chunk):
     assert same_bits(gc.sweep(designs), gc.sweep(designs, chunk=chunk))
 
 
@@ -187,6 +226,40 @@ def test_what_cannot_be_is_nan_and_not_feasible():
         assert np.isfinite(found[name]).tolist() == possible
     assert not found["feasible"][[0, 2, 3, 4, 5, 6]].any()
     assert np.isnan(found["max_v"]).tolist() == [False, False, False, True, True, False, True]
+
+
+def test_an_arm_that_cannot_be_is_nan_and_not_feasible():
+    """It does not reach the prime circle, or swings beyond the line of centres."""
+    designs = gc.Designs(
+        follower="oscillating", lift=[0.4, 0.4, 0.4, 0.4, 2.0], rise_angle=2.0, return_angle=1.8, arm=100, distance=120,
+        prime_radius=[19.9, 90, 90, 220.1, 190], roller_radius=[5, 5, 90, 5, 5],
+    )  # fmt: skip
+    found = gc.sweep(designs)
+    possible = []
+    for k in range(len(designs)):
+        try:
+            possible.append(math.isfinite(designs.cam(k).extremes().min_convex_radius[0]))
+        except DesignError as error:
+            possible.append("roller" in str(error))
+    assert possible == [False, True, True, False, False]
+    for name in EXTREMES:
+        assert np.isfinite(found[name]).tolist() == possible
+    assert found["feasible"].tolist() == [False, True, False, False, False]
+
+
+def test_the_usual_limit_is_that_of_the_follower():
+    """45 degrees of an arm, 30 of a translating follower."""
+    arms = gc.Designs(
+        follower="oscillating", lift=0.4, rise_angle=1.2, return_angle=2.5, arm=100, distance=120,
+        prime_radius=np.linspace(30, 110, 81),
+    )  # fmt: skip
+    sliding = gc.Designs(lift=30, rise_angle=1.6, return_angle=2.5, prime_radius=np.linspace(20, 90, 81))
+    for designs, limit in ((arms, 45), (sliding, 30)):
+        found = gc.sweep(designs)
+        steep = np.degrees(np.abs(found["max_pressure_angle_rise"]))
+        assert (found["feasible"] == (steep <= limit)).all()
+        assert {True, False} == set(found["feasible"].tolist())
+        assert ((steep > 30) & (steep < 45)).any()
 
 
 def test_a_roller_and_a_pressure_angle_too_large_are_not_feasible():
@@ -252,6 +325,9 @@ def test_the_working_set_of_a_full_chunk_is_four_mebibytes():
         ({"offset": "five"}, "offset is 'five'"),
         ({"follower": "flat"}, "follower is 'flat'"),
         ({"follower": "flat-faced", "offset": 5}, "left out for a flat-faced follower"),
+        ({"arm": 100}, "arm is 'given', but must be left out for a translating follower"),
+        ({"follower": "oscillating", "arm": 100, "distance": 120, "offset": 5}, "left out for an oscillating follower"),
+        ({"follower": "oscillating", "arm": 100}, "distance is 'left out'"),
     ],
 )
 def test_designs_that_do_not_fit_say_why(change, message):

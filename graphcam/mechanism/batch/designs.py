@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.follower import FlatFaced, Translating, sense
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating, sense
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.mechanism.cam import Cam
@@ -18,10 +18,16 @@ from graphcam.mechanism.cam import Cam
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 
 NUMBERS = (
-    "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius", "offset", "roller_radius",
+    "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius", "offset", "arm", "distance", "roller_radius",
 )  # fmt: skip
 """The sizes of a design."""
-KINDS = ("translating", "flat-faced")
+Kind = Literal["translating", "oscillating", "flat-faced"]
+OWN: dict[str, tuple[str, ...]] = {
+    "translating": ("offset", "roller_radius"),
+    "oscillating": ("arm", "distance", "roller_radius"),
+    "flat-faced": (),
+}
+"""The sizes that not every follower has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,16 +38,18 @@ class Designs:
 
     Parameters
     ----------
-    lift, prime_radius, offset, roller_radius : mm
+    lift, prime_radius, roller_radius : mm; the lift of an arm is an angle [rad]
     rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
+    offset : mm, of a translating follower;  arm, distance : mm, an arm's length and centre distance
     rise_law, return_law : names of :data:`graphcam.LAWS`
     rotation : "ccw" or "cw"
-    follower : "translating", or "flat-faced", which has neither offset nor roller
+    follower : "translating", "oscillating", or "flat-faced", which has neither offset nor roller
 
     Raises
     ------
-    DesignError : the lengths differ, a law, rotation or follower is unknown, or a flat face has an offset or a roller.
-        A number that no cam can have is no error here: that cam's extremes are NaN
+    DesignError : the lengths differ, a law, rotation or follower is unknown, a size is given that the follower does not
+        have, or arm or distance is left out.  A number that no cam can have is no error here: that cam's extremes are
+        NaN
 
     >>> designs = Designs(lift=30, rise_angle=2.0, return_angle=1.5, prime_radius=[40, 50, 60], rise_law="cycloidal")
     >>> len(designs), designs.cam(1).prime_radius
@@ -54,28 +62,36 @@ class Designs:
     prime_radius: Any
     dwell_angle: Any = 0.0
     offset: Any = 0.0
+    arm: Any = 0.0
+    distance: Any = 0.0
     roller_radius: Any = 0.0
     rise_law: Any = "3-4-5"
     return_law: Any = "3-4-5"
     rotation: Any = "ccw"
-    follower: Literal["translating", "flat-faced"] = "translating"
+    follower: Kind = "translating"
 
     def __post_init__(self) -> None:
         for name in NUMBERS:
             object.__setattr__(self, name, _numbers(name, getattr(self, name)))
         for name, known in (("rise_law", LAWS), ("return_law", LAWS), ("rotation", ("ccw", "cw"))):
             object.__setattr__(self, name, _words(name, getattr(self, name), known))
-        _words("follower", self.follower, KINDS)
+        _words("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
             raise DesignError(
                 "number of designs", " and ".join(map(str, sorted(sizes))), "the same in every array",
                 "give one number for all cams, or one for each",
             )  # fmt: skip
-        if self.follower == "flat-faced":
-            for name in ("offset", "roller_radius"):
-                if np.any(getattr(self, name)):
-                    raise DesignError(name, "given", "left out for a flat-faced follower")
+        self._check_follower()
+
+    def _check_follower(self) -> None:
+        own, a = OWN[self.follower], "an" if self.follower == "oscillating" else "a"
+        for name in ("offset", "arm", "distance", "roller_radius"):
+            given = bool(np.any(getattr(self, name)))
+            if given and name not in own:
+                raise DesignError(name, "given", f"left out for {a} {self.follower} follower")
+            if not given and name in own and name in ("arm", "distance"):
+                raise DesignError(name, "left out", "a length in mm, or one for each cam")
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
@@ -132,9 +148,12 @@ class Designs:
         phases += [Dwell(sizes["dwell_angle"])] if sizes["dwell_angle"] else []
         phases += [Return(sizes["lift"], sizes["return_angle"], names["return_law"])]
         phases += [Dwell(low)] if low else []
-        flat = self.follower == "flat-faced"
-        follower = FlatFaced() if flat else Translating(sizes["offset"], sizes["roller_radius"])
+        own = {name: sizes[name] for name in OWN[self.follower]}
+        follower: Follower = _FOLLOWERS[self.follower](**own)
         return Cam(Motion(phases), follower, sizes["prime_radius"], "ccw" if sense(names["rotation"]) > 0 else "cw")
+
+
+_FOLLOWERS = {"translating": Translating, "oscillating": Oscillating, "flat-faced": FlatFaced}
 
 
 def _numbers(name: str, values: ArrayLike) -> Floats:

@@ -15,8 +15,9 @@ from graphcam.given.limits import Limits
 from graphcam.mechanism.batch.designs import Designs
 from graphcam.mechanism.batch.greatest import Numbers, Sought, greatest
 from graphcam.mechanism.batch.legs import Legs
-from graphcam.mechanism.batch.sought import FlatSharpness, Sharpness, Steepness
+from graphcam.mechanism.batch.sought import FlatSharpness, Many, Sharpness, Steepness
 from graphcam.mechanism.flat_faced import FlatFacedKinematics
+from graphcam.mechanism.oscillating import ManyOscillating
 from graphcam.mechanism.translating import ManyTranslating
 
 QUANTITIES = (
@@ -54,12 +55,12 @@ class Chunk:
 
     @cached_property
     def max_v(self) -> Floats:
-        """The greatest |v| [mm/rad]: C_v h/F."""
+        """The greatest |v| [mm/rad], of an arm [rad/rad]: C_v h/F."""
         return self._peak(lambda name: law(name).peak_velocity, 1)
 
     @cached_property
     def max_a(self) -> Floats:
-        """The greatest |a|, of both sides of a jump [mm/rad^2]: C_a h/F^2."""
+        """The greatest |a|, of both sides of a jump [mm/rad^2], of an arm [rad/rad^2]: C_a h/F^2."""
         return self._peak(lambda name: law(name).peak_acceleration, 2)
 
     @cached_property
@@ -86,11 +87,14 @@ class Chunk:
     def _sharpness(self) -> Sharpness | FlatSharpness:
         if self.designs.follower == "flat-faced":
             return FlatSharpness(FlatFacedKinematics(+1, self._prime_radius))  # the sense does not matter to it
-        return Sharpness(self._translating)
+        return Sharpness(self._many)
 
     @cached_property
-    def _translating(self) -> ManyTranslating:
-        return ManyTranslating(self.designs.sigma, self.designs.column("offset"), self._prime_radius)
+    def _many(self) -> Many:
+        sigma, column = self.designs.sigma, self.designs.column
+        if self.designs.follower == "oscillating":
+            return ManyOscillating(sigma, column("arm"), column("distance"), self._prime_radius, self._lift)
+        return ManyTranslating(sigma, column("offset"), self._prime_radius)
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:
@@ -103,7 +107,7 @@ class Chunk:
     def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
         if self.designs.follower == "flat-faced":
             return 0 * self._lift * self._prime_radius  # the face is perpendicular to the motion
-        return np.arctan(self._over_legs(Steepness(self._translating), legs))
+        return np.arctan(self._over_legs(Steepness(self._many), legs))
 
     def _over_legs(self, sought: Sought, legs: tuple[str, int, Floats]) -> Floats:
         key, direction, angle = legs

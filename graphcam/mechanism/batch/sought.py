@@ -11,23 +11,22 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.batch.greatest import Numbers
 from graphcam.mechanism.flat_faced import FlatFacedKinematics
 from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.oscillating import ManyOscillating
 from graphcam.mechanism.translating import ManyTranslating
 
-
-def _some(kin: ManyTranslating, which: Numbers | slice) -> ManyTranslating:
-    return ManyTranslating(kin.sigma[which], kin.offset[which], kin.prime_radius[which])
+Many = ManyTranslating | ManyOscillating
 
 
 @dataclass(frozen=True, eq=False)
 class Steepness:
     """tan(alpha), which grows with the pressure angle."""
 
-    kin: ManyTranslating
+    kin: Many
     signed: ClassVar[bool] = True
 
     def part(self, which: Numbers | slice) -> Steepness:
         """The same of some of the cams."""
-        return Steepness(_some(self.kin, which))
+        return Steepness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
@@ -43,12 +42,12 @@ class Steepness:
 class Sharpness:
     """The curvature of the pitch curve."""
 
-    kin: ManyTranslating
+    kin: Many
     signed: ClassVar[bool] = False
 
     def part(self, which: Numbers | slice) -> Sharpness:
         """The same of some of the cams."""
-        return Sharpness(_some(self.kin, which))
+        return Sharpness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
         """kappa [1/mm]."""

@@ -16,6 +16,7 @@ from graphcam.errors import DesignError, nearest
 from graphcam.given.limits import Limits
 from graphcam.mechanism.batch.designs import Designs
 from graphcam.mechanism.batch.quantities import QUANTITIES, Chunk
+from graphcam.mechanism.least_radius import USUAL_LIMIT
 
 CHUNK_OF_DESIGNS = 4096
 """Designs that are computed at a time: what they need stays in the processor's cache."""
@@ -52,17 +53,19 @@ def sweep(
 
         - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of greatest magnitude
         - min_pitch_curvature_radius [mm], the least of the convex parts, inf without any; of a flat face the least rho
-        - max_v [mm/rad] and max_a [mm/rad^2], magnitudes
+        - max_v [mm/rad] and max_a [mm/rad^2], magnitudes; of an arm [rad/rad] and [rad/rad^2]
         - feasible: within the limits, and the roller smaller than the least radius of curvature
 
     executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
-    limits : permitted pressure angles; the rest belongs to the rise.  None is 30 degrees and force closure
+    limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
+        and force closure
     chunk : designs computed at a time
 
     Returns
     -------
     dict : by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large as the
-        prime radius, phases longer than the turn.  The bits depend neither on ``chunk`` nor on the executor
+        prime radius, an arm that does not reach, phases longer than the turn.  The bits depend neither on ``chunk`` nor
+        on the executor
 
     Raises
     ------
@@ -81,7 +84,7 @@ def sweep(
             raise DesignError("quantity", name, "one that a sweep can find", nearest(name, QUANTITIES))
     if chunk < 1:
         raise DesignError("chunk", chunk, "at least 1 design")
-    compute = partial(computed, quantities=wanted, limits=limits or Limits(), chunk=chunk)
+    compute = partial(computed, quantities=wanted, limits=limits or Limits(usual_limit(designs.follower)), chunk=chunk)
     if executor is None:
         return compute(designs)
     size = CHUNKS_PER_TASK * chunk
@@ -94,6 +97,15 @@ def sweep(
             out[name][done:stop] = column
         done = stop
     return out
+
+
+def usual_limit(follower: str) -> float:
+    """The permitted pressure angle on the rise [rad] where none is given.
+
+    >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
+    45.0
+    """
+    return USUAL_LIMIT.get(follower, USUAL_LIMIT["translating"])
 
 
 def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:
