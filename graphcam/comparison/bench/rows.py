@@ -127,9 +127,9 @@ def _sweeps(timer: Timer) -> list[Row]:
     rows: list[Row] = []
     for t in sweep_times(timer):
         eps, ratio = t.error / reference.EPS, t.seconds / t.pairs
-        rows.append(Row(f"sweep, {t.law}", "all quantities of a design", ratio, f"SC({STATIONS})", "<= 1.6", eps,
+        rows.append(Row(f"sweep, {t.name}", "all quantities of a design", ratio, f"SC({STATIONS})", "<= 1.6", eps,
                         t.seconds))  # fmt: skip
-        rows.append(Row(f"sweep, {t.law}", "beside a loop over the extremes of one cam", t.looped / t.seconds,
+        rows.append(Row(f"sweep, {t.name}", "beside a loop over the extremes of one cam", t.looped / t.seconds,
                         "times faster", ">= 8", None, t.looped))  # fmt: skip
     return rows
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from graphcam.comparison.bench.scenes import ARM
 from graphcam.comparison.bench.timing import Timer
 from graphcam.mechanism.batch.designs import Designs
 from graphcam.mechanism.batch.quantities import QUANTITIES
@@ -15,43 +17,50 @@ STATIONS = 181
 """Stations of one design, whose sines and cosines are the unit."""
 LOOPED = 8
 """Designs of the loop, in which every cam takes as long as the other."""
-LAWS = ("3-4-5", "cycloidal", "modified-trapezoidal")
+SWEEPS = (
+    ("translating", "3-4-5"), ("translating", "cycloidal"), ("translating", "modified-trapezoidal"), ("arm", "3-4-5"),
+)  # fmt: skip
+"""Followers and laws."""
 
 
 @dataclass(frozen=True)
 class SweepTime:
-    """One law's sweep: seconds a design, of it and of the loop, of 181 pairs; the greatest relative difference."""
+    """One sweep: seconds a design, of it and of the loop, of 181 pairs; the greatest relative difference."""
 
-    law: str
+    name: str
     seconds: float
     looped: float
     pairs: float
     error: float
 
 
-def designs(law: str, n: int) -> Designs:
-    """Translating followers with random sizes, always the same.
+def designs(follower: str, law: str, n: int) -> Designs:
+    """Cams of random sizes, always the same: with a translating follower or an arm.
 
-    >>> len(designs("3-4-5", 10))
+    >>> len(designs("arm", "3-4-5", 10))
     10
     """
     random = np.random.default_rng(1)
+    lift, place = random.uniform(10, 40, n), random.uniform(-20, 20, n)
+    own: dict[str, Any] = {"lift": lift, "offset": place}
+    if follower == "arm":
+        own = {"follower": "oscillating", "lift": lift / ARM, "arm": ARM, "distance": 1.2 * ARM + place / 2}
     return Designs(
-        lift=random.uniform(10, 40, n), rise_angle=random.uniform(1, 2.5, n), return_angle=random.uniform(1, 2, n),
+        rise_angle=random.uniform(1, 2.5, n), return_angle=random.uniform(1, 2, n),
         dwell_angle=random.uniform(0, 1.2, n), prime_radius=random.uniform(40, 80, n),
-        offset=random.uniform(-20, 20, n), rise_law=law, return_law=law,
+        rise_law=law, return_law=law, **own,
     )  # fmt: skip
 
 
 def sweep_times(timer: Timer) -> list[SweepTime]:
-    """All quantities of a chunk of designs, by the law of rise and return."""
+    """All quantities of a chunk of designs."""
     pairs = timer.pairs(STATIONS * LOOPED) / LOOPED
     times: list[SweepTime] = []
-    for law in LAWS:
-        many = designs(law, CHUNK_OF_DESIGNS)
+    for follower, law in SWEEPS:
+        many = designs(follower, law, CHUNK_OF_DESIGNS)
         seconds = timer.seconds(lambda many=many: sweep(many)) / CHUNK_OF_DESIGNS
         looped = timer.seconds(lambda many=many: [many.cam(k).extremes() for k in range(LOOPED)]) / LOOPED
-        times.append(SweepTime(law, seconds, looped, pairs, _error(many)))
+        times.append(SweepTime(f"{follower}, {law}", seconds, looped, pairs, _error(many)))
     return times
 
 
