@@ -117,14 +117,16 @@ class ManyOscillating(OscillatingKinematics):
         return ManyOscillating(*(column[which] for column in some))
 
 
-def angle_between(a: ArrayLike, b: ArrayLike, opposite: ArrayLike) -> Floats:
+def angle_between(one: ArrayLike, two: ArrayLike, opposite: ArrayLike) -> Floats:
     """The angles [rad] between two sides of triangles, from the three sides; NaN where they do not close.
 
     >>> np.degrees(angle_between(3, 4, [5, 8])).tolist()
     [90.0, nan]
     """
     # Kahan's half-angle form: the law of cosines loses the digits of small angles.
-    (a, b), c = (np.maximum(a, b), np.minimum(a, b)), np.asarray(opposite)
+    a: Floats = np.maximum(one, two)
+    b: Floats = np.minimum(one, two)
+    c: Floats = np.asarray(opposite, dtype=np.float64)
     rest = np.where(b >= c, c - (a - b), b - (a - c))
     with np.errstate(invalid="ignore"):
         above, below = np.sqrt(((a - b) + c) * rest), np.sqrt((a + (b + c)) * ((a - c) + b))
