@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphcam.errors import GraphcamError
+from graphcam.exercises.axes import finds_room
 from graphcam.exercises.certificate import Certificate, Key
 from graphcam.exercises.hypothesis import Hypothesis
 from graphcam.exercises.redrawing import dependences
@@ -23,7 +24,8 @@ TOO_EXACT = 5e-4
 def certify(variant: Variant) -> Certificate | None:
     """The certificate of a variant; None where its answers cannot tell every mistake from every other.
 
-    What is quickly found out comes first: of several draws most are turned away.
+    Nor has one a variant whose diagrams find no room on the worksheet.  What is quickly found out comes first: of
+    several draws most are turned away.
 
     Raises
     ------
@@ -34,7 +36,7 @@ def certify(variant: Variant) -> Certificate | None:
         drawn = perfect_hands(exercise, task)
     except GraphcamError:
         return None
-    if not promising(exercise, drawn):
+    if not (finds_room(exercise, drawn.right) and promising(exercise, drawn)):
         return None
     wrong = hypotheses(exercise, drawn)
     if alike(exercise, wrong):

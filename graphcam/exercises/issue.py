@@ -27,7 +27,8 @@ def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, Cer
         if certificate:
             return candidate, certificate
     raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws",
-                      "widen the parameters, ask for another reading, or leave a misconception out")  # fmt: skip
+                      "widen the parameters, ask for another reading, leave a misconception out, or choose an ordinate "
+                      "and poles for which the diagrams fit on the worksheet")  # fmt: skip
 
 
 def variant(exercise: Exercise, student: str, secret: bytes) -> Variant:

@@ -8,25 +8,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from graphcam.constructions.axes import phi_axes
-from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
-from graphcam.drafting.ink import Step, View
+from graphcam.drafting.ink import Step
+from graphcam.exercises.axes import empty_axes
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.drawing import board_chain
-from graphcam.exercises.exercise import Asked, Diagram, Exercise
+from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.reading.drawing import ORIGIN
 from graphcam.exercises.roster import Student
 from graphcam.exercises.template import sentence
 from graphcam.exercises.variant import Variant
 from graphcam.main_job.markdown import number
 from graphcam.main_job.sheet import title_block
-from graphcam.main_job.solution import board_of
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
-from graphcam.task import Task
 from graphcam.words import Caption, Words, say, say_in, say_many
 
 TAG = "answers"
@@ -75,25 +70,11 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
     """The sheet to draw on: what is given, and the table for the answers."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [(name, _axes(name, variant.task)) for name in exercise.axes]
-    steps += [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    steps = [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
     rows = tuple((asked.text, asked.name, asked.unit_said, " " * 16) for asked in exercise.answers)
     table = Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
     return _composed(variant, student, steps, [table], [instructions(variant)])
-
-
-ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {
-    "acceleration": ("a", ACCELERATION, -80.0, 80.0),
-    "velocity": ("v", VELOCITY, -80.0, 80.0),
-    "displacement": ("s", DISPLACEMENT, 0.0, 140.0),
-}
-"""Symbol, view, and how far the empty axes reach [mm]: the same for everybody, so that they betray no ordinate."""
-
-
-def _axes(name: Diagram, task: Task) -> Step:
-    symbol, view, low, high = ROOM[name]
-    marks = phi_axes(task.motion(), board_of(task).mu_phi, np.array([low, high]), symbol)
-    return Step(view.title, view.title, view, marks)
 
 
 def key_sheet(variant: Variant, student: Student, certificate: Certificate) -> Drawing:
