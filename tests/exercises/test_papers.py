@@ -9,6 +9,7 @@ import tomllib
 
 import ezdxf
 import nbformat
+import numpy as np
 import pytest
 from issued_variants import SECRET, issued
 from russian import english_words
@@ -16,8 +17,11 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
+from graphcam.drafting.ink import Segments
 from graphcam.errors import TaskError
+from graphcam.exercises.axes import empty_axes
 from graphcam.exercises.certificate import Certificate
+from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise, library
 from graphcam.exercises.folders import folder_name
@@ -159,3 +163,41 @@ def test_a_course_is_made_whole(tmp_path):
     again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert again.exit_code == 2
     assert "there already" in again.output
+
+
+@pytest.mark.parametrize("name", [name for name in library() if name != "differentiation"])
+def test_the_diagrams_of_a_variant_find_room_on_its_axes(name):
+    """A curve that a hand draws over the empty axes ends neither above nor below them."""
+    exercise, certificate = issued(name)
+    chain = board_chain(drawn(exercise, "Anna", SECRET, certificate.draw).task)
+    greatest = chain.acceleration.readings["greatest"].paper.max()
+    curves = {
+        "acceleration": np.array([greatest, -greatest]),
+        "velocity": chain.integration.points["v_curve"].imag,
+        "displacement": chain.integration.points["s_curve"].imag,
+    }
+    assert exercise.axes
+    for diagram in exercise.axes:
+        (lines,) = [mark for mark in empty_axes(exercise, chain, diagram).marks if isinstance(mark, Segments)]
+        assert lines.starts.imag.min() <= curves[diagram].min() + 1e-9
+        assert curves[diagram].max() <= lines.ends.imag.max()
+
+
+@pytest.mark.parametrize(
+    ("name", "views"),
+    [
+        ("integration", ["acceleration", "velocity", "displacement"]),
+        ("differentiation", ["measured displacement", "measured velocity", "measured acceleration"]),
+        ("inversion-arm", ["acceleration", "velocity", "displacement", "profile"]),
+    ],
+)
+def test_a_worksheet_is_true_to_scale_and_its_diagrams_stand_in_order(name, views):
+    exercise, certificate = issued(name)
+    (page,) = worksheet(drawn(exercise, "Anna", SECRET, certificate.draw), Student("Anna")).pages
+    # Only views in true scale have their origins said.
+    assert set(page.origins) == set(views)
+    origins = [page.origins[view] for view in views[:3]]
+    assert len({origin.real for origin in origins}) == 1
+    assert [origin.imag for origin in origins] == sorted((origin.imag for origin in origins), reverse=True)
+    # A pole of 50 mm stands to the left of the zero, inside the frame.
+    assert page.frame.left < origins[0].real - 50
