@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass, field
-from typing import Any, Literal, get_args
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, Self, get_args
 
 from graphcam.errors import DesignError
 from graphcam.language import ENGLISH, language, languages
@@ -64,6 +64,10 @@ class SheetTable:
         one_of("frame", self.frame, get_args(Frame))
         one_of("orientation", self.orientation, get_args(Orientation))
         one_of("language", self.language, languages())
+
+    def on(self, format_: Format) -> Self:
+        """The same on another format."""
+        return replace(self, format=format_)
 
     @property
     def tell(self) -> Tell:

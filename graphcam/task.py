@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass, field
-from typing import Annotated, Any, ClassVar, Literal
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
@@ -18,7 +18,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.motion_tables import ByKind, MotionTable
-from graphcam.sheet_tables import SheetTable, TitleTable, one_of, plain, positive
+from graphcam.sheet_tables import Format, SheetTable, TitleTable, one_of, plain, positive
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
@@ -163,8 +163,8 @@ class DrawingTable(SheetTable):
     """``[drawing]``: how it is drawn.
 
     divisions : equal parts per phase
-    ordinate : mm on paper, the greatest ordinate of the first rise's acceleration; None is 50, or less where the whole
-        diagram would be too high for its sheet
+    ordinate : mm on paper, the greatest ordinate of the first rise's acceleration; None is the longest of a round
+        series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
         in proportion to the axis, or what makes the diagrams neither too high nor too low
     rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
@@ -183,6 +183,14 @@ class DrawingTable(SheetTable):
         for k, pole in enumerate(self.poles or ()):
             positive(f"poles[{k}]", pole, "mm on paper")
         positive("rounding", self.rounding, "mm")
+
+    def on(self, format_: Format) -> Self:
+        """The same on another format, with the ordinate and poles that suit it: those given were chosen for this one.
+
+        >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
+        True
+        """
+        return replace(super().on(format_), ordinate=None, poles=None)
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ def _read(path: Path | None, divisions: int | None, language: str | None, *, sma
     asked = {"divisions": divisions, "language": language}
     drawing = replace(drawing, **{key: value for key, value in asked.items() if value is not None})
     if small and drawing.format in LARGE:
-        drawing = replace(drawing, format="A3")
+        drawing = drawing.on("A3")
     return replace(task, drawing=drawing)
 
 

@@ -186,7 +186,19 @@ def _curve(phase: Moving, greatest: float, start: float, end: float) -> Points:
     return np.concatenate([[start + 0j], *ordinates, [end + 0j]])
 
 
+BESIDE = 6.0
+"""The dimension of the greatest ordinate stands so far beyond the part of the curve that is on its side [mm]."""
+
+
 def _ordinate(line: Points, greatest: float) -> Dimension:
-    """The dimension of a phase's greatest ordinate, beside the curve."""
-    top = line[int(np.argmax(np.abs(line.imag)))]
-    return Dimension(complex(top.real), complex(top), say("{y:.1f}", y=greatest), aside=-4.0 if top.imag > 0 else 4.0)
+    """The dimension of a phase's greatest ordinate, beyond where the curve crosses the axis: clear of the others."""
+    height = np.sign(line.imag[np.argmax(np.abs(line.imag))]) * line.imag
+    top = complex(line[np.flatnonzero(height >= (1 - LEVEL) * height.max())[-1]])
+    crossing = float(line.real[np.flatnonzero(height > LEVEL * height.max())[-1]])
+    by = crossing + min(BESIDE, (float(line.real[-1]) - crossing) / 2) - top.real
+    # To the right of an ordinate that points up is on the negative side of its dimension.
+    return Dimension(complex(top.real), top, say("{y:.1f}", y=greatest), aside=-by if top.imag > 0 else by)
+
+
+LEVEL = 1e-6
+"""Ordinates that differ by less than this part of the greatest are one."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from graphcam.constructions.arc_diagrams import arc_diagrams
+from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_roller import ArcStations, arc_roller, divide_arcs
 from graphcam.constructions.arcs import three_arcs
 from graphcam.drafting.ink import Construction
@@ -27,6 +27,7 @@ class ArcBoard:
     divisions : equal parts of each arc
     mu_phi : rad/mm
     room : width and height of paper that the cam may take [mm]
+    heights : that the diagrams of a, v and s should keep to [mm of paper]
     """
 
     given: ThreeArcs
@@ -35,6 +36,7 @@ class ArcBoard:
     divisions: int
     mu_phi: Scale
     room: tuple[float, float]
+    heights: Mapping[str, float] = field(default_factory=lambda: HEIGHTS)
 
     @property
     def mu_l(self) -> Scale:
@@ -84,7 +86,7 @@ class ArcChain(Mapping[str, Construction]):
     @cached_property
     def arc_diagrams(self) -> Construction:
         """The same over the cam angle, and the greatest values."""
-        return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil)
+        return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil, self.board.heights)
 
     @property
     def spans(self) -> tuple[slice, ...]:

@@ -39,15 +39,18 @@ VIEWS: Mapping[str, View] = {"a": ACCELERATION, "v": VELOCITY, "s": DISPLACEMENT
 SYMBOLS = {"a": "a", "v": "v", "s": "s", "alpha": "α"}
 MIRROR = {"a": 1, "v": -1, "s": 1, "alpha": -1}
 """What becomes of a quantity on the mirrored flank, which is run over backwards."""
-ROOM = {"a": 100.0, "v": 80.0, "s": 60.0}
-"""Each diagram takes the largest standard scale at which it is not higher [mm]."""
+HEIGHTS = {"a": 100.0, "v": 80.0, "s": 60.0}
+"""Each diagram takes the largest standard scale at which it is not higher [mm of paper]."""
 
 
-def arc_diagrams(rolled: Construction, mu_phi: Scale, pencil: Pencil) -> Construction:
+def arc_diagrams(
+    rolled: Construction, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
+) -> Construction:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
     rolled : from :func:`~graphcam.constructions.arc_roller.arc_roller`
     mu_phi : scale of the cam angle, and of the pressure angle [rad/mm]
+    heights : that the diagrams of a, v and s should keep to [mm of paper]
 
     Readings: the ``lift``; ``max_v``, ``max_a`` and ``max_alpha``, the greatest magnitudes; ``v_candidates``,
     ``a_candidates`` and ``alpha_candidates`` (..., 2), highest and lowest, which they were chosen from.
@@ -59,27 +62,27 @@ def arc_diagrams(rolled: Construction, mu_phi: Scale, pencil: Pencil) -> Constru
     readings: dict[str, Reading] = {}
     for name in VIEWS:
         source = rolled.readings[name]
-        scale = mu_phi.per_mm if name == "alpha" else _scale(rolled, name).per_mm
+        scale = mu_phi.per_mm if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
         points[name] = x + UP * (source.value / scale + hand.line(stations.u.size))
         if name == "s":
             readings["lift"] = reading(hand.read(points[name].imag[..., -1]), scale, source.unit)
             continue
         # Highest and lowest place of the curve.
         tops = np.stack([farthest_of(points[name], stations.spans, side * UP) for side in (1, -1)], axis=-1)
-        heights = hand.read(np.abs(tops.imag))
+        greatest = hand.read(np.abs(tops.imag))
         points[f"{name}_tops"] = tops
-        readings[f"max_{name}"] = reading(np.max(heights, axis=-1), scale, source.unit)
-        readings[f"{name}_candidates"] = reading(heights, scale, source.unit)
-    givens = {"rolled": rolled, "mu_phi": mu_phi, "pencil": pencil}
+        readings[f"max_{name}"] = reading(np.max(greatest, axis=-1), scale, source.unit)
+        readings[f"{name}_candidates"] = reading(greatest, scale, source.unit)
+    givens = {"rolled": rolled, "mu_phi": mu_phi, "heights": heights, "pencil": pencil}
     return Construction("arc_diagrams", givens, readings, points, _draw)
 
 
-def _scale(rolled: Construction, name: str) -> Scale:
-    """The scale of a diagram, by what is read in the first sample."""
+def _scale(rolled: Construction, name: str, height: float) -> Scale:
+    """The scale of a diagram that should not be higher, by what is read in the first sample."""
     values: Floats = np.nan_to_num(rolled.value(name))
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     # On the return the velocity goes as far down as it went up.
-    return standard_scale((2 * high if name == "v" else high - low) or 1.0, ROOM[name])
+    return standard_scale((2 * high if name == "v" else high - low) or 1.0, height)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -140,7 +143,8 @@ def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
     held = float(curve[-1].imag) if name == "s" else 0.0
     line = _whole_turn(curve, rolled.givens["stations"], edges, MIRROR[name], held)
     low, high = float(np.nanmin(line.imag)), float(np.nanmax(line.imag))
-    mu = np.degrees(mu_phi.per_mm) if name == "alpha" else _scale(rolled, name).per_mm
+    heights = plotted.givens["heights"]
+    mu = np.degrees(mu_phi.per_mm) if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
     axes: list[Mark] = [
         Arrow(0j, edges[-1] + OVERHANG + 0j, Role.SCALE),
         Arrow(low * UP, (high + OVERHANG) * UP, Role.SCALE),

@@ -18,8 +18,8 @@ from graphcam.words import say_in
 
 OVERHANG = 8.0
 """How far an axis runs on beyond what is drawn [mm]."""
-NUMBER_ROOM = 4.5
-"""Stations are named that stand at least so far apart [mm of paper]."""
+NUMBER_ROOM = 4.5, 6.0
+"""Stations are named that stand at least so far apart [mm of paper]; where some have names of two digits, so far."""
 EVERY = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
 """Every how many stations may be named."""
 SAME_LEVEL = 1e-6
@@ -150,7 +150,8 @@ def numbered(points: Points, stations: Stations) -> list[int]:
         between = np.abs(np.diff(points[span]))
         # A covered touch point is none.
         spacing = float(np.nanmedian(between)) if np.isfinite(between).any() else 0.0
-        every = next((k for k in EVERY if k * spacing >= NUMBER_ROOM), parts)
+        room = NUMBER_ROOM[parts >= 10]
+        every = next((k for k in EVERY if k * spacing >= room), parts)
         # The last one before the end would stand too near to it.
         found += [span.start + k for k in range(0, parts, every) if k == 0 or parts - k >= every]
         found.append(span.start + parts)

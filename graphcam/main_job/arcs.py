@@ -49,13 +49,15 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
     if not roots[0].sound:
         raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
     width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
+    diagrams = diagram_room(drawing)
     board = ArcBoard(
         given=given,
         dwell=math.radians(task.arcs.dwell),
         roller_radius=task.follower.roller_radius,
         divisions=drawing.divisions,
-        mu_phi=Scale(math.radians(diagram_room(drawing).degrees_per_mm), "rad"),
+        mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
         room=(SHARE * width, SHARE * height),
+        heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
     )
     motion = roots[0].motion(board.roller_radius, board.dwell)
     return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)

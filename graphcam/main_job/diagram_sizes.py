@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,15 +11,15 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion, Rise
 from graphcam.sheet_tables import SheetTable
 
-ORDINATES = (50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
-"""Ordinates that are chosen from [mm of paper]; the first is the usual one."""
+ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+"""Ordinates that are chosen from [mm of paper]."""
 POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
 """Pole distances that are chosen from [mm of paper]."""
 USUAL_POLE = 40.0
 """At 1 degree a millimetre [mm of paper]; where the axis is shorter it is shorter in proportion, so that chords keep
 their slopes."""
-LOW = 0.5
-"""A diagram that is lower than this part of its room gets a shorter pole."""
+LOW = 0.7
+"""A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
 LONGEST_POLE = 0.25
 """Of the axis of the cam angle: a longer pole would take the room of the diagrams."""
 
@@ -40,8 +40,8 @@ class DiagramRoom:
 
 ROOMS = {
     ("A1", "landscape"): DiagramRoom(1.0, 180.0, 130.0, 60.0),
-    ("A1", "portrait"): DiagramRoom(1.0, 150.0, 120.0, 60.0),
-    ("A2", "landscape"): DiagramRoom(1.0, 90.0, 80.0, 42.0),
+    ("A1", "portrait"): DiagramRoom(1.0, 120.0, 100.0, 50.0),
+    ("A2", "landscape"): DiagramRoom(1.0, 75.0, 60.0, 36.0),
     ("A2", "portrait"): DiagramRoom(2.0, 110.0, 90.0, 50.0),
     ("A3", "landscape"): DiagramRoom(2.0, 90.0, 75.0, 40.0),
     ("A3", "portrait"): DiagramRoom(2.0, 80.0, 70.0, 40.0),
@@ -51,13 +51,19 @@ ROOMS = {
 """By format and orientation."""
 
 
-def diagram_room(drawing: SheetTable) -> DiagramRoom:
-    """What the diagrams of a sheet are drawn for."""
-    return ROOMS[drawing.format, drawing.orientation]
+WITHOUT_ANGLES = 1.6
+"""So many times its height the displacement may have where no diagram of the pressure angle stands under it; not on A4,
+where the combined diagram, which has the same scale, would be wider than the sheet."""
+
+
+def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
+    """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
+    room = ROOMS[drawing.format, drawing.orientation]
+    return room if angles or drawing.format == "A4" else replace(room, s=WITHOUT_ANGLES * room.s)
 
 
 def chosen_ordinate(motion: Motion, room: DiagramRoom) -> float:
-    """The usual ordinate of the first rise [mm of paper], or the largest at which the acceleration keeps to its room.
+    """The largest ordinate of the first rise [mm of paper] at which the acceleration keeps to its room.
 
     >>> from math import pi
     >>> from graphcam.given.motion import Return, Rise
@@ -76,8 +82,8 @@ def chosen_ordinate(motion: Motion, room: DiagramRoom) -> float:
 def chosen_poles(motion: Motion, room: DiagramRoom, ordinate: float) -> tuple[float, float]:
     """The pole distances, acceleration to velocity and on to displacement [mm of paper].
 
-    The usual ones; longer ones where a diagram would be too high, shorter ones where it would be less than half as high
-    as its room.
+    The usual ones; longer ones where a diagram would be too high, shorter ones where it would be much lower than its
+    room.
     """
     s, v, _ = _values(motion)
     # mu_v = mu_a mu_phi H1, mu_s = mu_v mu_phi H2.

@@ -56,11 +56,12 @@ def solve(task: Task, pencil: Pencil | None = None) -> Solution:
 def board_of(task: Task) -> Board:
     """What the task puts on the drawing board."""
     drawing, motion = task.drawing, task.motion()
-    room = diagram_room(drawing)
+    follower = _drawn_follower(task)
+    room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
     ordinate = drawing.ordinate or chosen_ordinate(motion, room)
     return Board(
         motion=motion,
-        follower=_drawn_follower(task),
+        follower=follower,
         rotation=task.rotation,
         limits=task.limits(),
         prime_radius=task.cam.prime_radius,

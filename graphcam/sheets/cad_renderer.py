@@ -71,18 +71,23 @@ def _draw_group(document: Document, group: Group, prefix: str, left: float) -> N
     if group.name == "frame":
         _draw_frame(document, group, prefix, left)
         return
-    lines = {line for e in group.entities if isinstance(e, Text) and e.of for line in e.of.lines}
+    lines = {line for e in group.entities if isinstance(e, Text) and e.of and _measurable(e.of) for line in e.of.lines}
     for entity in group.entities:
         on = layer(document, group, prefix, entity.role)
         match entity:
             case Text(of=Length() as measured):
                 _add_length(document, entity, measured, on, left)
-            case Text(of=Angle() as measured):
+            case Text(of=Angle() as measured) if _measurable(measured):
                 _add_angle(document, entity, measured, on, left)
             case _ if entity not in lines:
                 draw(document.modelspace(), entity, on, left)
             case _:
                 pass
+
+
+def _measurable(measured: Length | Angle) -> bool:
+    """Whether a DIMENSION can measure it: an angle between two lines is less than half a turn."""
+    return isinstance(measured, Length) or measured.end - measured.start < math.pi
 
 
 def _draw_frame(document: Document, group: Group, prefix: str, left: float) -> None:
@@ -118,8 +123,10 @@ def _add_length(document: Document, text: Text, measured: Length, on: str, left:
 def _add_angle(document: Document, text: Text, measured: Angle, on: str, left: float) -> None:
     first, last = (measured.centre + cmath.rect(measured.radius, way) for way in (measured.start, measured.end))
     between = measured.centre + cmath.rect(measured.radius, (measured.start + measured.end) / 2)
-    document.modelspace().add_angular_dim_3p(
-        base=_xy(between, left), center=_xy(measured.centre, left), p1=_xy(first, left), p2=_xy(last, left),
+    centre = _xy(measured.centre, left)
+    # Between two lines: LibreCAD passes over the kind that has a centre and two points.
+    document.modelspace().add_angular_dim_2l(
+        base=_xy(between, left), line1=(centre, _xy(first, left)), line2=(centre, _xy(last, left)),
         location=_xy(_middle(text), left), text=text.text, text_rotation=math.degrees(text.angle), dimstyle=STYLE,
         override={"dimtxt": text.height}, dxfattribs={"layer": on},
     ).render()  # fmt: skip

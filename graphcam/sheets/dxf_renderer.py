@@ -116,6 +116,8 @@ def sheet_document(drawing: Drawing) -> Document:
     document = _empty()
     document.header["$LTSCALE"] = 1.0
     document.header["$LWDISPLAY"] = 1
+    # The style of dimension texts, which LibreCAD takes for their font too.
+    document.header["$DIMTXSTY"] = LETTERS
     # LibreCAD prints an empty page where this is 0.
     document.header["$PSVPSCALE"] = 1.0
     first = drawing.pages[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import count, product
 
 from graphcam.drafting.scale import STANDARD_RATIOS
@@ -19,7 +20,7 @@ BORDER = 4.0
 """Free margin along the frame, mm."""
 BETWEEN = 6.0
 """Between things that do not belong together, mm."""
-GAPS = (12.0, 6.0, 2.0, -2.0)
+GAPS = (24.0, 12.0, 6.0, 2.0, -2.0)
 """Between diagrams that stand together, mm: the widest is taken that needs no further page."""
 WITHIN = (0, 1, 3)
 """How many small views may stand in the empty parts of diagrams where that saves a page."""
@@ -35,6 +36,10 @@ class Leaf:
     parts: list[Room] = field(default_factory=list[Room])
     views: dict[str, tuple[Panel, complex]] = field(default_factory=dict[str, tuple[Panel, complex]])
     blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
+
+    def copy(self) -> Leaf:
+        """The same page, to be filled in another way."""
+        return Leaf(self.room.copy(), [part.copy() for part in self.parts], dict(self.views), list(self.blocks))
 
     def put_views(self, run: Sequence[Panel], origins: Sequence[complex]) -> None:
         """Put views at their origins."""
@@ -81,10 +86,30 @@ class Way:
 
 
 def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
-    """Put all views and blocks on as few pages as they need.
+    """Put all views and blocks on as few pages as they need, in the middle of what is free of each.
 
-    ways_of_blocks : the same tables and notes in letters of different heights, the best first
+    ways_of_blocks : the same tables and notes in letters of different heights and in different orders, the best first
     """
+    return [_centred(sheet, leaf) for leaf in _fewest(sheet, views, ways_of_blocks)]
+
+
+def _centred(sheet: Format, leaf: Leaf) -> Leaf:
+    """The page with all that stands on it moved together, so that what is left empty lies around it."""
+    boxes = [box for panel, origin in leaf.views.values() for box in _footprint([panel], [origin])]
+    boxes += [block.box.moved(at) for block, at in leaf.blocks]
+    centred = _blank(sheet)
+    by = centred.room.find(boxes, middle) if boxes else None
+    if by is None:
+        return leaf
+    for panel, origin in leaf.views.values():
+        centred.put_views([panel], [origin + by])
+    for block, at in leaf.blocks:
+        centred.put_block(block, at + by)
+    return centred
+
+
+def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
+    """All views and blocks on as few pages as they need."""
     # The largest first; the small ones find room between.
     groups = sorted(clusters(views), key=lambda group: -sum(p.box.width * p.box.height for p in group))
     runs = [run for group in groups for run in _runs(sheet, group)]
@@ -92,8 +117,10 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
     fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
     spreads = list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
     best: list[Leaf] = []
+    viewed = cache(lambda way: _with_views(sheet, runs, way))
     for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
-        leaves = _filled(sheet, runs, blocks, Way(gaps, within=within))
+        way = Way(gaps, within=within)
+        leaves = _with_blocks(sheet, viewed(way), blocks, way)
         if not best or len(leaves) < len(best):
             best = leaves
         if len(best) == 1:
@@ -109,8 +136,10 @@ def _evened(
     best: list[Leaf],
 ) -> list[Leaf]:
     """The same on as many pages, the emptiest of them as full as it can be."""
+    viewed = cache(lambda way: _with_views(sheet, runs, way))
     for blocks, gaps in product(ways_of_blocks, spreads):
-        leaves = _filled(sheet, runs, blocks, Way(gaps, pages=len(best)))
+        way = Way(gaps, pages=len(best))
+        leaves = _with_blocks(sheet, viewed(way), blocks, way)
         if len(leaves) <= len(best) and _emptiest(leaves) < _emptiest(best) - 1e-9:
             best = leaves
     return best
@@ -120,8 +149,8 @@ def _emptiest(leaves: Sequence[Leaf]) -> float:
     return max(leaf.empty for leaf in leaves)
 
 
-def _filled(sheet: Format, runs: Sequence[list[Panel]], blocks: Sequence[Block], way: Way) -> list[Leaf]:
-    """Put runs of views, and then blocks, on as many pages as it takes."""
+def _with_views(sheet: Format, runs: Sequence[list[Panel]], way: Way) -> list[Leaf]:
+    """Put runs of views on as many pages as it takes."""
     leaves = [_blank(sheet) for _ in range(way.pages)]
     alone = [run for run in runs if len(run) == 1]
     largest = max(alone, key=lambda run: run[0].box.width * run[0].box.height, default=None)
@@ -143,6 +172,12 @@ def _filled(sheet: Format, runs: Sequence[list[Panel]], blocks: Sequence[Block],
         if leaf not in leaves:
             leaves.append(leaf)
         leaf.put_views(run, [origin + by for origin in origins])
+    return leaves
+
+
+def _with_blocks(sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way) -> list[Leaf]:
+    """Put blocks on the same pages, and on further ones if it takes them."""
+    leaves = [leaf.copy() for leaf in viewed]
     for block in blocks:
         leaf, by = _place_block(sheet, _in_turn(leaves, way), block, way)
         if leaf not in leaves:

@@ -105,7 +105,7 @@ def profile_room(paper: str, frame: str, orientation: str = "landscape") -> tupl
         return inside.width - 424.0, inside.height - 170.0
     if paper in ONE_PAGE:
         # Below the diagrams, left of the title block.
-        return inside.width - block.width, inside.height - 480.0
+        return inside.width - block.width, inside.height - 445.0
     above = inside.width, inside.height - block.height - HEADING
     beside = inside.width - block.width, inside.height - HEADING
     return max(above, beside, key=min)
@@ -115,7 +115,12 @@ def _leaves(sheet: Format, part: Part, tell: Tell) -> list[Leaf]:
     """The pages of a part."""
     views = panels((step for _, _, step in part.steps), sheet.lettering, tell)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
-    return fill(sheet, views, [_blocks(sheet, part, height) for height in heights])
+    return fill(sheet, views, [way for height in heights for way in _ways(_blocks(sheet, part, height))])
+
+
+def _ways(blocks: Sequence[Block]) -> list[Sequence[Block]]:
+    """The orders in which blocks are placed: their own, and the largest first, which finds room for more."""
+    return [blocks, sorted(blocks, key=lambda block: -block.box.width * block.box.height)]
 
 
 def _blocks(sheet: Format, part: Part, height: float) -> list[Block]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,12 @@ class Room:
         self.full = np.zeros((math.floor(inside.height / MESH), math.floor(inside.width / MESH)), dtype=bool)
         for box in taken:
             self.take(box)
+
+    def copy(self) -> Room:
+        """The same room, to be taken in another way."""
+        other = copy(self)
+        other.full = self.full.copy()
+        return other
 
     def _cells(self, box: Box) -> tuple[int, int, int, int]:
         """The cells that a box touches: left, bottom, and the first ones beyond it."""

@@ -6,12 +6,14 @@ from functools import cache
 from pathlib import Path
 
 import checks
+import ezdxf
 import pytest
 from pdf_paths import pages
 from scene import drawing as scene
 
 import graphcam
 from graphcam.main_job.kinds import sheet_of
+from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.matplotlib_renderer import write_pdf
 from graphcam.sheets.model import Drawing
@@ -59,6 +61,22 @@ def test_librecad_prints_everything_true_to_scale(drawing: Drawing, tmp_path: Pa
     checks.check_page(page, drawn.width, drawn.height, checks.LIBRECAD_PAGE)
     checks.check_gauge(page, checks.LIBRECAD_LENGTH)
     checks.check_ink(page, drawn)
+
+
+def test_librecad_prints_the_angles_that_the_cad_variant_measures(tmp_path: Path) -> None:
+    """It passes over angles by three points, and would print the same page without them."""
+    printed: list[int] = []
+    for k in (0, 1):
+        file = tmp_path / f"{k}.dxf"
+        write_cad(scene(), file)
+        document = ezdxf.readfile(file)
+        angles = [d for d in document.modelspace().query("DIMENSION") if "°" in d.dxf.text]
+        assert len(angles) >= 2
+        for angle in angles[k:]:
+            document.modelspace().delete_entity(angle)
+        document.saveas(file)
+        printed.append(checks.by_librecad(file, tmp_path).straight[0].size)
+    assert printed[1] > printed[0]
 
 
 def test_gdal_counts_and_measures_every_entity(drawing: Drawing, tmp_path: Path) -> None:

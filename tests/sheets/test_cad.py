@@ -10,8 +10,10 @@ import pytest
 from ezdxf.document import Drawing as Document
 from scene import TITLE, drawing
 
+from graphcam.drafting.ink import AngleMark, Step, View, say
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
+from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Angle, Drawing, Length, Text
 
 
@@ -45,6 +47,18 @@ def test_every_dimension_measures_what_is_drawn(document: Document) -> None:
     assert [text for text, _ in found] == [text for text, _ in expected]
     assert [value for _, value in found] == pytest.approx([value for _, value in expected], abs=1e-9)
     assert {"H₁ = 40", "30°", "φ₁ = 80°"} <= {text for text, _ in found}
+
+
+def test_an_angle_of_half_a_turn_and_more_stays_as_it_is_drawn(tmp_path: Path) -> None:
+    """Two lines measure less than 180°: a DIMENSION would say what is left of the turn."""
+    angles = AngleMark(0j, 20.0, 0.0, np.radians(200), "200°"), AngleMark(0j, 30.0, 0.0, np.radians(160), "160°")
+    step = Step(say("Angles"), say("Two."), View("profile", say("Profile"), "x", "y"), angles)
+    write_cad(compose([("angles", step)], [], TITLE), tmp_path / "angles.dxf")
+    space = ezdxf.readfile(tmp_path / "angles.dxf").modelspace()
+    assert [d.dxf.text for d in space.query("DIMENSION")] == ["160°"]
+    assert "200°" in [text.dxf.text for text in space.query("TEXT")]
+    arcs = [arc for arc in space.query("ARC") if arc.dxf.radius == 20]
+    assert [(arc.dxf.end_angle - arc.dxf.start_angle) % 360 for arc in arcs] == pytest.approx([200])
 
 
 def test_no_line_of_a_dimension_is_drawn_twice(tmp_path: Path, document: Document) -> None:

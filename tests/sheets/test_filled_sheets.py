@@ -1,0 +1,85 @@
+"""The sheets of the built-in tasks are full: on few pages, the drawings as large as the paper allows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import graphcam as gc
+from graphcam.main_job.arcs import AnySolution
+from graphcam.main_job.kinds import sheet_of
+from graphcam.sheets.formats import MARGINS, ORIENTATIONS
+from graphcam.sheets.model import Page, Text
+from graphcam.sheets.overlaps import overlaps
+from graphcam.sheets.sampling import outline, sampled
+from graphcam.task import Task
+from graphcam.task_file import builtin_task
+
+CELL = 10.0
+"""Side of the cells by which a page is measured [mm]."""
+
+
+def filled(page: Page) -> float:
+    """The part of the squares of 1 cm inside the frame that something is drawn in, the title block left out."""
+    inside = page.frame
+    full = np.zeros((int(inside.height // CELL), int(inside.width // CELL)), dtype=bool)
+    for group in page.groups:
+        for entity in group.entities if group.key != "frame" else ():
+            cells = (sampled(*outline(entity), 1.0) - inside.corner) / CELL
+            x, y = cells.real.astype(int), cells.imag.astype(int)
+            held = (x >= 0) & (y >= 0) & (x < full.shape[1]) & (y < full.shape[0])
+            full[y[held], x[held]] = True
+    return float(full.mean())
+
+
+def solved(name: str, paper: str, frame: str, orientation: str) -> AnySolution:
+    """The built-in task on another sheet, whose diagrams are drawn for it."""
+    task = builtin_task(name)
+    drawing = replace(task.drawing.on(paper), frame=frame, orientation=orientation)
+    return gc.solve(replace(task, drawing=drawing))
+
+
+TASKS = {"coursework": (2.0, 0.3), "arm": (1.0, 0.27), "flat": (2.5, 0.23)}
+"""The scale of the profile, and how full every page is: a flat face has three diagrams and no velocity plan."""
+EVERY = [
+    pytest.param(name, frame, orientation, marks=[] if name == "coursework" else pytest.mark.slow)
+    for name in TASKS
+    for frame in MARGINS
+    for orientation in ORIENTATIONS
+]
+
+
+@pytest.mark.parametrize(("name", "frame", "orientation"), EVERY)
+def test_a1_takes_everything_on_one_full_page_lying_and_standing(name: str, frame: str, orientation: str) -> None:
+    solution, (scale, full) = solved(name, "A1", frame, orientation), TASKS[name]
+    assert 1 / solution.chain.profile_scale.per_mm == scale
+    (page,) = (drawing := sheet_of(solution)).pages
+    assert overlaps(drawing) == []
+    assert filled(page) >= full
+    letters = [e.height for g in page.groups for e in g.entities if isinstance(e, Text) and g.key == "tables"]
+    assert min(letters) >= 2.5
+
+
+@pytest.mark.parametrize(("name", "frame", "orientation"), EVERY)
+def test_a2_takes_two_full_pages_with_the_profile_as_large_as_on_a1(name: str, frame: str, orientation: str) -> None:
+    solution, (scale, full) = solved(name, "A2", frame, orientation), TASKS[name]
+    assert 1 / solution.chain.profile_scale.per_mm == scale
+    drawing = sheet_of(solution)
+    assert len(drawing.pages) == 2
+    assert min(filled(page) for page in drawing.pages) >= full
+
+
+def test_an_empty_page_would_be_noticed() -> None:
+    page = sheet_of(solved("coursework", "A1", "gost", "landscape")).pages[0]
+    bare = replace(page, groups=tuple(g for g in page.groups if "inversion" not in g.name and "profile" not in g.name))
+    assert filled(page) - filled(bare) > 0.05
+
+
+def test_what_was_chosen_for_a_large_sheet_does_not_make_the_diagrams_of_a_small_one_tiny() -> None:
+    """The ordinate and poles of A1 on A3 would leave a lift of 30 mm only 12 mm of paper."""
+    task = builtin_task()
+    assert isinstance(task, Task)
+    small = gc.solve(replace(task, drawing=task.drawing.on("A3")))
+    assert 30 / float(small.drawn["integration"].readings["s"].scale) >= 25
