@@ -156,7 +156,8 @@ def _middle_ordinates(diagram: Construction, x: Floats) -> Step:
         Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),
         Dots(middle_x + UP * middle_y, Role.CONSTRUCTION),
         Segments(x - UP, x + UP, Role.SCALE),
-        *numbers(x + 0j, stations, -UP),
+        # On the side of the axis where no ordinates stand.
+        *numbers(x + 0j, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
     return Step(
         say("Middle ordinates"),

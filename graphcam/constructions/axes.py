@@ -158,10 +158,10 @@ def numbered(points: Points, stations: Stations) -> list[int]:
     return found
 
 
-def numbers(points: Points, stations: Stations, towards: complex) -> tuple[Mark, ...]:
-    """The stations' names beside their points."""
-    names = station_names(stations)
-    return tuple(Label(complex(points[k]), names[k], towards, small=True) for k in numbered(points, stations))
+def numbers(points: Points, stations: Stations, towards: complex | Points) -> tuple[Mark, ...]:
+    """The stations' names beside their points, in one direction or in one for each."""
+    names, ways = station_names(stations), np.broadcast_to(towards, points.shape)
+    return tuple(Label(complex(points[k]), names[k], complex(ways[k]), small=True) for k in numbered(points, stations))
 
 
 def levels(heights: Floats) -> Floats:

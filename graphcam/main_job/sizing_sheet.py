@@ -14,6 +14,7 @@ from graphcam.language import ENGLISH
 from graphcam.language import language as language_of
 from graphcam.mechanism.sizing import SizedCam
 from graphcam.mechanism.sizing_region import FeasibleRegion, feasible_region
+from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
@@ -22,12 +23,12 @@ from graphcam.words import Caption, sequence
 
 REGION = View("sizing", say("Permitted cams, prime radius r₀ over offset e"), across="sizing e", up="sizing r0")
 TITLE = say("The smallest cam")
-WIDTH, HEIGHT = 130.0, 100.0
-"""The region is drawn as large as this [mm of paper]; its axes have scales of their own."""
-TICKS = 5
-"""Parts of an axis with numbers."""
+SIZES = {"A1": 600 + 480j, "A2": 360 + 290j, "A3": 230 + 180j, "A4": 130 + 100j}
+"""Width and height of the region by format [mm of paper]; its axes have scales of their own."""
+TICKS = 6
+"""Parts of an axis with numbers, at most."""
 MARGIN = 0.05
-"""The offset's axis is this part longer than its range, so that a range of one offset has an axis too."""
+"""An axis is at least this part of the greatest radius long, so that a range of one size has an axis too."""
 
 
 BINDING: Mapping[str, Caption] = {
@@ -56,18 +57,18 @@ def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso", languag
     ------
     DesignError : there is no such format, frame or language
     """
-    tell = language_of(language).text
-    steps = [("sizing", step) for step in _steps(sized, feasible_region(sized.problem))]
+    tell, size = language_of(language).text, SIZES[Format(paper, frame).name]
+    steps = [("sizing", step) for step in _steps(sized, feasible_region(sized.problem), size)]
     return compose(steps, [_table(sized)], TitleBlock(name=tell(TITLE)), paper, frame, tell=tell)
 
 
-def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
+def _steps(sized: SizedCam, region: FeasibleRegion, size: complex) -> list[Step]:
     (e0, e1), (r0, r1) = sized.problem.offset, sized.problem.prime_radius
-    span = max(e1 - e0, MARGIN * r1)
+    span, rise = max(e1 - e0, MARGIN * r1), max(r1 - r0, MARGIN * r1)
 
     def place(e: Floats | float, radius: Floats | float) -> Points:
-        across, up = (np.asarray(e) - e0) / span * WIDTH, (np.asarray(radius) - r0) / max(r1 - r0, MARGIN * r1) * HEIGHT
-        return np.asarray(across + UP * up)
+        across, up = (np.asarray(e) - e0) / span, (np.asarray(radius) - r0) / rise
+        return np.asarray(across * size.real + UP * up * size.imag)
 
     kept = ~np.isnan(region.least)
     border = place(region.offset[kept], region.least[kept])
@@ -84,7 +85,7 @@ def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
             ),
             REGION,
             (
-                *_axes(e0, e0 + span, r0, r1),
+                *_axes(size, (e0, e0 + span), (r0, r0 + rise)),
                 *(Line(line, Role.CURVE) for line in lines.values() if line.size > 1),
                 *(
                     Label(complex(line[line.size // 2]), BINDING[name], towards=UP)
@@ -109,26 +110,31 @@ def _steps(sized: SizedCam, region: FeasibleRegion) -> list[Step]:
     ]  # fmt: skip
 
 
-def _axes(e0: float, e1: float, r0: float, r1: float) -> tuple[Mark, ...]:
-    across, up = WIDTH + 0j, HEIGHT * UP
+def _axes(size: complex, offsets: tuple[float, float], radii: tuple[float, float]) -> tuple[Mark, ...]:
+    across, up = size.real + 0j, size.imag * UP
     beyond = 8.0
     return (
         Arrow(0j, across + beyond, Role.SCALE),
         Arrow(0j, up + beyond * UP, Role.SCALE),
-        *_ticks(across, e0, e1, -UP),
-        *_ticks(up, r0, r1, -1 + 0j),
+        *_ticks(across, offsets, -UP),
+        *_ticks(up, radii, -1 + 0j),
         Label(across + beyond, say("e, mm"), towards=1 - 1j),
         Label(up + beyond * UP, say("r₀, mm"), towards=-1 + 0j),
     )
 
 
-def _ticks(end: complex, low: float, high: float, outwards: complex) -> tuple[Mark, ...]:
-    """Short strokes with numbers along an axis from the origin."""
-    share = np.arange(TICKS + 1) / TICKS
-    at = share * end
+def _ticks(end: complex, span: tuple[float, float], outwards: complex) -> tuple[Mark, ...]:
+    """Short strokes with round numbers along an axis from the origin."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = span
+    round_ = np.asarray(MaxNLocator(TICKS, steps=[1, 2, 5, 10]).tick_values(low, high))
+    # With the slack of a rounding at either end.
+    values = round_[(round_ >= low - 1e-9 * (high - low)) & (round_ <= high + 1e-9 * (high - low))]
+    at = (values - low) / (high - low) * end
     labels = (
-        Label(complex(x), say("{value:g}", value=low + t * (high - low)), outwards, small=True)
-        for x, t in zip(at, share, strict=True)
+        Label(complex(x), say("{value:g}", value=float(value)), outwards, small=True)
+        for x, value in zip(at, values, strict=True)
     )
     return (Segments(at, at + 1.5 * outwards, Role.SCALE), *labels)
 

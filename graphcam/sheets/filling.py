@@ -168,7 +168,7 @@ def _with_views(sheet: Format, runs: Sequence[list[Panel]], way: Way) -> list[Le
             leaf, by = found
             within -= 1
         else:
-            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, _preferred(sheet, run, runs, largest))
+            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, _preferred(sheet, run, largest))
         if leaf not in leaves:
             leaves.append(leaf)
         leaf.put_views(run, [origin + by for origin in origins])
@@ -223,12 +223,8 @@ def _blank(sheet: Format) -> Leaf:
     return Leaf(Room(sheet.content.grown(-BORDER), taken(sheet, BORDER)))
 
 
-def _preferred(
-    sheet: Format, run: Sequence[Panel], runs: Sequence[Sequence[Panel]], largest: Sequence[Panel] | None
-) -> Preference:
+def _preferred(sheet: Format, run: Sequence[Panel], largest: Sequence[Panel] | None) -> Preference:
     """Where views would rather stand: diagrams at the upper left, the largest drawing where it leaves most room."""
-    if len(runs) == 1:
-        return middle
     if len(run) > 1:
         return top_left
     if run is not largest:
