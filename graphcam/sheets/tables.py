@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphcam.sheets.box import Box
@@ -17,6 +17,8 @@ LEADING = 1.5
 """From line to line in a header, in heights of its letters."""
 MARGIN = 1.8
 """Left and right of the text in a cell, in heights of its letters, both together."""
+LONGEST = 40.0
+"""A name that is longer, in heights of its letters, is broken into lines: a question, not what a quantity is called."""
 
 
 @dataclass(frozen=True)
@@ -53,13 +55,12 @@ class Block:
 def table_block(table: Table, height: float) -> Block:
     """A table in letters of ``height`` mm, its lower left corner at the origin: names to the left, the rest centred.
 
-    A header that is wider than what stands under it is broken into lines.
+    A header that is wider than what stands under it is broken into lines, and so is a long name.
     """
     title, header = str(table.title), [str(cell) for cell in table.header]
-    rows = [[str(cell) for cell in line] for line in table.rows]
+    rows = [[_lines(str(cell), height, name=k == 0) for k, cell in enumerate(line)] for line in table.rows]
     headed = any(header)
-    columns = list(zip(*rows, strict=True)) or [() for _ in header]
-    bodies = [max((width(cell, height) for cell in column), default=0.0) for column in columns]
+    bodies = [max((width(line, height) for row in rows for line in row[k]), default=0.0) for k in range(len(header))]
     under = zip(header, bodies, strict=True)
     headers = [wrap(cell, height, max(body, 0.6 * width(cell, height))) for cell, body in under]
     widths = [max([body, *(width(line, height) for line in lines)]) + MARGIN * height
@@ -67,31 +68,36 @@ def table_block(table: Table, height: float) -> Block:
     # The title must not stand over the edge.
     widths[-1] += max(0.0, width(title, height) - sum(widths))
     ends = [sum(widths[:k]) for k in range(len(widths) + 1)]
-    row, total = ROW * height, ends[-1]
-    body_top = len(rows) * row
-    top = body_top + (row + (max(len(lines) for lines in headers) - 1) * LEADING * height if headed else 0.0)
+    grid = [headers, *rows] if headed else rows
+    heights = [(ROW + (max(map(len, row)) - 1) * LEADING) * height for row in grid]
+    # From the upper edge down to the lower one.
+    levels = [sum(heights[j:]) for j in range(len(grid) + 1)]
+    total, top, body_top = ends[-1], levels[0], levels[int(headed)]
 
-    def cell(k: int, text: str, base: float) -> Text:
-        if k == 0:
-            return Text(complex(MARGIN / 2 * height, base), text, height)
-        return Text(complex((ends[k] + ends[k + 1]) / 2, base), text, height, "center")
+    def cells(row: list[list[str]], upper: float, lower: float) -> Iterator[list[Entity]]:
+        for k, lines in enumerate(row):
+            first = (upper + lower) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
+            x, align = (MARGIN / 2 * height, "left") if k == 0 else ((ends[k] + ends[k + 1]) / 2, "center")
+            yield [Text(complex(x, first - j * LEADING * height), line, height, align)
+                   for j, line in enumerate(lines) if line]  # fmt: skip
 
-    ruled: list[Ruling] = [(0, k * row, total, k * row) for k in range(1, len(rows))]
+    ruled: list[Ruling] = [(0, y, total, y) for y in levels[int(headed) + 1 : -1]]
     ruled += [(x, 0, x, top) for x in ends[1:-1]]
     bold: list[Ruling] = [(0, 0, total, 0), (total, 0, total, top), (total, top, 0, top), (0, top, 0, 0)]
     entities: list[Entity] = [rules(0j, [*bold, (0, body_top, total, body_top)] if headed else bold, "table")]
     entities += [rules(0j, ruled, "ruling")] if ruled else []
-    for k, lines in enumerate(headers):
-        first = (body_top + top) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
-        entities += [cell(k, line, first - j * LEADING * height) for j, line in enumerate(lines)]
     entities.append(Text(complex(0, top + 0.7 * height), title, height))
     answers: list[Entity] = []
-    for j, line in enumerate(rows):
-        base = body_top - (j + 0.5) * row - height / 2
-        for k, text in enumerate(line):
-            if text:
-                (answers if (j, k) in table.answers else entities).append(cell(k, text, base))
+    for j, (row, upper, lower) in enumerate(zip(grid, levels, levels[1:], strict=False), -int(headed)):
+        for k, texts in enumerate(cells(row, upper, lower)):
+            (answers if (j, k) in table.answers else entities).extend(texts)
     return Block(tuple(entities), tuple(answers), Box(0, 0, total, top + 2.0 * height))
+
+
+def _lines(text: str, height: float, *, name: bool) -> list[str]:
+    """What stands in a cell; a long name is broken into lines."""
+    longest = LONGEST * height
+    return wrap(text, height, longest) if name and width(text, height) > longest else [text]
 
 
 def notes_block(notes: Sequence[str], height: float, room: float) -> Block:
