@@ -189,8 +189,9 @@ def _draw_profile(profile: Construction) -> list[Step]:
             say("Pressure angles on the profile"),
             say(
                 "Where the profile was touched its normal runs through the roller's centre; its angle with the "
-                "follower's line is the pressure angle of that station, shown where it is greatest in each phase. It is "
-                "measured anew on this drawing, so it agrees with the diagram only as well as the touch points are found."
+                "follower's line is the pressure angle of that station, shown where it is greatest in each phase. It "
+                "is measured anew on this drawing, so it agrees with the diagram only as well as the touch points are "
+                "found."
             ),
             PROFILE,
             tuple(mark for at in _steepest(profile) for mark in _normal(profile, at)),
