@@ -8,6 +8,9 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import ezdxf
+from ezdxf.document import Drawing
+
 from graphcam.exercises.running.launcher import MIME
 
 Build = Callable[[Path], object]
@@ -49,6 +52,25 @@ def _sparse(folder: Path) -> None:
         file.truncate(50 << 30)
 
 
+def drawing(draw: Callable[[Drawing], object]) -> Build:
+    def build(folder: Path) -> None:
+        document = ezdxf.new("R2010")
+        draw(document)
+        document.saveas(folder / "answers.dxf")
+
+    return build
+
+
+def _empty_blocks(document: Drawing) -> None:
+    document.blocks.new("NOTHING")
+    places = {"row_count": 30_000, "column_count": 30_000, "row_spacing": 1, "column_spacing": 1}
+    document.modelspace().add_blockref("NOTHING", (0, 0), dxfattribs=places)
+
+
+def _spline_through(count: int) -> Build:
+    return drawing(lambda document: document.modelspace().add_spline([(k % 7, k % 5) for k in range(count)]))
+
+
 DATA: dict[str, Build] = {
     "infinite": toml("{0} = inf"),
     "not a number": toml("{0} = nan"),
@@ -62,6 +84,7 @@ DATA: dict[str, Build] = {
     "a list": toml("{0} = [1, 2, 3]"),
     "nested a million deep in TOML": toml("{0} = " + "[" * 60_000),
     "dotted keys": toml("a" + ".a" * 31_000 + " = 1"),
+    "dotted keys of quoted points": toml('"[".' * 15_000 + "a = 1"),
     "a key twice in TOML": toml("{0} = 1\n{0} = 2"),
     "answers is no table": toml("answers = 3"),
     "not UTF-8": raw("answers.toml", b"\xff\xfe\x00"),
@@ -97,6 +120,10 @@ DATA: dict[str, Build] = {
     "no DXF": raw("answers.dxf", b"0\nSECTION\n2\n" + b"x" * 1000),
     "a DWG": raw("answers.dxf", b"AC1032" + bytes(1000)),
     "a DXF of zeros": raw("answers.dxf", bytes(1_000_000)),
+    "a binary DXF of zeros": raw("answers.dxf", b"AutoCAD Binary DXF\r\n\x1a\0" + bytes(4_000_000)),
+    "a DXF of a million lines": raw("answers.dxf", b"0\nLINE\n" * 500_000),
+    "a block a billion times": drawing(_empty_blocks),
+    "a spline through ten thousand points": _spline_through(10_000),
 }
 """What is read and never run; "{0}" stands for the name of an answer."""
 

@@ -121,6 +121,15 @@ UNDERSTOOD: dict[str, Callable[[Curve], Drawing]] = {
     "edited and saved again": edited,
 }  # fmt: skip
 
+
+def scattered(count: int) -> Drawing:
+    """Pieces that meet nowhere."""
+    document = origin(new(), 0j)
+    for k in range(count):
+        document.modelspace().add_line((k % 100, k // 100), (k % 100 + 0.4, k // 100), dxfattribs={"layer": LAYER})
+    return document
+
+
 REFUSED: dict[str, tuple[Callable[[Curve], Drawing], str]] = {
     "a moved origin without a mark": (
         lambda curve: polyline(new(), curve + AWAY), "mark the origin of the paper by a POINT on the layer ORIGIN"),
@@ -137,6 +146,8 @@ REFUSED: dict[str, tuple[Callable[[Curve], Drawing], str]] = {
     "miles": (lambda curve: polyline(new(3), curve), "check the unit of the drawing"),
     "no length for a unit": (lambda curve: polyline(new(99), curve), "set it to mm"),
     "points for a curve": (lambda curve: origin(new(), curve[0], LAYER), "there is no curve on the layer PITCH"),
+    "five hundred pieces": (lambda curve: scattered(500), "holds 500 separate curves instead of one"),
+    "five thousand pieces": (lambda curve: scattered(5001), "join them to one polyline"),
     "two curves": (
         lambda curve: polyline(polyline(new(), curve[:12]), curve[14:]), "2 separate curves instead of one"),
 }  # fmt: skip

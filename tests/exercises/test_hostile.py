@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import re
 import socket
+import subprocess
+import sys
 import time
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +20,7 @@ from russian import english_words
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise
+from graphcam.exercises.grading import work
 from graphcam.exercises.grading.hand_in import read_hand_in
 from graphcam.exercises.grading.work import Assignment, grade
 from graphcam.exercises.record import Record
@@ -78,7 +82,22 @@ def test_data_gives_one_record_and_no_point(case: str, tmp_path: Path, assignmen
     assert not OWNED.exists()
 
 
-FORMATS = {"answers", "toml", "csv", "ipynb", "dxf", "TOML", "CSV", "JSON", "DXF", "DWG", "UTF", "max", "HYPERLINK"}
+FORMATS = {
+    "answers",
+    "toml",
+    "csv",
+    "ipynb",
+    "dxf",
+    "TOML",
+    "CSV",
+    "JSON",
+    "DXF",
+    "DWG",
+    "UTF",
+    "max",
+    "HYPERLINK",
+    "SPLINE",
+}
 
 
 @pytest.mark.parametrize("case", hostile.DATA)
@@ -102,6 +121,31 @@ def test_the_key_itself_earns_its_marks(tmp_path: Path, assignment: Assignment, 
     keys = Certificate.from_json(certificate).keys
     (tmp_path / "answers.toml").write_text("\n".join(f"{name} = {key.expected.value!r}" for name, key in keys.items()))
     assert graded(assignment, certificate, tmp_path).total == assignment.exercise.marks
+
+
+def test_what_never_ends_is_ended_even_where_a_library_catches_all(
+    tmp_path: Path, assignment: Assignment, certificate: str, monkeypatch: pytest.MonkeyPatch
+):
+    def read(*_: object) -> None:
+        while True:
+            with suppress(Exception):
+                sum(range(10_000))
+
+    monkeypatch.setattr(work, "READING", 0.2)
+    monkeypatch.setattr(work, "from_files", read)
+    record = graded(assignment, certificate, tmp_path)
+    assert record.total == 0
+    assert "took more than 0.2 s" in record.notes[0]
+
+
+def test_a_faulty_file_says_nothing_on_the_terminal(tmp_path: Path):
+    hostile.notebook("s_max = 1if 1else 2 is '\\d'")(tmp_path)
+    line = "0\nLINE\n5\nAA\n8\nPITCH\n10\n1\n20\n1\n11\n2\n21\n2\n"
+    (tmp_path / "answers.dxf").write_text(f"0\nSECTION\n2\nENTITIES\n{line * 3}0\nENDSEC\n0\nEOF\n")
+    # A process of its own, for here warnings and what is logged are caught.
+    read = "import sys; from graphcam.exercises.reading.folder import *; from_files([], read_files(sys.argv[1])[0])"
+    done = subprocess.run([sys.executable, "-c", read, str(tmp_path)], capture_output=True, text=True, check=True)
+    assert (done.stdout, done.stderr) == ("", "")
 
 
 @pytest.fixture(scope="module", params=[Level.L1, Level.L2])

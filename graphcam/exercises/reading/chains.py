@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections import deque
+from itertools import islice
+
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points
@@ -10,6 +14,8 @@ from graphcam.words import say
 
 TOUCHING = 0.2
 """Ends as near as this meet, mm: the width of a pencil line."""
+MOST_PIECES = 5000
+"""Pieces that are joined; nobody draws one curve of more."""
 
 
 def one_curve(layer: str, pieces: list[Points]) -> Points:
@@ -20,53 +26,53 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
     UnreadableError : they do not make one curve; the sentence says where it breaks
 
     >>> one_curve("s", [np.array([1 + 1j, 2 + 0j]), np.array([1 + 1j, 0j])])
-    array([2.+0.j, 1.+1.j, 0.+0.j])
+    array([0.+0.j, 1.+1.j, 2.+0.j])
     """
+    if len(pieces) > MOST_PIECES:
+        raise UnreadableError(say(
+            "the layer {layer} holds more than {most} pieces of a curve; join them to one polyline",
+            layer=layer, most=MOST_PIECES,
+        ))  # fmt: skip
     left = _distinct(pieces)
     if not left:
         raise UnreadableError(say("there is no curve on the layer {layer}", layer=layer))
-    forward, left = _extended([left[0]], left[1:])
-    backward, left = _extended([piece[::-1] for piece in reversed(forward)], left)
-    curve = _joined(backward)
-    if left:
-        gap, at = min((abs(end - other), end) for end in curve[[0, -1]] for piece in left for other in piece[[0, -1]])
+    ends, free = np.array([piece[[0, -1]] for piece in left]), np.ones(len(left), dtype=bool)
+    curve = _traced(left, ends, free)
+    if free.any():
+        gap, at = min((float(np.abs(ends[free] - end).min()), end) for end in curve[[0, -1]].tolist())
+        count = 1
+        while free.any():
+            _traced(left, ends, free)
+            count += 1
         raise UnreadableError(say(
             "the layer {layer} holds {count} separate curves instead of one; the nearest gap, {gap:.1f} mm, is at "
             "({x:.1f}, {y:.1f})",
-            layer=layer, count=1 + _curves(left), gap=float(gap), x=float(at.real), y=float(at.imag),
+            layer=layer, count=count, gap=gap, x=at.real, y=at.imag,
         ))  # fmt: skip
     return curve
 
 
-def _extended(chain: list[Points], left: list[Points]) -> tuple[list[Points], list[Points]]:
-    """The chain prolonged at its end by all pieces that follow there, and the pieces that are left."""
-    starts = np.array([piece[0] for piece in left], dtype=complex)
-    ends = np.array([piece[-1] for piece in left], dtype=complex)
-    free = np.ones(len(left), dtype=bool)
-    chain = list(chain)
-    while free.any():
-        tail = chain[-1][-1]
-        distance = np.where(free, np.minimum(np.abs(starts - tail), np.abs(ends - tail)), np.inf)
-        k = int(np.argmin(distance))
-        if distance[k] > TOUCHING:
-            break
-        free[k] = False
-        chain.append(left[k] if abs(starts[k] - tail) <= abs(ends[k] - tail) else left[k][::-1])
-    return chain, [piece for piece, is_free in zip(left, free, strict=True) if is_free]
+def _traced(pieces: list[Points], ends: Points, free: NDArray[np.bool_]) -> Points:
+    """The first free piece, prolonged at both its ends by those that follow there; all these are free no more.
 
-
-def _curves(left: list[Points]) -> int:
-    count = 0
-    while left:
-        chain, left = _extended([left[0]], left[1:])
-        _, left = _extended([piece[::-1] for piece in reversed(chain)], left)
-        count += 1
-    return count
-
-
-def _joined(chain: list[Points]) -> Points:
-    parts = [chain[0], *(piece[1:] for piece in chain[1:])]
-    return np.concatenate(parts)
+    ends : of every piece (n, 2)
+    """
+    first = int(np.argmax(free))
+    free[first] = False
+    chain = deque([pieces[first]])
+    for at_start in (False, True):
+        while free.any():
+            tail = chain[0][0] if at_start else chain[-1][-1]
+            distance = np.where(free[:, None], np.abs(ends - tail), np.inf)
+            k, side = divmod(int(np.argmin(distance)), 2)
+            if distance[k, side] > TOUCHING:
+                break
+            free[k] = False
+            if at_start:
+                chain.appendleft(pieces[k] if side else pieces[k][::-1])
+            else:
+                chain.append(pieces[k][::-1] if side else pieces[k])
+    return np.concatenate([chain[0], *(piece[1:] for piece in islice(chain, 1, None))])
 
 
 def _distinct(pieces: list[Points]) -> list[Points]:

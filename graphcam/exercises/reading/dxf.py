@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 from collections.abc import Generator, Iterable
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -18,8 +19,17 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.entities.dxfgfx import DXFGraphic
 
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # else a faulty file fills the teacher's terminal
+
+MOST_LINES = 500_000
+"""Lines of a file that are read, and MOST_BYTES of a binary one: what ezdxf reads in a few seconds."""
+MOST_BYTES = 2_500_000
 MOST_ENTITIES = 20_000
 """Entities that are looked at, those in blocks counted each time the block stands there."""
+MOST_VERTICES = 400_000
+"""Points of all curves together, of bent ones those of the chords in their place."""
+MOST_FITTED = 1000
+"""Points that a spline is fitted through: for that ezdxf solves as many equations, each with as many unknowns."""
 DEEPEST_BLOCK = 8
 FLAT = 0.005
 """A curve is replaced by chords that stay so near to it, mm: far below the finest pencil line."""
@@ -40,6 +50,10 @@ def read_dxf(name: str, data: bytes) -> Drawn:
     ------
     UnreadableError : no DXF, a unit that is no length, more or farther entities than a sheet can hold
     """
+    if data.startswith(BINARY) and len(data) > MOST_BYTES:
+        raise UnreadableError(say("{name} is longer than the {limit} bytes that are read", name=name, limit=MOST_BYTES))
+    if data.count(b"\n") > MOST_LINES:
+        raise UnreadableError(say("{name} has more than {most} rows", name=name, most=MOST_LINES))
     document = _document(name, data)
     factor = _millimetres(name, document)
     layers: dict[str, Layer] = {}
@@ -47,8 +61,12 @@ def read_dxf(name: str, data: bytes) -> Drawn:
         entities = list(islice(_dissolved(document.modelspace(), "0", 0), MOST_ENTITIES + 1))
         if len(entities) > MOST_ENTITIES:
             raise UnreadableError(say("{name} has more than {most} entities", name=name, most=MOST_ENTITIES))
-        for entity, layer in entities:
-            _add(layers.setdefault(layer.lower(), Layer()), entity, factor)
+        left = MOST_VERTICES
+        with np.errstate(all="ignore"):
+            for entity, layer in entities:
+                left -= _add(layers.setdefault(layer.lower(), Layer()), entity, factor)
+                if left < 0:
+                    raise UnreadableError(say("{answer} has more than {most} points", answer=name, most=MOST_VERTICES))
     except UnreadableError:
         raise
     # What a stranger wrote into a file can make a library stumble anywhere; it is his answer that is lost then.
@@ -91,21 +109,23 @@ def _millimetres(name: str, document: Drawing) -> float:
 def _dissolved(entities: Iterable[Any], block_layer: str, depth: int) -> Generator[tuple[DXFGraphic, str]]:
     """All entities with the layers they show on; those of blocks in their places.
 
-    An insert itself is given too, so that a bomb of blocks that are empty counts as well.
+    An insert itself is given too, each place of an array of them, so that a bomb of blocks that are empty counts.
     """
     for entity in entities:
         own = str(entity.dxf.get("layer", "0"))
         layer = block_layer if own == "0" else own
-        yield entity, layer
         if entity.dxftype() != "INSERT":
+            yield entity, layer
             continue
         if depth == DEEPEST_BLOCK:
             raise UnreadableError(say("blocks stand within blocks more than {most} deep", most=DEEPEST_BLOCK))
         for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
+            yield single, layer
             yield from _dissolved(single.virtual_entities(), layer, depth + 1)
 
 
-def _add(layer: Layer, entity: DXFGraphic, factor: float) -> None:
+def _add(layer: Layer, entity: DXFGraphic, factor: float) -> int:
+    """How many points it adds."""
     kind = entity.dxftype()
     if kind == "POINT":
         layer.points.append(_place(entity.dxf.location, factor))
@@ -113,8 +133,10 @@ def _add(layer: Layer, entity: DXFGraphic, factor: float) -> None:
         if kind == "CIRCLE":
             layer.centres.append(_place(entity.ocs().to_wcs(entity.dxf.center), factor))
         layer.curves.append(_curve(entity, factor))
+        return layer.curves[-1].size
     elif kind not in WORDS and kind != "INSERT":
         layer.strange.add(kind)
+    return 1
 
 
 def _place(at: Any, factor: float) -> complex:
@@ -131,9 +153,11 @@ def _place(at: Any, factor: float) -> complex:
     return z
 
 
-def _curve(entity: DXFGraphic, factor: float) -> Points:
+def _curve(entity: Any, factor: float) -> Points:
     from ezdxf.path import make_path
 
+    if entity.dxftype() == "SPLINE" and not len(entity.control_points) and len(entity.fit_points) > MOST_FITTED:
+        raise UnreadableError(say("a {kind} has more than {most} points", kind="SPLINE", most=MOST_FITTED))
     path = make_path(entity)
     # Before it is divided: what is far too large would be divided for long.
     for vertex in path.control_vertices():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import warnings
 from collections.abc import Generator
 from typing import Any
 
@@ -67,10 +68,13 @@ def cell_source(cell: dict[str, Any]) -> str:
 def _literals(name: str, sources: list[str]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     try:
-        for key, node in (pair for source in sources for pair in _assignments(ast.parse(source))):
-            if key in found:
-                raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=shown(key)))
-            found[key] = ast.literal_eval(node)
+        # What Python finds strange in it is no news for the teacher's terminal.
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for key, node in (pair for source in sources for pair in _assignments(ast.parse(source))):
+                if key in found:
+                    raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=shown(key)))
+                found[key] = ast.literal_eval(node)
     # Too deep for the parser is a MemoryError there; numbers too long are a ValueError or a SyntaxError.
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
         raise UnreadableError(

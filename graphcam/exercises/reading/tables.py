@@ -16,7 +16,8 @@ from graphcam.words import Caption, say
 MOST_ROWS = 20_000
 MOST_PARTS = 16
 """Parts of a dotted key: tomllib takes minutes for thousands."""
-
+QUOTED = re.compile(r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
+"""A text or a comment in TOML: what stands in it ends no key."""
 
 DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
 """A number with a comma, as many countries write it: no line of TOML has this form, and one spoils the whole file."""
@@ -116,7 +117,7 @@ def _no_toml(name: str, error: Exception) -> Caption:
 def _longest_key(text: str) -> int:
     """The greatest number of parts that stand between points, with nothing between them that ends a key."""
     longest = parts = 0
-    for piece in text.split("."):
+    for piece in QUOTED.sub("q", text).split("."):
         if any(end in piece for end in ",=\n[]{}"):
             parts = 0
         elif piece.strip():
