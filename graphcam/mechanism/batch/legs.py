@@ -6,6 +6,7 @@ s = h f(w), and a return's odd derivatives change their sign.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -97,7 +98,7 @@ class Legs:
         """(s, v, a, j), one place w for each cam."""
         return self.values(law(self.law)(w))
 
-    def values(self, f: Floats | tuple[Floats, ...]) -> Values:
+    def values(self, f: Floats | Sequence[Floats]) -> Values:
         """(s, v, a, j) from f, f', f'', f''', (4, n), or (4, m, 1) for m places on every cam.
 
         Without f''', whose cost counts where the places are many, j is NaN.
