@@ -95,7 +95,7 @@ def measure(
     effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[str], None]
 ) -> Report:
     """Measure everything; ``rendering`` gives the times of the sheet [s], which this side knows nothing of."""
-    timer = Timer(effort.budget, least_runs=5)
+    timer = Timer(effort.budget)
     pair = timer.pairs(PAIR_STATIONS) / PAIR_STATIONS
     progress("error against the number of parts")
     series = tuple(convergence(effort.parts, effort.laws))

@@ -37,7 +37,7 @@ INSIDE = (0.0, 3 * LIFT)
 """A point well inside the region for the cam centre [mm]."""
 STATIONS = 360
 """At which the exact side is asked, of one turn."""
-ROUNDS = 3
+ROUNDS = 2
 """How often all points of a method are timed; the least time of each counts."""
 CHECKED = 24
 """Places at which the exact side is held against 50 digits."""
