@@ -351,7 +351,7 @@ DRAWN: dict[str, Row] = {
     "a rise of a millionth of a degree": {
         "phases": SHORT, "prime_radius": 50.0, "warns": "undercut",
         "unread": ["min_pitch_curvature_radius"], "no_bound": ["roller_radius"],
-        "says": ["turns by more than 45° within one part", "0.7 rho, which cannot be read"],
+        "says": ["turns by more than 45° within one part", "0.7 ρ, which cannot be read"],
     },
     "a dwell of a millionth of a degree": {
         "phases": [["rise", 30.0, 120.0, "3-4-5"], ["dwell", 0.0, 1e-6], ["return", 30.0, 120.0, "cycloidal"]],

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 
 KNOWN = {
-    # Points and a function of a Russian school's writing, the rule's own word, a file, and who wrote of three arcs.
-    "ABC", "arctg", "rho", "csv", "Lanni", "Ceccarelli", "Figliolini",
+    # Points and a function of a Russian school's writing, a file, and who wrote of three arcs.
+    "ABC", "arctg", "csv", "Lanni", "Ceccarelli", "Figliolini",
 }  # fmt: skip
 
 

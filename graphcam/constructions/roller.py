@@ -126,8 +126,8 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 def _draw(rolled: Construction) -> list[Step]:
     rule, given, candidates = rolled.givens["rule"], rolled.givens["given"], rolled.value("candidates")
     proposed = sequence([
-        say("{term} = {radius:.2f} mm", term=term.text, radius=radius) if np.isfinite(radius)
-        else say("{term}, which cannot be read", term=term.text)
+        say("{term} = {radius:.2f} mm", term=term.said, radius=radius) if np.isfinite(radius)
+        else say("{term}, which cannot be read", term=term.said)
         for term, radius in zip(rule, candidates, strict=False)
     ])  # fmt: skip
     taken = float(rolled.value("roller_radius"))

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass, replace
 
 from graphcam.errors import DesignError, nearest
+from graphcam.words import Caption, Words, say
 
 DEFAULT_RULE = "min(0.7 rho, 0.4 r0)"
 
@@ -15,23 +16,23 @@ class NamedRule:
     """A rule of a school: its terms, and where it is taught."""
 
     rule: str
-    source: str
+    source: Caption
 
 
 NAMED_RULES = {
     "coursework": NamedRule(
         "min(0.65 rho, 0.4 r0)",
-        "coursework guides on the theory of machines: (0.65 to 0.8) rho and at most 0.4 r0, the smaller",
+        say("coursework guides on the theory of machines: (0.65 to 0.8) ρ and at most 0.4 r₀, the smaller"),
     ),
-    "coursework-prime-radius": NamedRule("0.45 r0", "coursework guides on the theory of machines: 0.45 r0"),
-    "gorbenko": NamedRule("0.7 rho", "Gorbenko, Teoriya mekhanizmov i mashin (2007), section 9.2: (0.7 to 0.8) rho"),
+    "coursework-prime-radius": NamedRule("0.45 r0", say("coursework guides on the theory of machines: 0.45 r₀")),
+    "gorbenko": NamedRule("0.7 rho", say("Gorbenko, Teoriya mekhanizmov i mashin (2007), section 9.2: (0.7 to 0.8) ρ")),
     "least-profile-radius": NamedRule(
         "rho - 5",
-        "Chinese courses on the theory of machines: the profile keeps a radius of curvature of 3 to 5 mm at least",
+        say("Chinese courses on the theory of machines: the profile keeps a radius of curvature of 3 to 5 mm at least"),
     ),
     "norton": NamedRule(
         "0.33 rho",
-        "R. L. Norton, Design of Machinery, chapter 8: rho is at least 2 to 3 times the roller radius",
+        say("R. L. Norton, Design of Machinery, chapter 8: ρ is at least 2 to 3 times the roller radius"),
     ),
 }
 """Rules by name.  Where a school gives a range, the end of it is taken that gives the smaller roller."""
@@ -49,7 +50,18 @@ class Candidate:
     of: str
     factor: float = 1.0
     margin: float = 0.0
-    source: str = ""
+    source: Words = ""
+
+    @property
+    def said(self) -> Caption:
+        """The term as a formula.
+
+        >>> [str(term.said) for term in roller_rule("min(0.7 rho, 0.4 r0, rho - 4)")]
+        ['0.7 ρ', '0.4 r₀', 'ρ − 4 mm']
+        """
+        if self.margin:
+            return say("ρ − {margin:g} mm", margin=self.margin)
+        return say("{factor:g} {of}", factor=self.factor, of="ρ" if self.of == "rho" else "r₀")
 
     def __call__(self, rho: float, r0: float) -> float:
         """The radius that this term proposes, in the unit of rho and r0."""

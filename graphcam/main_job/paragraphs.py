@@ -286,7 +286,7 @@ def roller(solution: Solution) -> str:
 def _proposed(solution: Solution) -> Caption:
     rolled, chain = solution.drawn["roller"], solution.chain
     terms = [
-        say("{term} = {radius} mm", term=term.text, radius=number(radius))
+        say("{term} = {radius} mm", term=term.said, radius=number(radius))
         for term, radius in zip(chain.board.roller_rule, rolled.value("candidates").tolist(), strict=True)
     ]
     proposed = say(

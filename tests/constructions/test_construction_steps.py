@@ -141,7 +141,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "angle_diagram": ["1° a millimetre"],
         "inversion": ["r₀ = 44 mm", "e = -10 mm", "80°, 45°, 60°, 175°", "against the rotation (clockwise)"],
         "curvature": ["station 1′"],
-        "roller": ["0.4 r0 = 17.60 mm"],
+        "roller": ["0.4 r₀ = 17.60 mm"],
         "working_profile": ["r = 17 mm"],
     }
     for name, parts in expected.items():

@@ -53,7 +53,7 @@ def test_where_no_bend_is_readable_the_rule_rests_on_the_prime_radius_alone():
     assert np.isnan(chain["curvature"].readings["rho"].value)
     assert "No bend is readable" in str(chain["curvature"].steps()[0].caption)
     assert chain["roller"].readings["roller_radius"].value == pytest.approx(20.0, rel=1e-12)
-    assert "0.7 rho, which cannot be read" in str(chain["roller"].steps()[0].caption)
+    assert "0.7 ρ, which cannot be read" in str(chain["roller"].steps()[0].caption)
     with pytest.raises(DesignError, match="roller radius by the rule"):
         _ = Chain(
             board_of(motion, divisions=2, offset=0.0, prime_radius=50.0, roller_rule=roller_rule("rho - 4"))

@@ -85,7 +85,7 @@ def test_every_note_is_well_formed(name):
         "r_0 = \\sqrt{s_0^2 + e^2} = \\sqrt{42.11^2 + (-10.00)^2} = 43.28",
         "the prime radius is adopted as $r_0 = 44$ mm",
         "A spring drives the return (force closure)",
-        "0.4 r0 = 17.60 mm",
+        "0.4 r₀ = 17.60 mm",
         "the roller is adopted as $r = 17$ mm",
         "the impact is soft",
         "| rise φ₁   | 0.1111 |  0.540 |   9.720 |",
