@@ -115,8 +115,8 @@ def _exact(report: Report) -> Table:
         for r in report.rows
     ]  # fmt: skip
     note = (
-        "Times are those of the processor, SC(N) that of N sines and N cosines in the same run. Rounding is in units of "
-        "2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
+        "Times are those of the processor, SC(N) that of N sines and N cosines in the same run. Rounding is in units "
+        "of 2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
         "processors badly: where other work runs, set OPENBLAS_NUM_THREADS=1."
     )
     return Table("The exact side", note, ("what", "of what", "ratio", "goal", "µs here", "rounding, eps"), rows, 2)
