@@ -68,6 +68,46 @@ def spline_of_control_points(curve: Curve) -> Drawing:
     return document
 
 
+def fitted_polyline(curve: Curve) -> Drawing:
+    """As AutoCAD keeps one that a curve was fitted to: the corners it had, and the curve through them."""
+    document = origin(new(), 0j)
+    drawn = document.modelspace().add_polyline2d([], dxfattribs={"layer": LAYER, "flags": 4})
+    drawn.append_vertices(vertices(1.2 * curve[::3]), dxfattribs={"flags": 16})
+    drawn.append_vertices(vertices(curve), dxfattribs={"flags": 8})
+    return document
+
+
+def polyline_with_arcs(curve: Curve) -> Drawing:
+    """Bent between the points as the curve is, an arc about the cam centre in the dwell."""
+    document = origin(new(), 0j)
+    bulges = issued(NAME)[1].keys["pitch"].expected.bulge.tolist()
+    bent = [(x, y, bulge) for (x, y), bulge in zip(vertices(curve), bulges, strict=True)]
+    assert max(map(abs, bulges)) > 0.05
+    document.modelspace().add_polyline2d(bent, format="xyb", dxfattribs={"layer": LAYER})
+    return document
+
+
+def of_release_12(curve: Curve) -> Drawing:
+    """Without a unit, without light polylines."""
+    document = origin(ezdxf.new("R12"), 0j)
+    document.modelspace().add_polyline2d(vertices(curve), dxfattribs={"layer": LAYER})
+    return document
+
+
+def from_below(curve: Curve) -> Drawing:
+    """Drawn in a plane that looks down: x to the left."""
+    document = origin(new(), 0j)
+    below = {"layer": LAYER, "extrusion": (0, 0, -1)}
+    document.modelspace().add_lwpolyline(vertices(-curve.conj()), dxfattribs=below)
+    return document
+
+
+def circle_for_the_origin(curve: Curve) -> Drawing:
+    document = polyline(new(), curve + AWAY)
+    document.modelspace().add_circle((AWAY.real, AWAY.imag), 1.5, dxfattribs={"layer": "Origin "})
+    return document
+
+
 def nested_block(curve: Curve) -> Drawing:
     """The curve at half size in a block on layer 0, in another block that is turned, inserted at its full size."""
     document = origin(new(), 0j)
@@ -112,6 +152,12 @@ UNDERSTOOD: dict[str, Callable[[Curve], Drawing]] = {
     "an origin for the layer alone": lambda curve: origin(
         origin(polyline(new(), curve + AWAY), AWAY, "PITCH-ORIGIN"), 0j),
     "a layer in small letters": lambda curve: origin(polyline(new(), curve, "pitch"), 0j),
+    "a layer with a space at its end": lambda curve: origin(polyline(new(), curve, "Pitch "), 0j),
+    "a polyline that a curve was fitted to": fitted_polyline,
+    "a polyline of arcs": polyline_with_arcs,
+    "release 12": of_release_12,
+    "seen from below": from_below,
+    "a circle for the origin": circle_for_the_origin,
     "lines in any order": lines,
     "a spline through the points": spline,
     "a spline of control points": spline_of_control_points,
@@ -206,7 +252,7 @@ def test_a_drawing_earns_what_its_points_earn(case: str, form: str, hand: str):
     assert found == hand
     assert as_drawing.notes == as_text.notes == ()
     # A spline bends between the points, which the same points joined by lines do not.
-    bend = 0.5 if "spline" in case else 1e-4
+    bend = 0.5 if "spline" in case or "arcs" in case else 1e-4
     assert pitch_of(as_drawing).deviation == pytest.approx(pitch_of(as_text).deviation, abs=bend)
 
 

@@ -91,7 +91,7 @@ class Drawn:
         """Where the origin is marked; the drawing's own zero where it is not."""
         for layer in _origin_layers(name):
             if layer in self.layers:
-                marks = set(np.round(self.layers[layer].points, 6).tolist())
+                marks = set(np.round(self.layers[layer].points or self.layers[layer].centres, 6).tolist())
                 if len(marks) != 1:
                     raise UnreadableError(say(
                         "the layer {layer} must hold one POINT, the origin, but holds {count}",

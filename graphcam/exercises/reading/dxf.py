@@ -64,7 +64,8 @@ def read_dxf(name: str, data: bytes) -> Drawn:
         left = MOST_VERTICES
         with np.errstate(all="ignore"):
             for entity, layer in entities:
-                left -= _add(layers.setdefault(layer.lower(), Layer()), entity, factor)
+                # Programs tell layers neither by capitals nor by a space at the end.
+                left -= _add(layers.setdefault(layer.strip().lower(), Layer()), entity, factor)
                 if left < 0:
                     raise UnreadableError(say("{answer} has more than {most} points", answer=name, most=MOST_VERTICES))
     except UnreadableError:
@@ -158,6 +159,10 @@ def _curve(entity: Any, factor: float) -> Points:
 
     if entity.dxftype() == "SPLINE" and not len(entity.control_points) and len(entity.fit_points) > MOST_FITTED:
         raise UnreadableError(say("a {kind} has more than {most} points", kind="SPLINE", most=MOST_FITTED))
+    if entity.dxftype() == "POLYLINE":
+        # A program that fits a curve to a polyline keeps the corners that it had before.
+        drawn = [each for each in entity.vertices if not each.get_flag_state(each.SPLINE_FRAME_CONTROL_POINT)]
+        entity.vertices[:] = drawn
     path = make_path(entity)
     # Before it is divided: what is far too large would be divided for long.
     for vertex in path.control_vertices():
