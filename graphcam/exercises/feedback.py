@@ -45,7 +45,8 @@ def _about(answer: Marked, answers: Answers) -> list[Words]:
         return [say("{name}: farther off than a careful hand draws or calculates.", name=name)]
     return [
         say(
-            "{name}: farther off than a careful hand draws, most of all at point {number}.",
+            "{name}: farther off than a careful hand draws, most of all at point {number}, the first station being "
+            "point one.",
             name=name, number=answer.station + 1,
         )
     ]  # fmt: skip
