@@ -24,6 +24,7 @@ def export(
         Path | None,
         typer.Option("--secret-file", metavar="F", help="The course's secret; without it a new one is made."),
     ] = None,
+    language: Annotated[str, typer.Option("--language", metavar="en|ru", help="Of all that students read.")] = "en",
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="A new folder for the export.")] = DEFAULT_EXPORT,
 ) -> None:
     """Export variants of an exercise for Moodle, nbgrader or Gradescope.
@@ -43,5 +44,5 @@ def export(
         students = [f"variant-{k:0{len(str(count))}d}" for k in range(1, count + 1)]
         if roster:
             students = [student.id for student in read_roster(roster)]
-        write(name, target, students, out, secret, step)
+        write(name, target, students, out, secret, step, language)
     typer.echo(f"{len(students)} variants of {name} for {target} in {out}")

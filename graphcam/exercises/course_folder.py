@@ -9,6 +9,7 @@ from typing import Any
 
 from graphcam.errors import TaskError
 from graphcam.exercises.folders import folder_name, is_cut, student_of
+from graphcam.language import ENGLISH
 
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
@@ -76,6 +77,10 @@ class Certificates:
         name = str(self.course().get("exercise", ""))
         copy = self.folder / f"{name}.toml"
         return str(copy) if copy.is_file() else name
+
+    def language(self) -> str:
+        """The language that the course is noted to be in; English where nothing is."""
+        return str(self.course().get("language", ENGLISH.name))
 
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""

@@ -12,16 +12,19 @@ from xml.etree import ElementTree
 import nbformat
 import pytest
 from issued_variants import SECRET, issued, key, marked
+from russian import english_words
 
+from graphcam.exercises.answers import Answers
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path
+from graphcam.exercises.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.formats import Format
 from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.folders import folder_name
 from graphcam.exercises.grading.course import Course, grade_course
+from graphcam.exercises.marking import mark
 from graphcam.exercises.misconceptions import misconception
 
 NAME = "acceleration-and-scales"
@@ -63,6 +66,37 @@ def test_moodle_has_the_key_its_tolerance_and_the_marks(name: str):
             assert first.get("fraction") == "100"
         else:
             assert asked.layer in text(question.find("questiontext"))
+
+
+def russian_texts(folder: Path) -> list[str]:
+    """What a student reads of an export."""
+    found = [path.read_text(encoding="utf-8") for path in folder.glob("sheets/*.md")]
+    for path in folder.glob("*.xml"):
+        found += [element.text or "" for element in ElementTree.parse(path).iter("text")]
+    for path in folder.glob("source/*/*.ipynb"):
+        cells = nbformat.read(path, 4).cells
+        found += [cell.source for cell in cells if cell.cell_type == "markdown"]
+    return found
+
+
+@pytest.mark.parametrize("target", [Format.MOODLE, Format.NBGRADER])
+def test_an_export_is_in_the_language_of_the_course(target: Format, tmp_path: Path):
+    export("inversion-translating", target, ["Анна"], tmp_path / "out", SECRET, language="ru")
+    exercise = find_exercise("inversion-translating", "ru")
+    names = [asked.name for asked in exercise.answers]
+    texts = russian_texts(tmp_path / "out")
+    assert len(texts) > len(names)
+    for text in texts:
+        assert english_words(text, [*names, "course", "None", "DXF", "PITCH"]) == set()
+    assert Certificates(tmp_path / "out" / TEACHER).language() == "ru"
+
+
+def test_gradescope_tells_the_result_in_the_language_of_the_course():
+    exercise = find_exercise(NAME, "ru")
+    record = mark(exercise, issued(NAME)[1], Answers({"mu_s": 1.0}))
+    results = gradescope.results(exercise, record.to_dict())
+    told = [results["output"], *(test["output"] for test in results["tests"])]
+    assert set().union(*(english_words(text, [asked.name for asked in exercise.answers]) for text in told)) == set()
 
 
 def test_moodle_marks_one_answer_as_graphcam_does():

@@ -16,16 +16,21 @@ from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
 from graphcam.exercises.issue import issue
 from graphcam.files import OutputError, whole_folder
+from graphcam.language import ENGLISH, languages
+from graphcam.sheet_tables import one_of
 
 MOST = 1000
 """Variants of one export."""
 
 
-def export(name: str, target: Format, students: list[str], folder: Path, secret: bytes | None = None,
-           step: Callable[[int, int], None] = lambda done, total: None) -> None:  # fmt: skip
+def export(
+    name: str, target: Format, students: list[str], folder: Path, secret: bytes | None = None,
+    step: Callable[[int, int], None] = lambda done, total: None, language: str = ENGLISH.name,
+) -> None:  # fmt: skip
     """Write the export for some students, or for as many nameless variants, into a new folder.
 
     name : of an exercise, or the path of its file, which travels with the export
+    language : of all that students read
     secret : of the course; without one a new one is drawn and written into the folder, for the teacher
 
     Raises
@@ -36,7 +41,8 @@ def export(name: str, target: Format, students: list[str], folder: Path, secret:
         raise DesignError("number of variants", len(students), f"from 1 to {MOST}")
     if folder.exists():
         raise OutputError(folder, "it is there already", "name a new folder, or remove that one first")
-    exercise = find_exercise(name)
+    one_of("language", language, languages())
+    exercise = find_exercise(name, language)
     key = secret or secrets.token_hex(32).encode()
     certificates: list[Certificate] = []
     for student in students:
@@ -44,7 +50,7 @@ def export(name: str, target: Format, students: list[str], folder: Path, secret:
         step(len(certificates), len(students))
     with whole_folder(folder) as draft:
         kept = Certificates(draft / TEACHER)
-        kept.keep_course(exercise_path(name), version=exercise.version, language="en")
+        kept.keep_course(exercise_path(name), version=exercise.version, language=language)
         for certificate in certificates:
             kept.keep(certificate.student, certificate.to_json())
         match target:

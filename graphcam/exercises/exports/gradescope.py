@@ -32,7 +32,11 @@ def results(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
 
     Gradescope shows outputs to the student, so nothing of the key and no deviation is in them.
     """
-    asked = {one.name: one for one in exercise.answers}
+    texts = {one.name: one.text for one in exercise.answers}
+
+    def asked(name: str) -> str:
+        return sentence(texts[name], record["parameters"], exercise.tell)
+
     return {
         "score": record["total"],
         "output": "\n".join([*record["feedback"], *record["notes"]]),
@@ -43,7 +47,7 @@ def results(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
             {
                 "name": answer["name"], "score": answer["marks"], "max_score": answer["of"],
                 "status": "passed" if answer["marks"] == answer["of"] else "failed",
-                "output": f"{sentence(asked[answer['name']].text, record['parameters'])} {OUTCOMES[answer['outcome']]}",
+                "output": f"{asked(answer['name'])} {exercise.tell(OUTCOMES[answer['outcome']])}",
                 "output_format": "text", "visibility": "visible",
             }
             for answer in record["answers"]
@@ -67,7 +71,7 @@ def main(root: Path) -> None:
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     student = str(metadata["users"][0]["email"])
     kept = Certificates(source / TEACHER)
-    exercise = find_exercise(kept.exercise())
+    exercise = find_exercise(kept.exercise(), kept.language())
     assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
     graded = grade(assignment, read_hand_in(student, root / "submission", kept.find(student)))
     (root / "results").mkdir(exist_ok=True)

@@ -14,6 +14,7 @@ from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.misconceptions import misconception
 from graphcam.exercises.template import sentence
+from graphcam.words import say
 
 
 def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
@@ -27,7 +28,9 @@ def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
     for certificate in certificates:
         category = SubElement(quiz, "question", type="category")
         _text(category, "category", f"$course$/{exercise.title}/{certificate.student}")
-        description = _question(quiz, "description", exercise.title, sentence(exercise.text, certificate.parameters))
+        description = _question(
+            quiz, "description", exercise.title, sentence(exercise.text, certificate.parameters, exercise.tell)
+        )
         SubElement(description, "defaultgrade").text = "0"
         for asked in exercise.answers:
             _ask(quiz, exercise, certificate, asked)
@@ -37,16 +40,19 @@ def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
 
 def _ask(quiz: Element, exercise: Exercise, certificate: Certificate, asked: Asked) -> None:
     title = f"{exercise.title}: {asked.name}"
-    text = sentence(asked.text, certificate.parameters) + (f" [{asked.unit}]" if asked.unit else "")
+    tell = exercise.tell
+    text = sentence(asked.text, certificate.parameters, tell)
     if asked.kind != "number":
-        _essay(quiz, title, text, asked)
+        how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
+        _essay(quiz, title, f"{text} {tell(how)}", asked)
         return
+    text += f" [{tell(asked.unit_said)}]" if asked.unit else ""
     question = _question(quiz, "numerical", title, text)
     SubElement(question, "defaultgrade").text = repr(asked.marks)
     SubElement(question, "penalty").text = "0"
     SubElement(question, "hidden").text = "0"
     key = certificate.keys[asked.name]
-    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), "Right.")
+    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(say("Right.")))
     place = [one.name for one in exercise.answers].index(asked.name)
     for name, values in certificate.hypotheses.items():
         value, scatter = values[place].value, values[place].scatter
@@ -54,15 +60,15 @@ def _ask(quiz: Element, exercise: Exercise, certificate: Certificate, asked: Ask
         assert isinstance(scatter, float)
         # A mistake made elsewhere leaves this answer right, and the key stands before it anyway.
         if abs(value - float(str(key.expected.value))) > key.tolerance:
-            _answer(question, 0, repr(value), repr(certificate.bound * scatter), str(misconception(name).said))
-    _answer(question, 0, "*", "0", "Farther off than a careful hand draws or calculates.")
+            _answer(question, 0, repr(value), repr(certificate.bound * scatter), tell(misconception(name).said))
+    _answer(question, 0, "*", "0", tell(say("Farther off than a careful hand draws or calculates.")))
     SubElement(question, "unitgradingtype").text = "0"
     SubElement(question, "showunits").text = "3"
 
 
 def _essay(quiz: Element, title: str, text: str, asked: Asked) -> None:
     """Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades."""
-    question = _question(quiz, "essay", title, f"{text} Hand in a DXF, drawn in mm on the layer {asked.layer}.")
+    question = _question(quiz, "essay", title, text)
     SubElement(question, "defaultgrade").text = repr(asked.marks)
     SubElement(question, "penalty").text = "0"
     for name, value in (("responseformat", "noinline"), ("responserequired", "0"), ("attachments", "1"),

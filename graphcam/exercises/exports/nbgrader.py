@@ -15,6 +15,7 @@ from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.folders import folder_name
 from graphcam.exercises.reading.notebook import TAG
 from graphcam.exercises.template import sentence
+from graphcam.words import Tell, say
 
 SCHEMA = 3
 NOTEBOOK = "answers"
@@ -24,7 +25,7 @@ CONFIG = '''"""The settings of this course; graphcam grades, nbgrader keeps the 
 c = get_config()
 c.CourseDirectory.course_id = {course!r}
 # Stands in the student's notebook in place of a solution.
-c.ClearSolutions.code_stub = {{"python": "# Write what you read in place of None."}}
+c.ClearSolutions.code_stub = {{"python": {stub!r}}}
 '''
 SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
 """Without these nbgrader takes a whole cell for the solution, and the student gets one without the answer's name."""
@@ -34,7 +35,9 @@ def write_course(folder: Path, exercise: Exercise, certificates: Sequence[Certif
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
     import nbformat
 
-    (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name), encoding="utf-8")
+    tell = exercise.tell
+    stub = "# " + tell(say("Write what you read in place of None."))
+    (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
     notebook = nbformat.from_dict(_notebook(exercise))
@@ -43,7 +46,8 @@ def write_course(folder: Path, exercise: Exercise, certificates: Sequence[Certif
     sheets = folder / "sheets"
     sheets.mkdir()
     for certificate in certificates:
-        text = f"# {exercise.title}\n\n{certificate.student}\n\n{sentence(exercise.text, certificate.parameters)}"
+        told = sentence(exercise.text, certificate.parameters, tell)
+        text = f"# {exercise.title}\n\n{certificate.student}\n\n{told}"
         (sheets / f"{folder_name(certificate.student)}.md").write_text(text, encoding="utf-8")
 
 
@@ -82,18 +86,19 @@ def _enter(book: Any, assignment: str, record: dict[str, Any], answer: dict[str,
 
 
 def _notebook(exercise: Exercise) -> dict[str, Any]:
-    text = f"# {exercise.title}\n\nYour parameters stand on your own sheet. Replace each `None` by what you read."
-    cells = [_markdown("task", text)]
+    how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
+    cells = [_markdown("task", f"# {exercise.title}\n\n{exercise.tell(how)}")]
     for asked in exercise.answers:
-        cells += [_markdown(f"{asked.name}-asked", _question(asked)), _answer(asked)]
+        cells += [_markdown(f"{asked.name}-asked", _question(asked, exercise.tell)), _answer(asked)]
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
 
 
-def _question(asked: Asked) -> str:
-    unit = f" [{asked.unit}]" if asked.unit else ""
-    points = "" if asked.kind == "number" else " A list of points `[x, y]` in mm of paper."
-    return f"**{asked.name}**{unit} {asked.text}{points}"
+def _question(asked: Asked, tell: Tell) -> str:
+    unit = f" [{tell(asked.unit_said)}]" if asked.unit else ""
+    points = tell(say("A list of points `[x, y]` in mm of paper."))
+    text = asked.text if asked.kind == "number" else f"{asked.text} {points}"
+    return f"**{asked.name}**{unit} {text}"
 
 
 def _markdown(name: str, text: str) -> dict[str, Any]:

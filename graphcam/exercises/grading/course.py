@@ -59,7 +59,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     if course.out.is_dir():
         raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
     folder, kept = Certificates.of(course.folder)
-    exercise = find_exercise(course.exercise or _noted(course.folder, kept), str(kept.course().get("language", "en")))
+    exercise = find_exercise(course.exercise or _noted(course.folder, kept), kept.language())
     require(course.level, (course.folder, course.secret_file, course.out))
     assignment = Assignment(exercise, read_secret(course.secret_file), course.level, Limits(seconds=course.seconds))
     store = Store.beside(course.out, assignment)
