@@ -29,12 +29,17 @@ class View:
 
     ``across`` and ``up`` name what its axes measure: views with the same ``across`` stand exactly one under the other,
     views with the same ``up`` exactly side by side, origin to origin.
+
+    answer : what the title says that is only found by drawing, if anything: a sheet is blank there until the
+        construction ``found_by`` is drawn
     """
 
     name: str
     title: Caption
     across: str
     up: str
+    answer: Caption | None = None
+    found_by: str = ""
 
 
 class Role(StrEnum):
@@ -182,7 +187,8 @@ class Step:
         }
         marks, given = (tuple(told[id(mark)] for mark in part) for part in (self.marks, self.given))
         title, caption = _plain(self.title, tell), _plain(self.caption, tell)
-        view = replace(self.view, title=_plain(self.view.title, tell))
+        answer = None if self.view.answer is None else _plain(self.view.answer, tell)
+        view = replace(self.view, title=_plain(self.view.title, tell), answer=answer)
         return replace(self, title=title, caption=caption, view=view, marks=marks, given=given)
 
 

@@ -19,6 +19,8 @@ from graphcam.sheets.model import Drawing
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Tell
 
+SCALED = "acceleration", "velocity", "displacement", "combined"
+"""The views whose scale is found by drawing."""
 UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
@@ -69,7 +71,12 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
 
 def _titled(step: Step, titles: dict[str, Caption]) -> Step:
     view = step.view
-    return replace(step, view=replace(view, title=titles.get(view.name, view.title)))
+    if view.name not in titles:
+        return step
+    mu = titles[view.name].values.get("mu")
+    # The scale of the cam angle is chosen; the others are fixed by the lift when all has been drawn.
+    found = {"answer": say("{mu:.4g}", mu=mu), "found_by": "integration"} if view.name in SCALED else {}
+    return replace(step, view=replace(view, title=titles[view.name], **found))
 
 
 def _titles(solution: Solution) -> dict[str, Caption]:

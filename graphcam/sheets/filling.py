@@ -77,7 +77,8 @@ class Way:
 
     gaps : between the views of each run [mm]
     pages : so many pages are filled evenly; of 0 the first is filled before the next is begun
-    within : how many small views stand in the empty parts of diagrams, as tables do
+    within : how many small views stand in the empty parts of diagrams, as tables do; a lone view stands in the middle,
+        unless it is more than 0
     """
 
     gaps: tuple[float, ...]
@@ -168,7 +169,10 @@ def _with_views(sheet: Format, runs: Sequence[list[Panel]], way: Way) -> list[Le
             leaf, by = found
             within -= 1
         else:
-            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, _preferred(sheet, run, largest))
+            # Aside it leaves more room for tables.
+            lone = len(runs) == 1 and not way.within
+            preference = middle if lone else _preferred(sheet, run, largest)
+            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, preference)
         if leaf not in leaves:
             leaves.append(leaf)
         leaf.put_views(run, [origin + by for origin in origins])

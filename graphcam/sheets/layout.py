@@ -147,6 +147,11 @@ def _in_order(part: Part, leaves: Sequence[Leaf]) -> list[Leaf]:
     return sorted(leaves, key=first)
 
 
+def _is_found(part: Part, construction: str, upto: int) -> bool:
+    """Whether a construction is drawn to its end."""
+    return upto >= max((number for number, name, _ in part.steps if name == construction), default=0)
+
+
 def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: int | None) -> Page:
     """Draw all that a page holds; the labels last, when every line stands."""
     titles = Group("titles", tuple(e for panel, origin in leaf.views.values() for e in panel.title(origin)))
@@ -162,6 +167,11 @@ def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: int | None)
                 of.append((number, shown))
     finished = lettered(drawn, [*empty.entities, *answered, *titles.entities], sheet.content)
     tables = answered if upto is None else [e for block, at in leaf.blocks for e in block.drawn(at, answered=False)]
+    if upto is not None:
+        titles = Group("titles", tuple(
+            e for panel, origin in leaf.views.values()
+            for e in panel.title(origin, answered=_is_found(part, panel.view.found_by, upto))
+        ))  # fmt: skip
     shown = [(number, entities) for (number, shown), entities in zip(of, finished, strict=True) if shown]
     entities: dict[int, list[Entity]] = {}
     for (number, _), parted in zip(shown, shading_parted([some for _, some in shown]), strict=True):

@@ -24,6 +24,8 @@ STRIP, STRIPS = 6.0, 30
 """The footprint of a view is taken in strips of at least this height [mm], and of at most about so many."""
 TITLE_AIR = 1.5
 """Between a title and the lines below it, mm."""
+BLANK = "_____"
+"""Where a number is to be written."""
 LEADING = 1.7
 """From base line to base line, in heights of the letters."""
 
@@ -111,10 +113,12 @@ class Panel:
         room.take_points(self.points + origin, 2 * AIR)
         return room
 
-    def title(self, origin: complex) -> list[Entity]:
-        """The title's texts on the page."""
-        corner = origin + self.title_box.corner
-        return [replace(text, at=corner + text.at, view=self.view.name) for text in self.heading if text.text]
+    def title(self, origin: complex, *, answered: bool = True) -> list[Entity]:
+        """The title's texts on the page, with what is only found by drawing or a blank to write it in."""
+        corner, answer = origin + self.title_box.corner, str(self.view.answer or "")
+        texts = [text if answered or not answer else replace(text, text=text.text.replace(answer, BLANK))
+                 for text in self.heading if text.text]  # fmt: skip
+        return [replace(text, at=corner + text.at, view=self.view.name) for text in texts]
 
 
 def panels(steps: Iterable[Step], letters: Lettering, tell: Tell = str) -> list[Panel]:

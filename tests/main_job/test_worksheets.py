@@ -14,6 +14,7 @@ from graphcam.cli import app
 from graphcam.main_job import Solution, sheet_of, worksheet
 from graphcam.sheets.model import Drawing, Entity, Group, Text
 from graphcam.sheets.overlaps import overlaps
+from graphcam.sheets.panels import BLANK
 from graphcam.sheets.sampling import outline
 from graphcam.task import SpringTable
 from graphcam.task_file import builtin_task
@@ -47,7 +48,23 @@ def texts(drawing: Drawing) -> list[str]:
 def test_a_worksheet_can_be_laid_over_the_finished_sheet() -> None:
     whole = groups(finished())
     for key, group in groups(worksheet(solution())).items():
-        assert {place(e) for e in group.entities} <= {place(e) for e in whole[key].entities}
+        # A blank stands in the place of a number.
+        blank = [e for e in group.entities if isinstance(e, Text) and BLANK in e.text]
+        assert {place(e) for e in group.entities if e not in blank} <= {place(e) for e in whole[key].entities}
+        assert {e.at for e in blank} <= {e.at for e in whole[key].entities if isinstance(e, Text)}
+
+
+def test_scales_are_left_blank_until_they_are_found() -> None:
+    """Whoever reads mu_s off the sheet need not integrate."""
+    scales = [text for text in texts(finished()) if text.startswith("μ") and "mm/mm" in text]
+    assert len(scales) == 2  # of the displacement and of the least radius
+    for upto, known in ((0, False), ("acceleration", False), ("integration", True), ("minimum_radius", True)):
+        said = texts(sheet_of(solution(), upto))
+        assert [text for text in said if text in scales] == scales * known
+        assert f"μₛ = {BLANK} mm/mm" in said or known
+    assert any(text.startswith("μ = 2") for text in texts(worksheet(solution()))), (
+        "the axis is laid off at a given scale"
+    )
 
 
 def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
