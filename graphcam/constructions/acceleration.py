@@ -115,7 +115,7 @@ def _draw(diagram: Construction) -> list[Step]:
             say("Acceleration by the law"),
             say(
                 "In each moving phase the acceleration is plotted by its law: {laws}.",
-                laws=sequence([_law_of_phase(motion, k) for k in stations.phase[stations.last].tolist()]),
+                laws=_laws(motion, stations),
             ),
             ACCELERATION,
             tuple(Line(line, Role.RESULT) for line in curves),
@@ -124,8 +124,15 @@ def _draw(diagram: Construction) -> list[Step]:
     ]  # fmt: skip
 
 
-def _law_of_phase(motion: Motion, k: int) -> Caption:
-    return say("{phase} {law}", phase=phase_title(motion, k), law=law_name(motion.phases[k].normalised))
+def _laws(motion: Motion, stations: Stations) -> Caption:
+    """The moving phases with their laws."""
+    moving = stations.phase[stations.last].tolist()
+    return sequence(
+        [
+            say("{phase} {law}", phase=phase_title(motion, k), law=law_name(phase.normalised))
+            for k, phase in zip(moving, moving_phases(motion, stations), strict=True)
+        ]
+    )
 
 
 def _axis(diagram: Construction, heights: Floats) -> Step:

@@ -98,10 +98,10 @@ def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[Words, 
     rows: list[tuple[Words, ...]] = []
     for asked in exercise.answers:
         key = certificate.keys[asked.name]
-        drawn = not isinstance(key.expected.value, float)
-        value = say("see the drawing") if drawn else number(key.expected.value, asked.decimals)
+        value = key.expected.value
+        told = number(value, asked.decimals) if isinstance(value, float) else say("see the drawing")
         tolerance = number(key.tolerance, asked.decimals + 1)
-        rows.append((asked.name, asked.unit_said, value, tolerance, say("{marks:g}", marks=asked.marks)))
+        rows.append((asked.name, asked.unit_said, told, tolerance, say("{marks:g}", marks=asked.marks)))
     return rows
 
 
