@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,8 @@ STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
 SUBMITTED = "submitted"
 """Where nbgrader collects: a folder for every student, and in it one for every assignment."""
+COURSE = "course.json"
+"""In the teacher's folder, what the course is about."""
 HIDDEN = ".graphcam"
 """Where certificates go in a course that was not made so; no student's folder has a name that begins with a point."""
 
@@ -29,7 +32,8 @@ class Certificates:
     def of(course: Path) -> tuple[Path, Certificates]:
         """Where the hand-ins of a course are, and where its certificates: beside them if graphcam made the course."""
         for hand_ins in (STUDENTS, SUBMITTED):
-            if (course / hand_ins).is_dir() and (course / TEACHER).is_dir():
+            # Students may have any name, and hand in what they like.
+            if (course / hand_ins).is_dir() and (course / TEACHER / COURSE).is_file():
                 return course / hand_ins, Certificates(course / TEACHER)
         beside = course.resolve().parent / TEACHER
         if course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir():
@@ -58,7 +62,8 @@ class Certificates:
         """Keep a certificate; it is there whole or not at all."""
         path = self._path(student)
         path.parent.mkdir(parents=True, exist_ok=True)
-        draft = path.with_suffix(".new")
+        # Two runs may keep the same one.
+        draft = path.with_name(f"{path.name}.{os.getpid()}.new")
         draft.write_text(certificate, encoding="utf-8")
         draft.replace(path)
 
@@ -70,7 +75,7 @@ class Certificates:
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / exercise.name).write_bytes(exercise.read_bytes())
         said = {"exercise": exercise.stem, **said}
-        (self.folder / "course.json").write_text(json.dumps(said) + "\n", encoding="utf-8")
+        (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8")
 
     def exercise(self) -> str:
         """What the course is about, as :func:`~graphcam.exercises.exercise_file.find_exercise` takes it; or empty."""
@@ -85,7 +90,7 @@ class Certificates:
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""
         try:
-            said = json.loads((self.folder / "course.json").read_bytes())
+            said = json.loads((self.folder / COURSE).read_bytes())
         except (OSError, ValueError):
             return {}
         return said if isinstance(said, dict) else {}

@@ -6,12 +6,12 @@ import csv
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -26,7 +26,9 @@ from graphcam.exercises.grading import course as grading_course
 from graphcam.exercises.grading import run
 from graphcam.exercises.grading.course import Course, grade_course
 from graphcam.exercises.grading.crew import Crew, processes, results
+from graphcam.exercises.grading.hand_in import read_hand_in
 from graphcam.exercises.grading.work import Assignment
+from graphcam.files import OutputError
 
 NAME = "acceleration-and-scales"
 IDS = (
@@ -178,6 +180,48 @@ def test_a_changed_hand_in_is_not_taken_from_the_interrupted_run(tmp_path: Path)
     assert [float(row["total"]) for row in rows(out.read_bytes())] == [0.0, exercise.marks - exercise.answers[0].marks]
 
 
+def test_a_folder_that_may_not_be_looked_into_is_one_hand_in(tmp_path: Path):
+    (tmp_path / "Anna").mkdir(mode=0o000)
+    user = os.geteuid()
+    if user == 0:
+        os.seteuid(65534)  # root may look into everything
+    try:
+        hand_in = read_hand_in("Anna", tmp_path / "Anna", assignment="week-5")
+    finally:
+        os.seteuid(user)
+        (tmp_path / "Anna").chmod(0o700)
+    assert hand_in.files == {}
+    assert [str(error) for error in hand_in.errors] == ["the hand-in is not a folder"]
+
+
+@pytest.mark.usefixtures("threads")
+def test_students_may_be_called_students_and_teacher_and_hand_in_a_file_for_the_folder(tmp_path: Path):
+    names = ["Anna", "students", "teacher"]
+    for name in names:
+        (tmp_path / "hand-ins" / name).mkdir(parents=True)
+    (tmp_path / "hand-ins" / "read-me.txt").touch()
+    (tmp_path / "secret").write_bytes(SECRET)
+    order = Course(tmp_path / "hand-ins", tmp_path / "secret", tmp_path / "grades.csv", exercise=NAME)
+    grade_course(order)
+    assert [row["student"] for row in rows(order.out.read_bytes())] == names
+    (tmp_path / "hand-ins" / "Anna").rmdir()
+    (tmp_path / "hand-ins" / "Anna").write_text("mu_s = 1")
+    grade_course(order)
+    table = rows(order.out.read_bytes())
+    assert [row["student"] for row in table] == names
+    assert "not a folder" in table[0]["notes"]
+
+
+def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
+    store = grading_course.Store.beside(tmp_path / "new" / "grades.csv", assignment())
+    with store.held(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.held():
+        pass
+    # The next one may, and where nothing was graded nothing is left.
+    with store.held():
+        pass
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.slow
 def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
     """By SIGKILL, from the command line; whole batches of a real pool are lost, none is done twice."""
@@ -191,10 +235,25 @@ def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
     deadline = time.monotonic() + 60
     while not list(out.glob(".*/*.json")) and slow.poll() is None and time.monotonic() < deadline:
         time.sleep(0.001)
-    os.killpg(slow.pid, signal.SIGKILL)
+    slow.kill()
     slow.wait()
+    # Its workers end too, instead of waiting for jobs for ever.
+    while session(slow.pid) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert session(slow.pid) == []
     subprocess.run([*command, "--out", str(out / "grades.csv")], check=True, capture_output=True, text=True)
     assert written(out) == written(whole)
+
+
+def session(leader: int) -> list[str]:
+    """The processes of a session that run."""
+    found: list[str] = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            state, _, _, number = path.read_text().rpartition(")")[2].split()[:4]
+            if int(number) == leader and state != "Z":
+                found.append(path.parent.name)
+    return found
 
 
 @pytest.mark.slow

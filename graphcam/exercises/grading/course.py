@@ -63,15 +63,16 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     require(course.level, (course.folder, course.secret_file, course.out))
     assignment = Assignment(exercise, read_secret(course.secret_file), course.level, Limits(seconds=course.seconds))
     store = Store.beside(course.out, assignment)
-    with closing(_crew(course)) as crew:
-        records = grade_folder(folder, assignment, crew, store, kept, step)
-    certificates = _certificates(kept, records)
-    names = write_reports(course.out, exercise, records, certificates)
-    if course.feedback is not None:
-        write_feedback(course.feedback, exercise, records, certificates)
-    if course.gradebook:
-        _enter(course.gradebook, exercise, records)
-    store.clear()
+    with store.held():
+        with closing(_crew(course)) as crew:
+            records = grade_folder(folder, assignment, crew, store, kept, step)
+        certificates = _certificates(kept, records)
+        names = write_reports(course.out, exercise, records, certificates)
+        if course.feedback is not None:
+            write_feedback(course.feedback, exercise, records, certificates)
+        if course.gradebook:
+            _enter(course.gradebook, exercise, records)
+        store.clear()
     return f"{len(records)} hand-ins, graded at level {course.level}, in {course.out.parent}: {', '.join(names)}"
 
 

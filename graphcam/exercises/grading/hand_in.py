@@ -42,13 +42,15 @@ class HandIn:
         return digest.hexdigest()
 
 
-def students_in(folder: Path, student_of: Callable[[str], str] = student_of) -> list[tuple[str, Path]]:
+def students_in(
+    folder: Path, student_of: Callable[[str], str] = student_of, known: Callable[[str], bool] = lambda student: False
+) -> list[tuple[str, Path]]:
     """The students who handed in, in the order of their names, each with the folder.
 
     Whatever stands there but for plain files is somebody's hand-in, also a link or a pipe in place of a folder; names
     that begin with a point are not.
 
-    student_of : whose a folder of this name is
+    student_of : whose a folder of this name is;  known : whether it is a student's, so that a plain file counts too
 
     Raises
     ------
@@ -56,7 +58,7 @@ def students_in(folder: Path, student_of: Callable[[str], str] = student_of) -> 
     """
     try:
         with os.scandir(folder) as entries:
-            found = [Path(entry.path) for entry in entries if not _is_aside(entry)]
+            found = [Path(entry.path) for entry in entries if not _is_aside(entry, student_of, known)]
     except OSError as error:
         raise TaskError(
             str(folder), "the folder", error.strerror or "not there", "one with a folder a student"
@@ -70,10 +72,11 @@ def read_hand_in(student: str, folder: Path, certificate: str = "", assignment: 
     assignment : name of the folder in it that counts if it is there, as nbgrader collects
     """
     within = folder / assignment
-    # A link would lead into another student's folder.
-    files, errors = read_files(within if within.is_dir() and not folder.is_symlink() else folder)
+    # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
+    files, errors = read_files(within if os.path.isdir(within) and not os.path.islink(folder) else folder)  # noqa: PTH112, PTH114
     return HandIn(student, folder.name, files, tuple(error.why for error in errors), certificate)
 
 
-def _is_aside(entry: os.DirEntry[str]) -> bool:
-    return entry.name.startswith(".") or entry.is_file(follow_symlinks=False)
+def _is_aside(entry: os.DirEntry[str], student_of: Callable[[str], str], known: Callable[[str], bool]) -> bool:
+    plain = entry.is_file(follow_symlinks=False)
+    return entry.name.startswith(".") or (plain and not known(student_of(entry.name)))

@@ -32,7 +32,7 @@ def grade_folder(
     ------
     TaskError : there is no such folder
     """
-    students = students_in(folder, kept.student)
+    students = students_in(folder, kept.student, lambda student: bool(kept.find(student)))
     found: dict[str, dict[str, Any]] = {}
 
     def unfinished() -> Generator[HandIn]:

@@ -6,6 +6,8 @@ import hashlib
 import json
 import os
 import shutil
+from collections.abc import Generator, Iterable
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +15,7 @@ from typing import Any
 import graphcam
 from graphcam.exercises.grading.hand_in import HandIn
 from graphcam.exercises.grading.work import Assignment
+from graphcam.files import OutputError
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,31 @@ class Store:
         """The store of a run that writes to ``out``."""
         return Store(out.parent / f".{out.name}-{_fingerprint(assignment)}")
 
+    @contextmanager
+    def held(self) -> Generator[None]:
+        """Keep other runs out meanwhile: two that write the same records, and clear them, break each other.
+
+        Raises
+        ------
+        OutputError : another run is at it
+        """
+        import fcntl
+
+        made = not self.folder.parent.exists()
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with ExitStack() as stack:
+            lock = os.open(self.folder, os.O_RDONLY | os.O_CLOEXEC)
+            stack.callback(os.close, lock)
+            try:
+                # The system gives it free when the run ends, however it ends.
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                out = self.folder.with_name(self.folder.name.rpartition("-")[0][1:])
+                raise OutputError(out, "another run is grading into it", "wait until it ends") from None
+            # Where nothing was graded, nothing is left.
+            stack.callback(_remove_empty, (self.folder, self.folder.parent)[: 1 + made])
+            yield
+
     def find(self, hand_in: HandIn) -> dict[str, Any] | None:
         """The record of just this hand-in, if a former run got so far."""
         try:
@@ -38,7 +66,7 @@ class Store:
         """Write a record; it is there whole or not at all."""
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self._path(hand_in)
-        draft = path.with_name(f"{path.name}.new")
+        draft = path.with_name(f"{path.name}.{os.getpid()}.new")
         draft.write_text(json.dumps({"digest": hand_in.digest, "record": record}), encoding="ascii")
         draft.replace(path)
 
@@ -49,6 +77,12 @@ class Store:
     def _path(self, hand_in: HandIn) -> Path:
         # Of any length, and of letters that every file system has.
         return self.folder / f"{hashlib.sha256(os.fsencode(hand_in.place)).hexdigest()[:32]}.json"
+
+
+def _remove_empty(folders: Iterable[Path]) -> None:
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def _fingerprint(assignment: Assignment) -> str:
