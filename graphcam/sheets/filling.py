@@ -172,7 +172,9 @@ def _with_views(sheet: Format, runs: Sequence[list[Panel]], way: Way) -> list[Le
             # Aside it leaves more room for tables.
             lone = len(runs) == 1 and not way.within
             preference = middle if lone else _preferred(sheet, run, largest)
-            leaf, by = _find(sheet, _in_turn(allowed, way), boxes, preference)
+            # The first sheet of a large format is the cam's; only tables go to where there is more room.
+            turn = allowed if sheet.name in ONE_PAGE else _in_turn(allowed, way)
+            leaf, by = _find(sheet, turn, boxes, preference)
         if leaf not in leaves:
             leaves.append(leaf)
         leaf.put_views(run, [origin + by for origin in origins])
