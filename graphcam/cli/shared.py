@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +14,8 @@ from graphcam.errors import GraphcamError
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
+REFRESHED = 0.1
+"""Seconds between two looks of a bar."""
 DEFAULT_FOLDER = Path("graphcam-out")
 """Where the files go if nothing is said."""
 
@@ -36,10 +39,23 @@ def progress_lines(*, quiet: bool) -> Callable[[str], None]:
 @contextmanager
 def progress_bar(what: str) -> Generator[Callable[[int, int], None]]:
     """A bar on standard error for somebody who sits before it; it hears how many of how many are done."""
+    if not sys.stderr.isatty():
+        yield lambda done, total: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+    shown = -REFRESHED
+
+    def step(done: int, total: int) -> None:
+        nonlocal shown
+        now = time.monotonic()
+        due = now - shown >= REFRESHED
+        shown = now if due else shown
+        progress.update(bar, completed=done, total=total, refresh=due)
+
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    # Without a thread that refreshes: a process with threads is better not forked.
+    with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         bar = progress.add_task(what, total=None)
-        yield lambda done, total: progress.update(bar, completed=done, total=total)
+        yield step

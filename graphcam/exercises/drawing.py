@@ -29,7 +29,7 @@ PER_INTERVAL = ("differentiation",)
 def board_chain(task: Task, pencil: Pencil | None = None) -> Chain:
     """The drawing of a task."""
     # Marking needs the catalogue of mistakes, which redraw, but draws nothing itself.
-    from graphcam.main_job.solution import board_of
+    from graphcam.main_job.board import board_of
 
     return Chain(board_of(task), pencil or Pencil())
 

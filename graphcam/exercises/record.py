@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from graphcam.exercises.exercise import Value
@@ -78,12 +78,16 @@ class Record:
         >>> marked = Marked("v", "right", 1.0, 1.0, given=2.0, deviation=math.inf)
         >>> Record("s", "e", 1, 0, {}, (marked,), 1.0, 1.0, None, False, ()).to_dict()["answers"][0]["deviation"]
         """
-        return _strict(asdict(self))
+        return _strict(self)
 
 
 def _strict(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, (Record, Marked, Diagnosis)):
+        value = vars(value)
     if isinstance(value, dict):
         return {key: _strict(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
+    if isinstance(value, (list, tuple)):
         return [_strict(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    return value

@@ -12,23 +12,16 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.comparison.quantities import Comparison
-from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.flat_faced import DrawnFlatFaced
-from graphcam.constructions.oscillating import DrawnOscillating
-from graphcam.constructions.translating import DrawnTranslating
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
 from graphcam.given.follower import FlatFaced, Oscillating
-from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.main_job.board import board_of
 from graphcam.main_job.cautions import cautions, less_round
-from graphcam.main_job.diagram_sizes import chosen_ordinate, chosen_poles, diagram_room
 from graphcam.main_job.plain import plain_quantities, plain_stations
 from graphcam.main_job.spring import SpringDesign
 from graphcam.mechanism.cam import Cam
-from graphcam.sheets.layout import profile_room
-from graphcam.task import OscillatingTable, Task, TranslatingTable
+from graphcam.task import Task
 from graphcam.words import Tell
 
 FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
@@ -51,39 +44,6 @@ def solve(task: Task, pencil: Pencil | None = None) -> Solution:
     chain = Chain(board_of(task), pencil or Pencil())
     follower = chain.board.follower.built(chain.place, chain.roller_radius)
     return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
-
-
-def board_of(task: Task) -> Board:
-    """What the task puts on the drawing board."""
-    drawing, motion = task.drawing, task.motion()
-    follower = _drawn_follower(task)
-    room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
-    ordinate = drawing.ordinate or chosen_ordinate(motion, room)
-    return Board(
-        motion=motion,
-        follower=follower,
-        rotation=task.rotation,
-        limits=task.limits(),
-        prime_radius=task.cam.prime_radius,
-        roller_radius=getattr(task.follower, "roller_radius", 0.0),
-        roller_rule=roller_rule(getattr(task.follower, "roller_rule", DEFAULT_RULE)),
-        divisions=drawing.divisions,
-        ordinate=ordinate,
-        poles=drawing.poles or chosen_poles(motion, room, ordinate),
-        mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
-        rounding=drawing.rounding,
-        profile_room=profile_room(drawing.format, drawing.frame, drawing.orientation),
-    )
-
-
-def _drawn_follower(task: Task) -> DrawnFollower:
-    """The follower of the task, as it is drawn."""
-    table = task.follower
-    if isinstance(table, TranslatingTable):
-        return DrawnTranslating(table.offset)
-    if isinstance(table, OscillatingTable):
-        return DrawnOscillating(table.arm, table.distance)
-    return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
 
 
 @dataclass(frozen=True, eq=False)

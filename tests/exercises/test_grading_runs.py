@@ -222,6 +222,27 @@ def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
     assert list(tmp_path.iterdir()) == []
 
 
+LOADED = """
+import sys
+from graphcam.cli import app
+app(sys.argv[1:], standalone_mode=False)
+print(*{name.partition(".")[0] for name in sys.modules})
+"""
+
+
+@pytest.mark.usefixtures("threads")
+def test_the_command_loads_only_what_reads_marks_and_reports(ours: Path, tmp_path: Path):
+    """What draws, solves and shows costs more time than a group of students; by processes the files are the same."""
+    command = ["exercise", "grade", str(ours), "--secret-file", str(ours / "secret"), "--out"]
+    ran = subprocess.run([sys.executable, "-c", LOADED, *command, str(tmp_path / "command" / "grades.csv"),
+                          "--feedback", str(tmp_path / "command" / "pages")],
+                         check=True, capture_output=True, text=True)  # fmt: skip
+    loaded = set(ran.stdout.splitlines()[-1].split())
+    assert {"graphcam", "numpy"} <= loaded
+    assert loaded.isdisjoint({"matplotlib", "scipy", "ezdxf", "rich", "nbformat", "distributed"})
+    assert written(tmp_path / "command") == graded(ours, tmp_path / "here")
+
+
 @pytest.mark.slow
 def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
     """By SIGKILL, from the command line; whole batches of a real pool are lost, none is done twice."""

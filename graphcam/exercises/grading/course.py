@@ -12,7 +12,6 @@ from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.course_folder import Certificates, read_secret
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise
-from graphcam.exercises.exports.nbgrader import enter_scores
 from graphcam.exercises.grading.crew import Crew, cluster, processes
 from graphcam.exercises.grading.run import Records, grade_folder
 from graphcam.exercises.grading.store import Store
@@ -93,6 +92,8 @@ def _crew(course: Course) -> Crew:
 
 
 def _enter(gradebook: str, exercise: Exercise, records: Records) -> None:
+    from graphcam.exercises.exports.nbgrader import enter_scores
+
     try:
         enter_scores(gradebook, exercise, records)
     except ImportError:

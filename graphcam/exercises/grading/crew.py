@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import sys
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
@@ -16,7 +18,7 @@ J = TypeVar("J")
 R = TypeVar("R")
 
 BATCH = 16
-"""Jobs that travel together: less talk between processes, and still an even load."""
+"""Short jobs that travel together: less talk between processes, and still an even load."""
 AHEAD = 3
 """Batches a worker that are on their way: none waits, and not all jobs are in memory."""
 
@@ -53,10 +55,11 @@ def cluster(address: str) -> Crew:
     return Crew(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
 
 
-def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J]) -> Generator[tuple[J, R | None]]:
+def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH) -> Generator[tuple[J, R | None]]:
     """Every job with its result as they come, or with None where the worker died of it.
 
     work : a module-level function that does not raise
+    batch : jobs that travel together
 
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> sorted(results(Crew(ThreadPoolExecutor, 2), abs, [-1, 2]))
@@ -64,9 +67,10 @@ def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J]) -> Generator[
     """
     suspects: list[J] = []
     waiting = iter(jobs)
-    while batch := list(islice(waiting, BATCH)):
+    batches = iter(lambda: list(islice(waiting, batch)), [])
+    for first in batches:
         # An executor that breaks takes down with it what others were doing: all of that is suspected.
-        for done, found in _until_broken(crew, work, batch, waiting):
+        for done, found in _until_broken(crew, work, first, batches):
             if found is None:
                 suspects += done
             else:
@@ -75,22 +79,27 @@ def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J]) -> Generator[
 
 
 def _until_broken(
-    crew: Crew, work: Callable[[J], R], first: list[J], waiting: Iterator[J]
+    crew: Crew, work: Callable[[J], R], first: list[J], batches: Iterator[list[J]]
 ) -> Generator[tuple[list[J], list[R] | None]]:
     with crew.executor() as executor:
         running: dict[Future[list[R]], list[J]] = {executor.submit(_each, work, first): first}
         broken = False
-        while running:
-            while not broken and len(running) < AHEAD * crew.workers and (batch := list(islice(waiting, BATCH))):
-                try:
-                    running[executor.submit(_each, work, batch)] = batch
-                except BrokenExecutor:
-                    broken = True
-                    yield batch, None
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                # Whatever came instead of a result: the work itself does not raise.
-                broken = broken or future.exception() is not None
-                yield running.pop(future), None if future.exception() else future.result()
+        try:
+            while running:
+                while not broken and len(running) < AHEAD * crew.workers and (batch := next(batches, [])):
+                    try:
+                        running[executor.submit(_each, work, batch)] = batch
+                    except BrokenExecutor:
+                        broken = True
+                        yield batch, None
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    # Whatever came instead of a result: the work itself does not raise.
+                    broken = broken or future.exception() is not None
+                    yield running.pop(future), None if future.exception() else future.result()
+        finally:
+            # After an interruption nothing more is begun.
+            for future in running:
+                future.cancel()
 
 
 def _one_by_one(crew: Crew, work: Callable[[J], R], suspects: list[J]) -> Generator[tuple[J, R | None]]:
@@ -100,23 +109,42 @@ def _one_by_one(crew: Crew, work: Callable[[J], R], suspects: list[J]) -> Genera
         with crew.executor() as executor:
             one: J | None = job
             while one is not None:
-                future = executor.submit(work, one)
+                future = executor.submit(_each, work, [one])
                 if future.exception() is not None:
                     yield one, None
                     break
-                yield one, future.result()
+                yield one, future.result()[0]
                 one = next(left, None)
 
 
 def _each(work: Callable[[J], R], jobs: list[J]) -> list[R]:
-    return [work(job) for job in jobs]
+    if threading.current_thread() is not threading.main_thread():
+        return [work(job) for job in jobs]
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        return [work(job) for job in jobs]
+    finally:
+        _deaf()
+
+
+def _deaf() -> None:
+    """Between its jobs a process does not hear Ctrl-C: it may hold the locks of the queue, and all would wait."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _pool(workers: int) -> Executor:
+    if sys.platform == "linux" and threading.active_count() == 1:
+        # All that is loaded is there at once: a new Python takes longer to start than hundreds of students to grade.
+        return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _begin)
     # A fork of a process with threads may hang; the server that forks instead has none, and loads the libraries once.
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["graphcam.exercises.grading.work"])
-    return ProcessPoolExecutor(workers, mp_context=context, initializer=_end_with_the_run)
+    return ProcessPoolExecutor(workers, context, _begin)
+
+
+def _begin() -> None:
+    _deaf()
+    _end_with_the_run()
 
 
 def _end_with_the_run() -> None:

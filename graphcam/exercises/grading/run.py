@@ -9,10 +9,11 @@ from typing import Any
 
 from graphcam.drafting.ink import say
 from graphcam.exercises.course_folder import Certificates
-from graphcam.exercises.grading.crew import Crew, results
+from graphcam.exercises.grading.crew import BATCH, Crew, results
 from graphcam.exercises.grading.hand_in import HandIn, read_hand_in, students_in
 from graphcam.exercises.grading.store import Store
 from graphcam.exercises.grading.work import Assignment, grade, unmarked
+from graphcam.exercises.running.levels import Level
 
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
@@ -44,7 +45,9 @@ def grade_folder(
             else:
                 yield hand_in
 
-    for hand_in, graded in results(crew, partial(grade, assignment), unfinished()):
+    # Code takes so long that it travels alone, else one worker is left with the rest.
+    batch = BATCH if assignment.level is Level.L0 else 1
+    for hand_in, graded in results(crew, partial(grade, assignment), unfinished(), batch):
         if graded is not None and graded.certificate and graded.certificate != hand_in.certificate:
             kept.keep(hand_in.student, graded.certificate)
         record = graded.record if graded is not None else unmarked(assignment, hand_in.student, CRASHED)

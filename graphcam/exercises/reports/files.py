@@ -28,7 +28,8 @@ def write_reports(
     texts = {
         out.name: wide_table(records),
         f"{out.stem}-long.csv": long_table(records),
-        f"{out.stem}.json": json.dumps(list(records), indent=1, allow_nan=False) + "\n",
+        # A line a record.
+        f"{out.stem}.json": "[" + ",\n ".join(json.dumps(record, allow_nan=False) for record in records) + "]\n",
         f"{out.stem}.html": group_page(exercise, records, certificates),
     }
     with whole_folder(out.parent) as draft:
