@@ -28,7 +28,7 @@ from graphcam.given.laws import Floats, law
 from graphcam.mechanism.three_points import circumradius
 
 RIVAL_STATIONS = 360
-RIVAL_RUNS = 20
+RIVAL_RUNS = 40
 ANGLES = "SLSQP on pressure angles"
 LINES = "SLSQP given the half-planes"
 """The optimiser as one would first use it, and with graphcam's own formulation and exact derivatives."""
