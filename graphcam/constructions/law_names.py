@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from graphcam.given.laws import Law
-from graphcam.words import Words, say
+from graphcam.words import Caption, Words, say
 
-LAWS: Mapping[str, Words] = {
+LAWS: Mapping[str, Caption] = {
     "rectangular": say("rectangular"),
     "triangular": say("triangular"),
     "cosine": say("cosine"),
@@ -16,8 +16,12 @@ LAWS: Mapping[str, Words] = {
     "modified-trapezoidal": say("modified-trapezoidal"),
     "modified-sine": say("modified-sine"),
     "measured": say("measured"),
+    # Polynomials are called by their powers; not every language leaves it at that.
+    "2-3": say("2-3"),
+    "3-4-5": say("3-4-5"),
+    "4-5-6-7": say("4-5-6-7"),
 }
-"""The laws that have a name in words; polynomials are called by their powers."""
+"""What the laws are called; one that is not among them by its name."""
 
 
 def law_name(law: Law) -> Words:

@@ -26,7 +26,7 @@ def student_page(exercise: Exercise, record: dict[str, Any], certificate: Certif
     asked, tell = {one.name: one for one in exercise.answers}, exercise.tell
     rows = [
         {
-            "text": sentence(asked[answer["name"]].text, record["parameters"], tell),
+            "text": f"{answer['name']}. {sentence(asked[answer['name']].text, record['parameters'], tell)}",
             "given": f"{given_text(answer, tell)} {tell(_unit(asked[answer['name']], answer))}".strip(),
             "kind": answer["outcome"], "outcome": tell(OUTCOMES[answer["outcome"]]),
             "marks": tell(say("{marks:g} of {of:g}", marks=answer["marks"], of=answer["of"])),
