@@ -7,6 +7,7 @@ import numpy as np
 from graphcam.errors import GraphcamError
 from graphcam.exercises.axes import finds_room
 from graphcam.exercises.certificate import Certificate, Key
+from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.hypothesis import Hypothesis
 from graphcam.exercises.redrawing import dependences
 from graphcam.exercises.scatter import answers_of, bulges_of, deviations, distances, expected
@@ -31,12 +32,15 @@ def certify(variant: Variant) -> Certificate | None:
     ------
     DesignError : a careful hand comes to nothing with it
     """
-    exercise, task = variant.exercise, variant.task
+    exercise = variant.exercise
     try:
-        drawn = perfect_hands(exercise, task)
+        right = board_chain(variant.task)
+        if not finds_room(exercise, right):
+            return None
+        drawn = perfect_hands(exercise, right)
     except GraphcamError:
         return None
-    if not (finds_room(exercise, drawn.right) and promising(exercise, drawn)):
+    if not promising(exercise, drawn):
         return None
     wrong = hypotheses(exercise, drawn)
     if alike(exercise, wrong):

@@ -10,12 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.chain import Chain
-from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.expectation import Expected
 from graphcam.exercises.misconceptions import misconception
 from graphcam.exercises.scatter import Drawn, answers_of, bulges_of, distances, expected, lengths_of
-from graphcam.task import Task
 
 HANDS = 200
 """Careful hands behind the scatter of a mistake's answers."""
@@ -41,14 +39,13 @@ class PerfectHands:
     lengths: list[float]
 
 
-def perfect_hands(exercise: Exercise, task: Task) -> PerfectHands:
-    """All drawings of a task by perfect hands; what is the same in several of them is drawn once.
+def perfect_hands(exercise: Exercise, right: Chain) -> PerfectHands:
+    """The right drawing and the wrong ones by perfect hands; what is the same in several of them is drawn once.
 
     Raises
     ------
     DesignError : the drawing, or one with a mistake, comes to nothing
     """
-    right = board_chain(task)
     answers, lengths = answers_of(exercise, right), lengths_of(exercise, right)
     wrong = {name: misconception(name).change(right) for name in exercise.misconceptions}
     return PerfectHands(
