@@ -30,17 +30,19 @@ class _Fit(NamedTuple):
     """How well a mistake fits.
 
     badness : minus twice the logarithm of the probability, each answer being anywhere if it is far off
-    explained : the numbers of the wrong answers that are what the mistake brings
+    near : the numbers of the wrong answers that look like what the mistake brings: they give it its name
+    explained : those of them that are what it brings, as exactly as an answer must be that earns its marks
     """
 
     badness: float
+    near: frozenset[int]
     explained: frozenset[int]
 
 
 def diagnose(
     certificate: Certificate, keys: Sequence[Expected], seen: Seen, off: Mapping[int, float], wrong: set[int]
 ) -> tuple[Diagnosis, frozenset[int]] | None:
-    """The most probable mistake and the wrong answers that are what it brings; None where none explains any.
+    """The most probable mistake and the wrong answers that are what it brings; None where none looks like any.
 
     off : deviations of the answers seen from the key, by their numbers; wrong : the numbers of those that are wrong
     """
@@ -52,10 +54,10 @@ def diagnose(
     fits = {name: _numbers_fit(values, numbers, wrong, certificate.bound) for name, values in hypotheses.items()}
     if drawn:
         # A drawing takes longer to compare than all numbers: only with what these leave possible.
-        least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.explained)])
+        least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.near)])
         fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong, certificate.bound)
                 for name, fit in fits.items() if fit.badness <= least + HOPELESS}  # fmt: skip
-    badness = {name: fit.badness for name, fit in fits.items() if fit.explained}
+    badness = {name: fit.badness for name, fit in fits.items() if fit.near}
     if not badness:
         return None
     least = min(other, *badness.values())
@@ -70,6 +72,7 @@ def diagnose(
 
 def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int], bound: float) -> _Fit:
     badness = 0.0
+    similar: list[int] = []
     explained: list[int] = []
     # Most of the time of marking wrong work is spent here.
     for k, given in numbers:
@@ -78,15 +81,19 @@ def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong
         near = -FAR <= off <= FAR
         badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
         # A mistake that makes an answer small is not made by who answers nought.
-        if near and k in wrong and abs(off) <= bound and abs(given) > bound * scatter:
-            explained.append(k)
-    return _Fit(badness, frozenset(explained))
+        if near and k in wrong and abs(given) > bound * scatter:
+            similar.append(k)
+            if abs(off) <= bound:
+                explained.append(k)
+    return _Fit(badness, frozenset(similar), frozenset(explained))
 
 
 def _with_drawn(fit: _Fit, values: Hypothesis, drawn: Seen, wrong: set[int], bound: float) -> _Fit:
     off = {k: values[k].deviation(given, asked.kind, FAR) for k, asked, given in drawn}
-    explained = {k for k in off if k in wrong and off[k] <= bound}
-    return _Fit(fit.badness + sum(min(each, FAR) ** 2 for each in off.values()), fit.explained | explained)
+    near = {k for k in off if k in wrong and off[k] <= FAR}
+    explained = {k for k in near if off[k] <= bound}
+    badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
+    return _Fit(badness, fit.near | near, fit.explained | explained)
 
 
 def _width(value: Expected) -> float:
