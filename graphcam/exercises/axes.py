@@ -54,7 +54,8 @@ def finds_room(exercise: Exercise, chain: Chain) -> bool:
     [True, False]
     """
     derived = any(asked.construction == "differentiation" for asked in exercise.answers)
-    for name in {*exercise.axes, *(GIVEN[name] for name in exercise.sheet if name in GIVEN)}:
+    shown: list[Diagram] = [*exercise.axes, *(GIVEN[name] for name in exercise.sheet if name in GIVEN)]
+    for name in shown:
         _, _, low, high = ROOM[name]
         drawn = chain.differentiation if derived and name != "displacement" else chain.integration
         ordinates = drawn.readings[READ[name]].paper

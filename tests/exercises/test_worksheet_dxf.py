@@ -89,8 +89,9 @@ def whole_as_a_block(document: Drawing) -> Drawing:
     other = ezdxf.new("R2018")
     other.header["$INSUNITS"] = 4
     block = other.blocks.new("SHEET")
-    for entity in document.modelspace().query("POINT LWPOLYLINE LINE CIRCLE"):
-        block.add_entity(entity.copy())
+    for entity in document.modelspace():
+        if entity.dxftype() in ("POINT", "LWPOLYLINE", "LINE", "CIRCLE"):
+            block.add_entity(entity.copy())
     other.modelspace().add_blockref("SHEET", (77, -8), dxfattribs={"layer": "SHEETS"})
     return other
 
@@ -137,8 +138,9 @@ def on_layer_0(document: Drawing) -> Drawing:
 
 
 def without_the_mark(document: Drawing) -> Drawing:
-    for entity in document.modelspace().query("POINT"):
-        document.modelspace().delete_entity(entity)
+    for entity in list(document.modelspace()):
+        if entity.dxftype() == "POINT":
+            document.modelspace().delete_entity(entity)
     return document
 
 

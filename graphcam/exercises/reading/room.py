@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.exercises.exercise import Kind
 from graphcam.exercises.expectation import Expected
@@ -95,9 +96,12 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         first = sum(_corners(points)) / 2 - sum(_corners(_points(known))) / 2
         if self._off(known, points, first) > _size(points):
             return first  # not even the number of points agrees
-        best = minimize(lambda at: self._off(known, points, complex(*at)), [first.real, first.imag],
-                        method="Nelder-Mead")  # fmt: skip
-        return complex(*best.x)
+
+        def left(shift: NDArray[np.float64]) -> float:
+            return self._off(known, points, complex(shift[0], shift[1]))
+
+        best = minimize(left, np.array([first.real, first.imag]), method="Nelder-Mead")
+        return complex(best.x[0], best.x[1])
 
 
 def _elsewhere(name: str, *, marked: bool) -> Caption:
