@@ -7,6 +7,7 @@ import re
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from contextlib import suppress
 from dataclasses import replace
@@ -27,6 +28,7 @@ from graphcam.exercises.record import Record
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.limits import Limits
 from graphcam.exercises.running.probe import missing
+from graphcam.exercises.running.sandbox import run_cells
 
 SECONDS = 2.0
 A_MOMENT = 1.0
@@ -203,10 +205,36 @@ def test_code_gives_one_record_in_time(
     OWNED.unlink(missing_ok=True)
 
 
+LEAVING = """
+import os, time
+{left} = os.fork() == 0
+if {left}:
+    os.setsid()
+    if os.fork() == 0:
+        for _ in range(1500):
+            os.mkdir("d")
+            os.chdir("d")
+        os.chmod(".", 0)
+        time.sleep(60)
+    os._exit(0)
+time.sleep(0.5)
+"""
+
+
+@pytest.mark.slow
+def test_nothing_is_left_behind_at_l1(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Neither a process that goes its own way, nor a tree of folders that is too deep for Python to remove."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    ended = run_cells(Level.L1, [LEAVING.format(left="left")], ["left"])
+    assert ended.handed_out == b'{"left": false}\n'
+    assert list(tmp_path.iterdir()) == []
+    for path in Path("/proc").glob("[0-9]*/environ"):
+        with suppress(OSError):
+            assert os.fsencode(tmp_path) not in path.read_bytes() or path.parent.name == str(os.getpid())
+
+
 def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level, tmp_path: Path):
     """What the probe tries is what it says: the same attempts succeed outside."""
-    from graphcam.exercises.running.sandbox import run_cells
-
     (tmp_path / "secret").write_text("secret")
     ended = run_cells(level, [f"import os\nfound = os.path.exists({str(tmp_path / 'secret')!r})"], ["found"])
     assert ended.handed_out == (b'{"found": true}\n' if level is Level.L1 else b'{"found": false}\n')

@@ -7,9 +7,13 @@ import importlib.util
 import json
 import os
 import shutil
+import signal
+import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +27,8 @@ SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
 """What the loader of shared libraries and matplotlib want; nothing of the host's own."""
 FIRST_USER, USERS = 20_000, 40_000
 """Numbers that no account has, one for each run at a time, so that one cannot use up another's processes."""
+ATTEMPTS = 20
+"""How often what was left behind is looked for: it may go on forking meanwhile."""
 
 
 def run_cells(level: Level, cells: list[str], names: list[str], limits: Limits | None = None) -> Ended:
@@ -39,14 +45,53 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Limits |
         "cells": cells, "names": names, "limits": limits.resources(already), "user": _user(),
         "path": [str(folder) for folder in _library()],
     }  # fmt: skip
-    with tempfile.TemporaryDirectory(prefix="graphcam-run-") as folder:
+    with _scratch() as folder:
         if os.getuid() == 0:
             os.chown(folder, _user(), _user())
 
         def order(pipe: int) -> bytes:
             return json.dumps(what | {"pipe": pipe}).encode()
 
-        return run_limited(_command(level, limits), order, limits, folder, _environment(level, folder))
+        try:
+            return run_limited(_command(level, limits), order, limits, folder, _environment(level, folder))
+        finally:
+            if level is Level.L1:
+                _end_left_behind(folder)
+
+
+@contextmanager
+def _scratch() -> Generator[str]:
+    """A folder that is gone afterwards, whatever was put into it."""
+    folder = tempfile.mkdtemp(prefix="graphcam-run-")
+    try:
+        yield folder
+    finally:
+        try:
+            shutil.rmtree(folder)
+        # Without permission, or deeper than Python's stack.
+        except (OSError, RecursionError):
+            for command in (["chmod", "-R", "u+rwx"], ["rm", "-rf"]):
+                subprocess.run([*command, folder], check=False, capture_output=True)
+
+
+def _end_left_behind(folder: str) -> None:
+    """Kill what a run at L1 has left in the background: it has a user of its own, or its folder in the environment."""
+    for _ in range(ATTEMPTS):
+        theirs = [int(process.name) for process in Path("/proc").glob("[0-9]*") if _is_of(process, folder)]
+        for number in theirs:
+            with suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
+        if not theirs:
+            return
+
+
+def _is_of(process: Path, folder: str) -> bool:
+    try:
+        if os.getuid() == 0:
+            return process.stat().st_uid == _user()
+        return os.fsencode(folder) in (process / "environ").read_bytes()
+    except OSError:
+        return False
 
 
 def visible() -> list[Path]:
