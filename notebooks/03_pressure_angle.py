@@ -68,7 +68,7 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 task = gc.builtin_task()
 solution = gc.solve(task)
 plan = solution.drawn["pressure_angle"]
-show_steps(plan)
+show_steps(plan, on=solution.drawn["minimum_radius"])
 
 # %% [markdown]
 # Then the angle is found at every station and plotted over the cam angle. The greatest values are what the limits are for.

@@ -33,13 +33,10 @@ from graphcam.drafting.ink import (
     say,
 )
 from graphcam.drafting.pencil import Hand, Pencil
-from graphcam.drafting.scale import Scale, ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-
-ARM_ON_PAPER = 130.0
-"""The arm is drawn at the largest standard scale at which it is not longer [mm]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,15 +68,22 @@ def arm_positions(integrated: Construction, arm: float, mu_l: Scale, hand: Hand)
 
 
 def arm_least_radius(
-    integrated: Construction, rotation: Rotation, limits: Limits, arm: float, distance: float | None, pencil: Pencil
+    integrated: Construction,
+    rotation: Rotation,
+    limits: Limits,
+    arm: float,
+    distance: float | None,
+    mu_l: Scale,
+    pencil: Pencil,
 ) -> Construction:
     """Find the cam centre that is nearest to the start of the lift.
 
     arm : length [mm]; distance : of the pivot from the cam centre [mm], or None to let it be found
+    mu_l : scale of the drawing [mm/mm]
 
     Readings: ``prime_radius`` and ``distance`` [mm].
     """
-    hand, mu_l = pencil.hand("minimum_radius"), standard_scale(arm, ARM_ON_PAPER)
+    hand = pencil.hand("minimum_radius")
     positions = arm_positions(integrated, arm, mu_l, hand)
     start = np.broadcast_to(np.asarray(-arm / mu_l.per_mm + 0j), positions.ends.shape[:-1])
     lines = boundaries(positions, integrated, rotation, limits, start)

@@ -10,30 +10,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.constructions.arm_minimum_radius import ARM_ON_PAPER, arm_positions
+from graphcam.constructions.arm_minimum_radius import arm_positions
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
 from graphcam.drafting.ink import Construction, Dots, Label, Line, Mark, Role, Step, reading, say
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
 
 
 def arm_pressure_angle(
-    integrated: Construction, rotation: Rotation, prime_radius: float, arm: float, distance: float, pencil: Pencil
+    integrated: Construction,
+    rotation: Rotation,
+    prime_radius: float,
+    arm: float,
+    distance: float,
+    mu_l: Scale,
+    pencil: Pencil,
 ) -> Construction:
     """Measure the pressure angle at every station.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
     prime_radius, arm, distance : of the cam centre A from the start of the lift and from the pivot [mm]
+    mu_l : scale of the drawing [mm/mm]
 
     Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
     start of the lift [rad].
     """
-    hand, mu_l = pencil.hand("pressure_angle"), standard_scale(arm, ARM_ON_PAPER)
-    sigma, count = sense(rotation), integrated.givens["stations"].u.size
+    hand, sigma, count = pencil.hand("pressure_angle"), sense(rotation), integrated.givens["stations"].u.size
     positions = arm_positions(integrated, arm, mu_l, hand)
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
     start = np.asarray(-arm / mu_l.per_mm + 0j)

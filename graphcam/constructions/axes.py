@@ -125,8 +125,13 @@ def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tup
     )
 
 
-def degree_ticks(mu_phi: Scale, every: int = 30) -> tuple[Mark, ...]:
-    """Short strokes with numbers along the axis of the cam angle, one every so many degrees."""
+DEGREES_ROOM = 12.0
+"""Numbers of degrees stand at least so far apart [mm of paper]."""
+
+
+def degree_ticks(mu_phi: Scale) -> tuple[Mark, ...]:
+    """Short strokes with numbers along the axis of the cam angle, every 30 degrees, or 60 where room is scarce."""
+    every = 30 if mu_phi.paper(math.radians(30)) >= DEGREES_ROOM else 60
     degrees = np.arange(every, 361, every)
     x = np.radians(degrees) / mu_phi.per_mm
     strokes = Segments(x + 0j, x - 1.5 * UP, Role.SCALE)

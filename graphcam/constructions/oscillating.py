@@ -14,18 +14,25 @@ from graphcam.constructions.curvature import curvature
 from graphcam.drafting.euclid import stepped_off
 from graphcam.drafting.ink import Circle, Construction, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.follower import Oscillating, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 
+ARM_ON_PAPER = 130.0
+"""The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""
+
 
 @dataclass(frozen=True)
 class DrawnOscillating:
-    """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found."""
+    """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found.
+
+    on_paper : the arm positions are drawn at the largest standard scale at which the arm is not longer [mm of paper]
+    """
 
     arm: float
     place: float | None
+    on_paper: float = ARM_ON_PAPER
     place_name = "distance"
     unit = "rad"
     divides_at_corners = False
@@ -43,13 +50,18 @@ class DrawnOscillating:
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
         """From the arm positions."""
-        return arm_least_radius(integrated, rotation, limits, self.arm, place, pencil)
+        return arm_least_radius(integrated, rotation, limits, self.arm, place, self._mu_l, pencil)
 
     def pressure_angle(
         self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
     ) -> Construction:
         """From the velocity plan, along the arm."""
-        return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, pencil)
+        return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, self._mu_l, pencil)
+
+    @property
+    def _mu_l(self) -> Scale:
+        """The scale of the arm positions."""
+        return standard_scale(self.arm, self.on_paper)
 
     def inversion(
         self,

@@ -10,7 +10,7 @@ from graphcam.constructions.oscillating import DrawnOscillating
 from graphcam.constructions.translating import DrawnTranslating
 from graphcam.drafting.scale import Scale
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
-from graphcam.main_job.diagram_sizes import chosen_ordinate, chosen_poles, diagram_room
+from graphcam.main_job.diagram_sizes import arm_room, chosen_ordinate, chosen_poles, diagram_room
 from graphcam.sheets.layout import profile_room
 from graphcam.task import OscillatingTable, Task, TranslatingTable
 
@@ -44,5 +44,5 @@ def _drawn_follower(task: Task) -> DrawnFollower:
     if isinstance(table, TranslatingTable):
         return DrawnTranslating(table.offset)
     if isinstance(table, OscillatingTable):
-        return DrawnOscillating(table.arm, table.distance)
+        return DrawnOscillating(table.arm, table.distance, arm_room(task.drawing))
     return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from graphcam.constructions.oscillating import ARM_ON_PAPER
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion, Rise
 from graphcam.sheet_tables import SheetTable
@@ -60,6 +61,11 @@ def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
     """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
     room = ROOMS[drawing.format, drawing.orientation]
     return room if angles or drawing.format == "A4" else replace(room, s=WITHOUT_ANGLES * room.s)
+
+
+def arm_room(drawing: SheetTable) -> float:
+    """How long an arm may be where its positions are drawn [mm of paper]: on A4 all of it would not fit as usual."""
+    return ARM_ON_PAPER / 2 if drawing.format == "A4" else ARM_ON_PAPER
 
 
 def chosen_ordinate(motion: Motion, room: DiagramRoom) -> float:

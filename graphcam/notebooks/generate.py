@@ -132,7 +132,9 @@ def _hidden(source: str) -> NotebookNode:
 def _chapter(name: str, construction: str, tell: Tell) -> list[NotebookNode]:
     """Title, background and steps of a construction, which stands in the notebook's code as an expression."""
     title, background = BACKGROUNDS[name]
-    return [_section(tell, title, background), _hidden(f"show_steps({construction}, tell=tell)")]
+    # Its rays are drawn in the combined diagram.
+    on = ', on=solution.drawn["minimum_radius"]' * (name == "pressure_angle")
+    return [_section(tell, title, background), _hidden(f"show_steps({construction}, tell=tell{on})")]
 
 
 def _spring(solution: AnySolution) -> list[NotebookNode]:

@@ -150,10 +150,13 @@ def ancestors(construction: Construction) -> list[Construction]:
     return list(found.values())
 
 
-def boards(construction: Construction, tell: Tell = str) -> dict[str, Board]:
-    """The views that a construction draws in, by name, each with what stood in it before."""
+def boards(construction: Construction, tell: Tell = str, on: Construction | None = None) -> dict[str, Board]:
+    """The views that a construction draws in, by name, each with what stood in it before.
+
+    on : a construction that it does not start from, but is drawn over
+    """
     steps = [step.told(tell) for step in construction.steps()]
-    before = [step.told(tell) for c in ancestors(construction) for step in c.steps()]
+    before = [step.told(tell) for c in (*ancestors(construction), *([on] if on else ())) for step in c.steps()]
     names = dict.fromkeys(step.view.name for step in steps if step.marks)
     return {name: Board(_in_view(before, name), _in_view(steps, name)) for name in names}
 
@@ -162,9 +165,9 @@ def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
     return tuple(step for step in steps if step.view.name == name)
 
 
-def stages(construction: Construction, tell: Tell = str) -> Iterator[Stage]:
-    """The steps of a construction, each with the drawing so far; ``tell`` says all texts."""
-    of_view, drawn = boards(construction, tell), Counter[str]()
+def stages(construction: Construction, tell: Tell = str, on: Construction | None = None) -> Iterator[Stage]:
+    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for boards."""
+    of_view, drawn = boards(construction, tell, on), Counter[str]()
     for number, step in enumerate(construction.steps(), 1):
         name = step.view.name
         page = of_view[name].page(drawn[name]) if name in of_view else None
@@ -194,13 +197,14 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
     return Picture(svg(board.page()), f"{title}. {board.steps[-1].caption}", title)
 
 
-def show_steps(construction: Construction, *numbers: int, tell: Tell = str) -> None:
+def show_steps(construction: Construction, *numbers: int, tell: Tell = str, on: Construction | None = None) -> None:
     """Show steps of a construction in a notebook, by their numbers from 1; without a number all of them.
 
     tell : says all texts, such as ``task.drawing.tell`` in the language of the task
+    on : a construction that this one does not start from, but is drawn over: it is shown below it
     """
     from IPython.display import display
 
-    for stage in stages(construction, tell):
+    for stage in stages(construction, tell, on):
         if not numbers or stage.number in numbers:
             display(stage)

@@ -18,6 +18,7 @@ from graphcam.constructions.region import nearest_of_many
 from graphcam.drafting.euclid import UP, dot, unit
 from graphcam.drafting.ink import Arrow, Line, Role
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
@@ -411,4 +412,4 @@ def test_many_hands_agree_on_the_arm_within_their_scatter():
 
 def region_by(pencil: Pencil):
     integrated = Chain(arm_board(arm_motion("cycloidal"), divisions=24), pencil)["integration"]
-    return arm_least_radius(integrated, "ccw", limits(45, 35), ARM, None, pencil)
+    return arm_least_radius(integrated, "ccw", limits(45, 35), ARM, None, Scale(1.0, "mm"), pencil)

@@ -80,3 +80,9 @@ def test_chosen_steps_are_shown(drawn, monkeypatch):
     monkeypatch.setattr(IPython.display, "display", shown.append)
     show_steps(drawn["minimum_radius"], 2, 4)
     assert [stage.number for stage in shown] == [2, 4]
+
+
+def test_the_rays_of_the_pressure_angles_are_drawn_over_the_combined_diagram(drawn):
+    alone = boards(drawn["pressure_angle"])["combined"].page()
+    over = boards(drawn["pressure_angle"], on=drawn["minimum_radius"])["combined"].page()
+    assert len(over.groups) == len(alone.groups) + len(boards(drawn["minimum_radius"])["combined"].steps)
