@@ -118,7 +118,11 @@ def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequ
     fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
     spreads = list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
     best: list[Leaf] = []
-    viewed = cache(lambda way: _with_views(sheet, runs, way))
+
+    @cache
+    def viewed(way: Way) -> list[Leaf]:
+        return _with_views(sheet, runs, way)
+
     for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
         way = Way(gaps, within=within)
         leaves = _with_blocks(sheet, viewed(way), blocks, way)
@@ -137,7 +141,11 @@ def _evened(
     best: list[Leaf],
 ) -> list[Leaf]:
     """The same on as many pages, the emptiest of them as full as it can be."""
-    viewed = cache(lambda way: _with_views(sheet, runs, way))
+
+    @cache
+    def viewed(way: Way) -> list[Leaf]:
+        return _with_views(sheet, runs, way)
+
     for blocks, gaps in product(ways_of_blocks, spreads):
         way = Way(gaps, pages=len(best))
         leaves = _with_blocks(sheet, viewed(way), blocks, way)
