@@ -239,3 +239,14 @@ def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level, tmp_path:
     ended = run_cells(level, [f"import os\nfound = os.path.exists({str(tmp_path / 'secret')!r})"], ["found"])
     assert ended.handed_out == (b'{"found": true}\n' if level is Level.L1 else b'{"found": false}\n')
     assert os.environ.get("HOME", "x") not in run_cells(level, ["import os\nhome = os.environ['HOME']"], ["home"]).text
+
+
+def test_code_that_plots_earns_its_marks(level: Level, tmp_path: Path, assignment: Assignment, certificate: str):
+    """Libraries that look for the notebook program find as much of it as they need."""
+    keys = Certificate.from_json(certificate).keys
+    answers = "\n".join(f"{name} = np.float64({key.expected.value!r})" for name, key in keys.items())
+    shown = "plt.plot([1, 2])\nplt.show()\nfrom IPython.display import Image, display\ndisplay(Image())"
+    hostile.notebook(f"import numpy as np\nimport matplotlib.pyplot as plt\n{shown}\n{answers}")(tmp_path)
+    patient = replace(assignment, level=level, limits=Limits(seconds=60.0))
+    record = graded(patient, certificate, tmp_path)
+    assert (record.total, record.notes) == (assignment.exercise.marks, ())

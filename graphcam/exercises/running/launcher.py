@@ -75,7 +75,9 @@ def offer_display(namespace: dict[str, Any], hand_out: Callable[[dict[str, Any]]
     # Pictures and formatted texts are for the student's eyes, not for grading.
     shell.__dict__["__getattr__"] = unheard
     package = types.ModuleType("IPython")
-    package.__dict__.update({"display": shell, "get_ipython": lambda: None, "__path__": []})
+    # The version is what matplotlib looks at: since this one it needs no help to show its pictures.
+    version = {"version_info": (8, 24, 0), "__version__": "8.24.0"}
+    package.__dict__.update({"display": shell, "get_ipython": lambda: None, "__path__": [], **version})
     sys.modules.update({"IPython": package, "IPython.display": shell})
 
 
