@@ -117,7 +117,8 @@ def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[
     for left, right, caption in ((135, 150, say("Stage")), (150, 167, say("Mass")), (167, 185, say("Scale"))):
         texts += fitted(tell(caption), (left, 35, right, 40), CAPTION)
     texts += entry(title, "number", (65, 40, 185, 55), 7.0)
-    texts += entry(title, "name", (65, 15, 135, 40), 5.0)
+    # A long name does not fill its field from line to line.
+    texts += entry(title, "name", (67, 15, 133, 40), 5.0)
     texts += entry(title, "material", (65, 0, 135, 15), 3.5)
     texts += entry(title, "mass", (150, 20, 167, 35), 3.5)
     texts += entry(title, "scale", (167, 20, 185, 35), 3.5)

@@ -80,6 +80,10 @@ def decimal(name: str, text: str) -> float:
 
 
 def _no_number(name: str, value: object) -> UnreadableError:
+    if isinstance(value, list | tuple):
+        # In a notebook 12,5 is a pair.
+        why = say("{answer} is a list, not a number; decimals follow a point, not a comma", answer=shown(name))
+        return UnreadableError(why)
     return UnreadableError(
         say("{answer} is {value}, which is not a number", answer=shown(name), value=_described(value))
     )
@@ -90,9 +94,7 @@ def _described(value: object) -> Words:
     if isinstance(value, str):
         return shown(value)
     # repr() of a deep or long value may not end.
-    if value is None or isinstance(value, bool | float):
-        return str(value)
-    return say("a list") if isinstance(value, list | tuple) else say("something else")
+    return str(value) if value is None or isinstance(value, bool | float) else say("something else")
 
 
 def shown(text: str) -> str:
