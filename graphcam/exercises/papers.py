@@ -185,7 +185,7 @@ def write_papers(variant: Variant, student: Student, folder: Path) -> None:
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
     for name, text in (
-        ("answers.toml", answer_file(variant.exercise)), ("exercise.ipynb", notebook(variant)),
+        ("answers.toml", answer_file(variant.exercise)), ("answers.ipynb", notebook(variant)),
         ("task.toml", task_file(variant)),
     ):  # fmt: skip
         (folder / name).write_text(text, encoding="utf-8")

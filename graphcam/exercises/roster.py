@@ -26,7 +26,7 @@ def read_roster(path: str | Path) -> list[Student]:
 
     Raises
     ------
-    TaskError : the file cannot be read, is empty, or names a student twice
+    TaskError : the file cannot be read, is empty, names a student twice, or one by what cannot be printed
     """
     try:
         text = Path(path).read_bytes().decode("utf-8-sig")
@@ -49,6 +49,9 @@ def read_roster(path: str | Path) -> list[Student]:
         if folder in seen:
             raise TaskError(str(path), "id", student.id, f"another one than {seen[folder]!r}", "name each student once")
         seen[folder] = student.id
+        # It stands in the title block.
+        if not (said := student.name or student.id).isprintable():
+            raise TaskError(str(path), "the name", repr(said), "printable text on one line")
     return students
 
 

@@ -34,7 +34,8 @@ def _glyph(character: str) -> tuple[float, float, float]:
     """Advance, depth below and height above the base line, in units of the font."""
     from matplotlib.ft2font import LoadFlags
 
-    glyph = _font().load_char(ord(character), flags=LoadFlags.NO_SCALE)
+    # What the typeface lacks, such as a name in Chinese, has the width of the box that stands for it: glyph 0.
+    glyph = _font().load_glyph(_font().get_char_index(ord(character)), flags=LoadFlags.NO_SCALE)
     return glyph.horiAdvance, -glyph.bbox[1], glyph.bbox[3]
 
 
@@ -45,6 +46,8 @@ def extent(text: str, height: float) -> tuple[float, float, float]:
     >>> width, below, above = extent("H", 3.5)
     >>> round(width, 3), below, above
     (3.61, 0.0, 3.5)
+    >>> extent("漢", 3.5)[0] > 0
+    True
     """
     if not text:
         return 0.0, 0.0, 0.0

@@ -6,6 +6,7 @@ import json
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -97,6 +98,13 @@ def test_gradescope_tells_the_result_in_the_language_of_the_course():
     results = gradescope.results(exercise, record.to_dict())
     told = [results["output"], *(test["output"] for test in results["tests"])]
     assert set().union(*(english_words(text, [asked.name for asked in exercise.answers]) for text in told)) == set()
+
+
+def test_moodle_keeps_a_student_of_any_name_in_one_category():
+    exercise, certificate = issued(NAME)
+    xml = moodle_xml(exercise, [replace(certificate, student="a/b\x07")])
+    category = ElementTree.fromstring(xml.encode()).findtext("question/category/text")
+    assert category == f"$course$/{exercise.title}/a%2Fb%07"
 
 
 def test_moodle_marks_one_answer_as_graphcam_does():

@@ -26,6 +26,7 @@ from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise, library
 from graphcam.exercises.folders import folder_name
 from graphcam.exercises.papers import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet
+from graphcam.exercises.reading.folder import read_files
 from graphcam.exercises.roster import Student, read_roster
 from graphcam.exercises.variant import drawn
 from graphcam.sheets.model import Text
@@ -101,7 +102,15 @@ def test_a_roster_is_read(tmp_path, text, students):
 
 
 @pytest.mark.parametrize(
-    ("text", "message"), [("", "empty"), ("id\n", "empty"), ("id\na\na\n", "once"), ("id\na\nA\n", "once")]
+    ("text", "message"),
+    [
+        ("", "empty"),
+        ("id\n", "empty"),
+        ("id\na\na\n", "once"),
+        ("id\na\nA\n", "once"),
+        ('id,name\na,"x\ny"\n', "on one line"),
+        ("id\na\x07\n", "on one line"),
+    ],
 )
 def test_a_wrong_roster_gets_one_message(tmp_path, text, message):
     path = tmp_path / "roster.csv"
@@ -132,7 +141,8 @@ def test_wrong_input_of_make_leaves_nothing(tmp_path):
 @pytest.mark.slow
 def test_a_course_is_made_whole(tmp_path):
     roster, secret, out = tmp_path / "r.csv", tmp_path / "secret", tmp_path / "out"
-    students = ["s1", "../=cmd"]
+    # The typeface of the sheets has no letter of the first one's name.
+    students = ["漢字 💣", "../=cmd"]
     roster.write_text("id\n" + "\n".join(students) + "\n", encoding="utf-8")
     secret.write_bytes(SECRET + b"\n")
     arguments = ["--roster", str(roster), "--secret-file", str(secret), "--out", str(out)]
@@ -141,8 +151,10 @@ def test_a_course_is_made_whole(tmp_path):
     for student in students:
         folder = out / "students" / folder_name(student)
         assert {path.name for path in folder.iterdir()} == {
-            "answers.toml", "exercise.ipynb", "task.toml", "worksheet.pdf", "worksheet.dxf"
+            "answers.toml", "answers.ipynb", "task.toml", "worksheet.pdf", "worksheet.dxf"
         }  # fmt: skip
+        # What is to be filled in is what is read.
+        assert {"answers.toml", "answers.ipynb"} <= read_files(folder)[0].keys()
         certificate = Certificate.from_json(
             (out / "teacher" / "certificates" / f"{folder_name(student)}.json").read_text(encoding="utf-8")
         )

@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Asked, Exercise
+from graphcam.exercises.folders import folder_name
 from graphcam.exercises.misconceptions import misconception
 from graphcam.exercises.template import sentence
 from graphcam.words import say
@@ -27,7 +28,7 @@ def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
     quiz = Element("quiz")
     for certificate in certificates:
         category = SubElement(quiz, "question", type="category")
-        _text(category, "category", f"$course$/{exercise.title}/{certificate.student}")
+        _text(category, "category", f"$course$/{exercise.title}/{folder_name(certificate.student)}")
         description = _question(
             quiz, "description", exercise.title, sentence(exercise.text, certificate.parameters, exercise.tell)
         )
