@@ -169,7 +169,7 @@ def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
         values |= {"paper": paper, "value": paper * mu}
         marks += [
             Dots(np.array([top]), Role.LIMIT),
-            Label(top, say("{value:.2f}", value=paper * mu), towards=np.sign(top.imag) * UP),
+            Label(top, say("{value:.2f}", value=np.sign(top.imag) * paper * mu), towards=np.sign(top.imag) * UP),
         ]
     reads = ("lift",) if name == "s" else (f"max_{name}",)
     return Step(TITLES[name], replace(CARRIED[name], values=values), VIEWS[name], tuple(marks), reads, tuple(axes))

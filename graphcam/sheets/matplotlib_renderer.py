@@ -76,7 +76,10 @@ def svg(page: Page) -> str:
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
     """One page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
     with mpl.rc_context(_SETTINGS):
-        _figure(page).savefig(path, format="png", dpi=dpi, metadata={"Software": "graphcam"})
+        # Lines on white: a harder compression takes longer and saves nothing.
+        _figure(page).savefig(
+            path, format="png", dpi=dpi, metadata={"Software": "graphcam"}, pil_kwargs={"compress_level": 1}
+        )
 
 
 def _figure(page: Page) -> Figure:
