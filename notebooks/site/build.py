@@ -88,11 +88,12 @@ def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
         page += [f"## {caption.rstrip('.')}", f"Task: `graphcam/data/tasks/{name}.toml`"]
         if name in drawn:
             task = gc.builtin_arcs_task() if name == "arcs" else gc.builtin_task(name)
-            picture = folder / f"{name}.png"
-            write_png(sheet_of(solve(task)).pages[0], picture, SHEET_DPI)
-            # Thin lines in a few colours: a palette says them in a third of the bytes.
-            Image.open(picture).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
-            page += [f"[![The sheet: {caption}]({name}.png)]({name}.png)"]
+            for number, sheet in enumerate(sheet_of(solve(task)).pages, 1):
+                picture = folder / (f"{name}.png" if number == 1 else f"{name}-{number}.png")
+                write_png(sheet, picture, SHEET_DPI)
+                # Thin lines in a few colours: a palette says them in a third of the bytes.
+                Image.open(picture).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
+                page += [f"[![The sheet: {caption}]({picture.name})]({picture.name})"]
     (folder / "index.md").write_text("\n\n".join(page) + "\n", encoding="utf-8")
 
 
