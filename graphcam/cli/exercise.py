@@ -10,6 +10,7 @@ import typer
 
 from graphcam.cli.exercise_export import export
 from graphcam.cli.exercise_grade import grade
+from graphcam.cli.exercise_speed import speed
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
 
 if TYPE_CHECKING:
@@ -133,5 +134,5 @@ def make(
     typer.echo(f"{out}: {count} students, their papers in 'students', yours in 'teacher'")
 
 
-for command in (grade, export):
+for command in (grade, export, speed):
     exercise.command()(command)

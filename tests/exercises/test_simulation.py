@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 from issued_variants import SECRET
@@ -10,6 +11,9 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.exercise_file import find_exercise, library
+from graphcam.exercises.grading.work import Assignment, grade
+from graphcam.exercises.marking_speed import HANDS, simulated
+from graphcam.exercises.marking_speed import SECRET as SPEED_SECRET
 from graphcam.exercises.simulate import simulate
 
 
@@ -47,3 +51,22 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
 
     monkeypatch.setattr(module, "issue", strict)
     assert simulate(find_exercise("integration"), SECRET, 1, 20).false_rejections == 1.0
+
+
+def test_what_is_timed_is_the_work_that_hand_ins_make():
+    """Careful ones are read and earn their marks, curves too; in the others the mistake is found."""
+    exercise = find_exercise("inversion-translating")
+    hand_ins = simulated(exercise)
+    known = hand_ins[0][0].certificate
+    careful, wrong = ([grade(Assignment(exercise, SPEED_SECRET), each) for each in some] for some in hand_ins)
+    assert {each.certificate for each in [*careful, *wrong]} == {known}
+    assert not any(each.record.notes for each in [*careful, *wrong])
+    assert sum(each.record.total == exercise.marks for each in careful) >= 0.9 * HANDS
+    assert sum(each.record.diagnosis is not None for each in wrong) >= 0.9 * HANDS * len(exercise.misconceptions)
+
+
+def test_the_speed_of_marking_is_printed():
+    result = CliRunner().invoke(app, ["exercise", "speed", "acceleration-and-scales"])
+    row = next(line for line in result.stdout.splitlines() if "acceleration-and-scales" in line)
+    careful, wrong = (float(cell) for cell in re.findall(r"\d+", row))
+    assert min(careful, wrong) > 0
