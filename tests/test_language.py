@@ -24,6 +24,7 @@ from graphcam.language import ENGLISH, language, languages
 from graphcam.main_job.kinds import note_of, sheet_of
 from graphcam.main_job.note import comparison_file
 from graphcam.sheets.model import Text
+from graphcam.task import SpringTable
 from graphcam.task_file import BUILT_IN
 from graphcam.words import say, say_in, say_many, sequence
 
@@ -154,6 +155,7 @@ def test_a_third_language_is_one_file_more(tmp_path, monkeypatch):
 
 
 TASKS = {name: gc.builtin_task(name) for name in BUILT_IN} | {"arcs": gc.builtin_arcs_task()}
+TASKS["spring"] = replace(gc.builtin_task(), speed_rpm=300.0, spring=SpringTable(mass=0.5, stiffness=3.0))
 HANDS = {"perfect": gc.Pencil(), "hand": gc.Pencil(line=0.2, dividers=0.2, protractor=0.005, division=0.5)}
 
 
@@ -170,6 +172,11 @@ def test_a_russian_note_has_no_english_word_and_no_decimal_point(name, hand):
     for text in (note_of(solution), comparison_file(solution), *solution.warnings):
         assert english_words(text.replace("measured", "")) == set()
         assert re.findall(r"\d\.\d", text) == []
+
+
+def test_russian_takes_no_more_paper():
+    """Its words are longer; the sheet of the coursework with a spring has the most tables."""
+    assert [len(sheet_of(in_russian(name, "perfect")).pages) for name in ("coursework", "spring")] == [1, 1]
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -15,7 +15,7 @@ ROW = 2.2
 """Height of a row, in heights of its letters."""
 LEADING = 1.5
 """From line to line in a header, in heights of its letters."""
-MARGIN = 1.8
+MARGIN = 1.5
 """Left and right of the text in a cell, in heights of its letters, both together."""
 LONGEST = 40.0
 """A name that is longer, in heights of its letters, is broken into lines: a question, not what a quantity is called."""
