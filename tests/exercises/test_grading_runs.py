@@ -10,10 +10,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import deadly
 import pytest
@@ -305,6 +306,23 @@ def test_processes_and_a_cluster_give_the_same_bytes(ours: Path, tmp_path: Path)
     assert graded(ours, tmp_path / "two", workers=2) == one
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         assert graded(ours, tmp_path / "cluster", cluster=cluster.scheduler_address) == one
+
+
+class Fragile(ThreadPoolExecutor):
+    """Breaks after one job, as a pool does whose worker is killed while it waits."""
+
+    done = 0
+
+    def submit(self, *args: Any, **more: Any) -> Any:
+        self.done += 1
+        if self.done > 1:
+            raise BrokenExecutor
+        return super().submit(*args, **more)
+
+
+def test_an_executor_that_breaks_between_two_jobs_costs_no_record():
+    crew = Crew(partial(Fragile, 1), 1)
+    assert sorted(results(crew, abs, range(-40, 0))) == [(k, -k) for k in range(-40, 0)]
 
 
 def test_jobs_are_shared_out_and_come_back_each_once():

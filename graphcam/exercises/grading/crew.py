@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass
@@ -104,17 +105,23 @@ def _until_broken(
 
 def _one_by_one(crew: Crew, work: Callable[[J], R], suspects: list[J]) -> Generator[tuple[J, R | None]]:
     """Alone, so that the one that breaks the executor is the guilty one."""
-    left = iter(suspects)
-    for job in left:
+    left = deque(suspects)
+    while left:
         with crew.executor() as executor:
-            one: J | None = job
-            while one is not None:
-                future = executor.submit(_each, work, [one])
-                if future.exception() is not None:
-                    yield one, None
-                    break
-                yield one, future.result()[0]
-                one = next(left, None)
+            future: Future[list[R]] | None = executor.submit(_each, work, [left[0]])
+            while future is not None:
+                job = left.popleft()
+                broken = future.exception() is not None
+                yield job, None if broken else future.result()[0]
+                future = _taken(executor, work, left[0]) if left and not broken else None
+
+
+def _taken(executor: Executor, work: Callable[[J], R], job: J) -> Future[list[R]] | None:
+    """The job in the executor's hands; None where that has broken since the last one."""
+    try:
+        return executor.submit(_each, work, [job])
+    except BrokenExecutor:
+        return None
 
 
 def _each(work: Callable[[J], R], jobs: list[J]) -> list[R]:

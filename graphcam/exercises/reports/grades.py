@@ -53,6 +53,8 @@ def cell(value: object) -> str:
 
     >>> cell(2.5), cell(-1.0), cell("-1"), cell(" =1+1"), cell(None), cell(True)
     ('2.5', '-1', "'-1", "' =1+1", '', 'yes')
+    >>> cell("\\u200b\\xa0=1")[0], cell("\\u202bAnna")[0] == "'"
+    ("'", False)
     >>> cell("a;=1+1"), cell("Anna; Ben")
     ("a;'=1+1", 'Anna; Ben')
     """
@@ -65,7 +67,9 @@ def cell(value: object) -> str:
     # Surrogates that a folder's name may hold cannot be written.
     text = str(value).encode("utf-8", "backslashreplace").decode()
     text = _AFTER_SEPARATOR.sub(r"\1'", text)
-    return f"'{text}" if text.lstrip(" ").startswith(FORMULA) else text
+    # What is not seen may stand before it: spaces of all kinds, marks of the direction of writing.
+    seen = next((letter for letter in text if letter.isprintable() and not letter.isspace()), "")
+    return f"'{text}" if seen in FORMULA or text.startswith(FORMULA) else text
 
 
 def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
