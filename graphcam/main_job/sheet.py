@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from graphcam.constructions.differentiation import VIEWS as DIFFERENTIATED
 from graphcam.drafting.ink import Caption, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
@@ -19,8 +20,10 @@ from graphcam.sheets.model import Drawing
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Tell
 
-SCALED = "acceleration", "velocity", "displacement", "combined"
-"""The views whose scale is found by drawing."""
+SCALED = frozenset(
+    {"acceleration", "velocity", "displacement", "combined", *(view.name for view in DIFFERENTIATED.values())}
+)
+"""The views whose scale is fixed by the lift when all has been integrated; that of the cam angle is chosen."""
 UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
@@ -70,13 +73,11 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
 
 
 def _titled(step: Step, titles: dict[str, Caption]) -> Step:
-    view = step.view
-    if view.name not in titles:
-        return step
-    mu = titles[view.name].values.get("mu")
-    # The scale of the cam angle is chosen; the others are fixed by the lift when all has been drawn.
-    found = {"answer": say("{mu:.4g}", mu=mu), "found_by": "integration"} if view.name in SCALED else {}
-    return replace(step, view=replace(view, title=titles[view.name], **found))
+    title = titles.get(step.view.name, step.view.title)
+    if step.view.name not in SCALED:
+        return replace(step, view=replace(step.view, title=title))
+    answer = say("{mu:.4g}", mu=title.values["mu"])
+    return replace(step, view=replace(step.view, title=title, answer=answer, found_by="integration"))
 
 
 def _titles(solution: Solution) -> dict[str, Caption]:

@@ -67,6 +67,12 @@ def test_scales_are_left_blank_until_they_are_found() -> None:
     )
 
 
+def test_the_diagrams_of_a_measured_motion_do_not_tell_the_scales_either() -> None:
+    """They are drawn at the scales that the integrations find."""
+    said = [text for text in texts(worksheet(gc.solve(builtin_task("measured")))) if text.startswith("μ")]
+    assert [BLANK in text for text in said if "°" not in text] == [True] * 7
+
+
 def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
     said, whole = texts(worksheet(solution())), texts(finished())
     quantities = solution().comparison.quantities
