@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError
-from graphcam.language import ENGLISH, language
+from graphcam.language import ENGLISH, language, languages
 from graphcam.sheet_tables import one_of, positive
 from graphcam.words import Tell, Words
 
@@ -174,6 +174,7 @@ class Exercise:
     __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
     def __post_init__(self) -> None:
+        one_of("language", self.language, languages())
         if not self.answers:
             raise DesignError("answers", "empty", "a list of one or more")
         names = [asked.name for asked in self.answers]

@@ -7,7 +7,7 @@ import re
 import pytest
 from russian import english_words
 
-from graphcam.errors import TaskError
+from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.exercise_file import exercise_path, find_exercise, library, load_exercise
 from graphcam.exercises.misconceptions import CATALOGUE, misconception
 from graphcam.language import languages
@@ -99,6 +99,8 @@ def test_a_text_without_a_language_is_said_in_every_one(tmp_path):
     path.write_text(text.replace(TITLE, 'title = "Übung"'), encoding="utf-8")
     for language in languages():
         assert load_exercise(path, language).title == "Übung"
+    with pytest.raises(DesignError, match="language is 'xx'"):
+        load_exercise(path, "xx")
     # What nobody has translated stays English.
     path.write_text(text.replace(TITLE, TITLE.splitlines()[0]), encoding="utf-8")
     assert load_exercise(path, "ru").title == "Graphical integration"
