@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from statistics import median
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,7 @@ def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], certificat
     certificates : by student, as far as they are known
     """
     steps, found, tell = step_errors(exercise, records), mistakes(records), exercise.tell
-    bound = float(np.median([each.bound for each in certificates.values()])) if certificates else 0.0
+    bound = median(each.bound for each in certificates.values()) if certificates else 0.0
     return page(
         "group.html", language=exercise.language, title=exercise.title, summary=tell(_summary(records)),
         words=spoken(WORDS, tell), again=[tell(caption) for caption in _again(exercise, steps, found, len(records))],
