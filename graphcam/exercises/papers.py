@@ -14,6 +14,7 @@ from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.drawing import board_chain
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.reading.drawing import ORIGIN
+from graphcam.exercises.reading.folder import DXF
 from graphcam.exercises.roster import Student
 from graphcam.exercises.template import sentence
 from graphcam.exercises.variant import Variant
@@ -137,9 +138,9 @@ def _how(asked: Asked) -> Caption:
     if asked.kind != "number":
         what = say("Points in mm on paper") if asked.kind == "points" else say("A curve in mm on paper")
         return say(
-            "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file, its origin marked by a "
-            "POINT on the layer ORIGIN.)",
-            what=what, layer=asked.layer,
+            "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file and handed in as {file}, "
+            "its origin marked by a POINT on the layer ORIGIN.)",
+            what=what, layer=asked.layer, file=DXF,
         )  # fmt: skip
     decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
     if not asked.unit:

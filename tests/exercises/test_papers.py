@@ -50,7 +50,7 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     assert f"{variant.parameters['lift']}" in said
 
 
-SPOKEN = {"DXF", "POINT", "ORIGIN", "PITCH", "ROLLERS", "worksheet", "dxf", "min"}
+SPOKEN = {"DXF", "POINT", "ORIGIN", "PITCH", "ROLLERS", "worksheet", "answers", "dxf", "min"}
 """What is called so in every language."""
 
 
