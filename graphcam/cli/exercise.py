@@ -95,7 +95,6 @@ def _print_matrix(found: Simulation) -> None:
         ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
         ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
         (f"draws a variant, all {found.variants} separable", f"{found.draws:.2f}, at most {len(found.issued)}"),
-        ("hand-ins marked a second on one core", f"{found.marked_per_second:.0f}"),
     ):
         console.print(f"{what}: {value}")
 

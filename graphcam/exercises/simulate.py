@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -37,22 +36,19 @@ class Row:
 
 @dataclass
 class _Tally:
-    """What is counted of hand-ins of one kind, over all variants; ``seconds`` of the processor that marking took."""
+    """What is counted of hand-ins of one kind, over all variants."""
 
     hands: int = 0
     losing: int = 0
     accepted: int = 0
     too_exact: int = 0
     named: Counter[str] = field(default_factory=Counter[str])
-    seconds: float = 0.0
 
     def mark(self, exercise: Exercise, certificate: Certificate, chain: Chain) -> None:
         """Mark all that these hands drew."""
         drawn = answers_of(exercise, chain)
-        given = [_hand_in(exercise, drawn, row) for row in range(chain.pencil.samples or 0)]
-        start = time.process_time()
+        given = (_hand_in(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
         records = [mark(exercise, certificate, answers) for answers in given]
-        self.seconds += time.process_time() - start
         self.hands += len(records)
         self.losing += sum(record.total < record.of for record in records)
         self.accepted += sum(record.total >= record.of for record in records)
@@ -66,7 +62,6 @@ class Simulation:
 
     losing : careful hands that lost any point; too_exact : those remarked on as too exact
     rows : by the misconception's name
-    marked_per_second : hand-ins that one core marked in a second, certificates being at hand
     issued : how many variants were issued at the first draw of the parameters, at the second, and so on: the first in
         which all mistakes could be told
     """
@@ -79,7 +74,6 @@ class Simulation:
     too_exact: int
     rows: dict[str, Row]
     issued: tuple[int, ...]
-    marked_per_second: float
 
     @property
     def false_rejections(self) -> float:
@@ -131,12 +125,10 @@ def simulate(
         for name, tally in wrong.items():
             tally.mark(exercise, certificate, misconception(name).change(drawn))
         step(k + 1, variants)
-    everybody = [careful, *wrong.values()]
     return Simulation(
         exercise.name, exercise.version, variants, careful.hands, careful.losing, careful.too_exact,
         {name: Row(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()},
         tuple(issued[draw] for draw in range(max(issued) + 1)),
-        sum(each.hands for each in everybody) / sum(each.seconds for each in everybody),
     )  # fmt: skip
 
 
