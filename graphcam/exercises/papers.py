@@ -73,7 +73,8 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
     chain = board_chain(variant.task)
     steps = [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
-    rows = tuple((asked.text, asked.name, asked.unit_said, " " * 16) for asked in exercise.answers)
+    blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
+    rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
     table = Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
     return _composed(variant, student, steps, [table], [instructions(variant)])
 

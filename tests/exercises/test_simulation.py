@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
+from typing import Any
 
 import pytest
 from issued_variants import SECRET
@@ -15,6 +17,36 @@ from graphcam.exercises.grading.work import Assignment, grade
 from graphcam.exercises.marking_speed import HANDS, simulated
 from graphcam.exercises.marking_speed import SECRET as SPEED_SECRET
 from graphcam.exercises.simulate import simulate
+
+EXERCISES = Path(__file__).parents[2] / "exercises"
+
+
+def of_a_thousand(name: str) -> dict[str, Any]:
+    """What 'graphcam exercise simulate NAME --variants 1000 --hands 20' found, as it is kept."""
+    return json.loads((EXERCISES / "simulated" / f"{name}.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", library())
+def test_a_thousand_variants_are_separable_and_keep_the_bars(name: str):
+    exercise, found = find_exercise(name), of_a_thousand(name)
+    # An exercise that was changed must be simulated again.
+    assert (found["exercise"], found["version"]) == (name, exercise.version)
+    assert set(found["rows"]) == set(exercise.misconceptions)
+    assert found["variants"] == sum(found["issued"]) == 1000
+    assert found["careful"] == 20_000
+    assert all(row["hands"] == 20_000 == sum(row["named"].values()) for row in found["rows"].values())
+    assert found["false_rejections"] == found["losing"] / found["careful"] <= 0.03
+    accepted = sum(row["accepted"] for row in found["rows"].values())
+    assert found["false_acceptances"] == accepted / sum(row["hands"] for row in found["rows"].values()) <= 0.005
+    assert found["right_diagnoses"] >= 0.99
+
+
+@pytest.mark.parametrize("name", library())
+def test_the_readme_says_what_was_found(name: str):
+    found = of_a_thousand(name)
+    rates = [f"{found[rate]:.2%}" for rate in ("false_rejections", "false_acceptances", "right_diagnoses")]
+    row = f"| `{name}` | {found['draws']:.2f} | {len(found['issued'])} | {' | '.join(rates)} |".replace("%", " %")
+    assert row in (EXERCISES / "README.md").read_text(encoding="utf-8").splitlines()
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import checks
 import ezdxf
 import numpy as np
 import pytest
@@ -204,3 +205,15 @@ def test_a_file_that_another_program_wrote_anew_is_understood(sheet: Path, tmp_p
     assert pitch_of(record).outcome == "right"
     assert pitch_of(record).deviation == pytest.approx(0, abs=1e-3)
     assert record.notes == ()
+
+
+def test_librecad_shows_the_answer_where_it_is_read(sheet: Path, tmp_path: Path):
+    """A dash that begins at every place of the curve is printed there, counted from the corner of the sheet."""
+    document = ezdxf.readfile(sheet)
+    places = np.asarray(key(issued(NAME)[1])["pitch"]) + centre(document)
+    for place in vertices(places):
+        document.modelspace().add_lwpolyline([place, (place[0] + 1, place[1]), place], dxfattribs={"layer": LAYER})
+    document.saveas(tmp_path / "drawn.dxf")
+    starts, ends = checks.by_librecad(tmp_path / "drawn.dxf", tmp_path).straight
+    ink = np.concatenate([starts, ends])
+    assert max(np.min(np.abs(ink - place)) for place in places) <= checks.FULL_LINE

@@ -18,6 +18,8 @@ SIZES = 5.0
 """A drawing so many times larger or smaller than any that can be meant is in another unit, or is a part only."""
 NEAR = 3.0
 """What is drawn by hand strays less from what is meant, mm, where a certificate permits no more."""
+FINE = 0.1
+"""The shift of a drawing is looked for as finely as that, mm."""
 VERTICES = 400
 """So many of a curve's vertices are enough to see whether it is moved."""
 
@@ -100,7 +102,8 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         def left(shift: NDArray[np.float64]) -> float:
             return self._off(known, points, complex(shift[0], shift[1]))
 
-        best = minimize(left, np.array([first.real, first.imag]), method="Nelder-Mead")
+        fine = {"xatol": FINE, "fatol": FINE}
+        best = minimize(left, np.array([first.real, first.imag]), method="Nelder-Mead", options=fine)
         return complex(best.x[0], best.x[1])
 
 
