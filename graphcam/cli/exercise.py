@@ -33,7 +33,10 @@ def list_exercises() -> None:
 
     from graphcam.exercises.exercise_file import find_exercise, library
 
-    table = Table("name", "title")
+    table = Table()
+    # The names are to be typed: none is cut short where the window is narrow.
+    table.add_column("name", no_wrap=True, min_width=max(map(len, library())))
+    table.add_column("title")
     for column in ("answers", "marks", "mistakes told"):
         table.add_column(column, justify="right")
     with one_message():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from dataclasses import dataclass
@@ -67,14 +68,16 @@ class Certificates:
         draft.write_text(certificate, encoding="utf-8")
         draft.replace(path)
 
-    def keep_course(self, exercise: Path, **said: Any) -> None:
+    def keep_course(self, exercise: Path, secret: bytes, **said: Any) -> None:
         """Note what the course is about: a copy of the exercise's file, and what else is said, such as the language.
+
+        Of the secret a part of a digest is noted, so that another one is not taken for it.
 
         A copy, so that the course can be graded wherever it goes, and after the library's exercise has changed.
         """
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / exercise.name).write_bytes(exercise.read_bytes())
-        said = {"exercise": exercise.stem, **said}
+        said = {"exercise": exercise.stem, "secret": _digest(secret), **said}
         (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8")
 
     def exercise(self) -> str:
@@ -82,6 +85,17 @@ class Certificates:
         name = str(self.course().get("exercise", ""))
         copy = self.folder / f"{name}.toml"
         return str(copy) if copy.is_file() else name
+
+    def check_secret(self, secret: bytes, path: str | Path) -> None:
+        """Hold the secret against the course's: with another one, everybody's work would be that of a stranger.
+
+        Raises
+        ------
+        TaskError : the course was made with another one
+        """
+        if self.course().get("secret", _digest(secret)) != _digest(secret):
+            raise TaskError(str(path), "the secret", "another one", "the one that the course was made with",
+                            "name the file that 'graphcam exercise make' or 'export' was given")  # fmt: skip
 
     def language(self) -> str:
         """The language that the course is noted to be in; English where nothing is."""
@@ -97,6 +111,10 @@ class Certificates:
 
     def _path(self, student: str) -> Path:
         return self.folder / "certificates" / f"{folder_name(student)}.json"
+
+
+def _digest(secret: bytes) -> str:
+    return hashlib.sha256(b"graphcam course" + secret).hexdigest()[:16]
 
 
 def read_secret(path: str | Path) -> bytes:

@@ -63,7 +63,8 @@ def make(
         for done, text in enumerate(results, 1):
             certificates.append(Certificate.from_json(text))
             step(done, len(orders))
-        Certificates(draft / TEACHER).keep_course(exercise_path(name), version=exercise.version, language=language)
+        kept = Certificates(draft / TEACHER)
+        kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
         _write_keys(draft / TEACHER / "keys.csv", exercise, certificates)
     return len(students)
 

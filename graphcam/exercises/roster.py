@@ -44,6 +44,10 @@ def read_roster(path: str | Path) -> list[Student]:
         raise TaskError(str(path), "the roster", "empty", "a line a student", "give a column 'id'")
     seen: dict[str, str] = {}
     for student in students:
+        if not student.id.strip():
+            raise TaskError(
+                str(path), "id", student.id, "given", f"fill in the id of {student.name or 'every student'}"
+            )
         # Some file systems do not tell capitals from small letters.
         folder = folder_name(student.id).casefold()
         if folder in seen:

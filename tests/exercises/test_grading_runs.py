@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, ThreadPoolExecutor
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ import deadly
 import pytest
 from issued_variants import SECRET, issued, key
 
+from graphcam.errors import GraphcamError
 from graphcam.exercises.course_folder import TEACHER, Certificates
 from graphcam.exercises.exercise_file import exercise_path
 from graphcam.exercises.folders import folder_name
@@ -42,7 +44,7 @@ IDS = (
 def course_at(place: Path, ids: tuple[str, ...]) -> Path:
     """A course: the first half have all right, the others have the first answer off by a tenth."""
     kept = Certificates(place / TEACHER)
-    kept.keep_course(exercise_path(NAME), language="en")
+    kept.keep_course(exercise_path(NAME), SECRET, language="en")
     (place / "secret").write_bytes(SECRET)
     for k, student in enumerate(ids):
         certificate = issued(NAME, student)[1]
@@ -211,6 +213,33 @@ def test_students_may_be_called_students_and_teacher_and_hand_in_a_file_for_the_
     table = rows(order.out.read_bytes())
     assert [row["student"] for row in table] == names
     assert "not a folder" in table[0]["notes"]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"folder": "nowhere"}, r"nowhere: the folder is 'not there'"),
+        ({"folder": "secret"}, r"secret: the folder is 'a file'"),
+        ({"secret_file": "other"}, r"other: the secret is 'another one'"),
+        ({"exercise": "integration"}, r"--exercise.*'integration'.*'acceleration-and-scales'"),
+        ({"feedback": "secret"}, r"secret.*is a file"),
+        ({"gradebook": "gradebook"}, r"--gradebook: the grade book is 'gradebook \("),
+        ({"gradebook": "sqlite:////nowhere/to/be/found.db"}, r"--gradebook: .*unable to open"),
+    ],
+)
+def test_wrong_input_is_told_before_anything_is_graded(
+    ours: Path, tmp_path: Path, wrong: dict[str, str], message: str
+):  # fmt: skip
+    (tmp_path / "other").write_bytes(b"of another course")
+    (tmp_path / "secret").write_bytes(SECRET)
+    places = {name: tmp_path / text if name in ("folder", "secret_file", "feedback") else text
+              for name, text in wrong.items()}  # fmt: skip
+    kept = {path: path.read_bytes() for path in sorted((ours / TEACHER).rglob("*")) if path.is_file()}
+    order = Course(ours, tmp_path / "secret", tmp_path / "out" / "grades.csv")
+    with pytest.raises(GraphcamError, match=message):
+        grade_course(replace(order, **places))  # type: ignore[arg-type]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["other", "secret"]
+    assert all(path.read_bytes() == before for path, before in kept.items())
 
 
 def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):

@@ -110,6 +110,7 @@ def test_a_roster_is_read(tmp_path, text, students):
         ("id\na\nA\n", "once"),
         ('id,name\na,"x\ny"\n', "on one line"),
         ("id\na\x07\n", "on one line"),
+        ("id,name\n,Anna\n", "fill in the id of Anna"),
     ],
 )
 def test_a_wrong_roster_gets_one_message(tmp_path, text, message):
@@ -124,7 +125,8 @@ def test_a_wrong_roster_gets_one_message(tmp_path, text, message):
 def test_the_library_is_listed():
     result = CliRunner().invoke(app, ["exercise", "list"])
     assert result.exit_code == 0
-    assert all(name in result.output for name in ("integration", "whole-cam", "pressure-angle"))
+    # Whole, also in a window of 80 columns: they are to be typed.
+    assert all(f" {name} " in result.output for name in library())
 
 
 def test_wrong_input_of_make_leaves_nothing(tmp_path):

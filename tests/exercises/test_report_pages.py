@@ -53,7 +53,7 @@ def answers(student: str, certificate: Certificate) -> str:
 def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("course")
     kept = Certificates(place / TEACHER)
-    kept.keep_course(exercise_path(NAME), language="en")
+    kept.keep_course(exercise_path(NAME), SECRET, language="en")
     (place / "secret").write_bytes(SECRET)
     for student in IDS:
         certificate = issued(NAME, student)[1]

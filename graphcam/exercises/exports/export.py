@@ -50,7 +50,7 @@ def export(
         step(len(certificates), len(students))
     with whole_folder(folder) as draft:
         kept = Certificates(draft / TEACHER)
-        kept.keep_course(exercise_path(name), version=exercise.version, language=language)
+        kept.keep_course(exercise_path(name), key, version=exercise.version, language=language)
         for certificate in certificates:
             kept.keep(certificate.student, certificate.to_json())
         match target:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from graphcam.errors import TaskError
 from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.exercise import Asked, Exercise
 from graphcam.exercises.folders import folder_name
@@ -49,6 +50,26 @@ def write_course(folder: Path, exercise: Exercise, certificates: Sequence[Certif
         told = sentence(exercise.text, certificate.parameters, tell)
         text = f"# {exercise.title}\n\n{certificate.student}\n\n{told}"
         (sheets / f"{folder_name(certificate.student)}.md").write_text(text, encoding="utf-8")
+
+
+def check_gradebook(database: str) -> None:
+    """See whether the grade book can be opened, before anything is graded for it.
+
+    Raises
+    ------
+    ImportError : nbgrader is not installed
+    TaskError : it is not the address of a database, or the database cannot be opened
+    """
+    import nbgrader.api  # pyright: ignore[reportMissingImports]  # noqa: F401
+    from sqlalchemy import create_engine
+    from sqlalchemy.exc import SQLAlchemyError
+
+    try:
+        create_engine(database).connect().close()
+    except SQLAlchemyError as error:
+        why = f"{database} ({getattr(error, 'orig', None) or 'no address of a database'})"
+        raise TaskError("--gradebook", "the grade book", why, "a database that can be opened",
+                        "sqlite:///gradebook.db is the file gradebook.db in this folder") from None  # fmt: skip
 
 
 def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]]) -> None:

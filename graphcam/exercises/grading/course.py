@@ -12,6 +12,7 @@ from graphcam.exercises.certificate import Certificate
 from graphcam.exercises.course_folder import Certificates, read_secret
 from graphcam.exercises.exercise import Exercise
 from graphcam.exercises.exercise_file import find_exercise
+from graphcam.exercises.exports.nbgrader import check_gradebook, enter_scores
 from graphcam.exercises.grading.crew import Crew, cluster, processes
 from graphcam.exercises.grading.run import Records, grade_folder
 from graphcam.exercises.grading.store import Store
@@ -55,12 +56,15 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     ------
     GraphcamError : wrong input, or a level of isolation that there is not here
     """
-    if course.out.is_dir():
-        raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
+    _check_places(course)
     folder, kept = Certificates.of(course.folder)
-    exercise = find_exercise(course.exercise or _noted(course.folder, kept), kept.language())
+    exercise = _exercise(course, kept)
     require(course.level, (course.folder, course.secret_file, course.out))
-    assignment = Assignment(exercise, read_secret(course.secret_file), course.level, Limits(seconds=course.seconds))
+    secret = read_secret(course.secret_file)
+    kept.check_secret(secret, course.secret_file)
+    assignment = Assignment(exercise, secret, course.level, Limits(seconds=course.seconds))
+    if course.gradebook:
+        _open(course.gradebook)
     store = Store.beside(course.out, assignment)
     with store.held():
         with closing(_crew(course)) as crew:
@@ -70,15 +74,32 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
         if course.feedback is not None:
             write_feedback(course.feedback, exercise, records, certificates)
         if course.gradebook:
-            _enter(course.gradebook, exercise, records)
+            enter_scores(course.gradebook, exercise, records)
         store.clear()
     return f"{len(records)} hand-ins, graded at level {course.level}, in {course.out.parent}: {', '.join(names)}"
 
 
-def _noted(folder: Path, kept: Certificates) -> str:
-    if not (noted := kept.exercise()):
-        raise TaskError(str(folder), "the exercise", "not noted there", "known", "name it with --exercise")
-    return noted
+def _check_places(course: Course) -> None:
+    """What must not first come out when all is graded."""
+    if not course.folder.is_dir():
+        why = "a file" if course.folder.exists() else "not there"
+        raise TaskError(str(course.folder), "the folder", why, "one with a folder for every student", "check the name")
+    if course.out.is_dir():
+        raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
+    if course.feedback is not None and course.feedback.exists() and not course.feedback.is_dir():
+        raise OutputError(course.feedback, "it is a file", "name a folder for the pages")
+
+
+def _exercise(course: Course, kept: Certificates) -> Exercise:
+    """The exercise that the course is noted to be about, or else the one that is named."""
+    noted = kept.exercise()
+    if not noted and not course.exercise:
+        raise TaskError(str(course.folder), "the exercise", "not noted there", "known", "name it with --exercise")
+    exercise = find_exercise(course.exercise or noted, kept.language())
+    if noted and exercise.name != Path(noted).stem:
+        made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
+        raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")
+    return exercise
 
 
 def _crew(course: Course) -> Crew:
@@ -91,11 +112,9 @@ def _crew(course: Course) -> Crew:
                         "pip install 'graphcam[cluster]'") from None  # fmt: skip
 
 
-def _enter(gradebook: str, exercise: Exercise, records: Records) -> None:
-    from graphcam.exercises.exports.nbgrader import enter_scores
-
+def _open(gradebook: str) -> None:
     try:
-        enter_scores(gradebook, exercise, records)
+        check_gradebook(gradebook)
     except ImportError:
         raise TaskError("--gradebook", "nbgrader", "not installed", "installed",
                         "pip install 'graphcam[nbgrader]'") from None  # fmt: skip
