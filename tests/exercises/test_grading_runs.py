@@ -296,6 +296,30 @@ def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
     assert written(out) == written(whole)
 
 
+@pytest.mark.slow
+def test_a_run_that_is_killed_ends_the_code_that_it_runs(tmp_path: Path):
+    scratch, source = tmp_path / "scratch", "import time\nopen('begun', 'w').close()\ntime.sleep(100)"
+    cell = {"cell_type": "code", "metadata": {}, "source": source, "outputs": []}
+    for student in ("Anna", "Boris", "Clara"):
+        (tmp_path / "hand-ins" / student).mkdir(parents=True)
+        (tmp_path / "hand-ins" / student / "answers.ipynb").write_text(json.dumps({"cells": [cell]}))
+    scratch.mkdir()
+    (tmp_path / "secret").write_bytes(SECRET)
+    command = [sys.executable, "-m", "graphcam", "exercise", "grade", str(tmp_path / "hand-ins"), "--exercise", NAME,
+               "--secret-file", str(tmp_path / "secret"), "--out", str(tmp_path / "grades.csv"), "--workers", "2",
+               "--level", "L1", "--seconds", "60"]  # fmt: skip
+    run = subprocess.Popen(command, stderr=subprocess.DEVNULL, env={**os.environ, "TMPDIR": str(scratch)})
+    deadline = time.monotonic() + 60
+    while not list(scratch.glob("*/begun")) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    run.kill()
+    run.wait()
+    while list(scratch.iterdir()) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    # The worker removes the folder when the code has ended, and begins with nobody else's.
+    assert list(scratch.iterdir()) == []
+
+
 def session(leader: int) -> list[str]:
     """The processes of a session that run."""
     found: list[str] = []

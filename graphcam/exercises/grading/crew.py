@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
@@ -22,6 +23,14 @@ BATCH = 16
 """Short jobs that travel together: less talk between processes, and still an even load."""
 AHEAD = 3
 """Batches a worker that are on their way: none waits, and not all jobs are in memory."""
+
+
+LAST_MOMENTS = 2.0
+"""Seconds that a worker has to clear away when the run has been killed."""
+_working = threading.Event()
+"""Whether this process, a worker, has a job in hand."""
+_over = threading.Event()
+"""Whether its run has been killed, so that no other job is begun."""
 
 
 @dataclass(frozen=True)
@@ -127,11 +136,15 @@ def _taken(executor: Executor, work: Callable[[J], R], job: J) -> Future[list[R]
 def _each(work: Callable[[J], R], jobs: list[J]) -> list[R]:
     if threading.current_thread() is not threading.main_thread():
         return [work(job) for job in jobs]
+    if _over.is_set():
+        os._exit(1)
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    _working.set()
     try:
         return [work(job) for job in jobs]
     finally:
         _deaf()
+        _working.clear()
 
 
 def _deaf() -> None:
@@ -159,8 +172,15 @@ def _end_with_the_run() -> None:
     run = multiprocessing.parent_process()
 
     def watch() -> None:
-        if run is not None:
-            run.join()
-            os._exit(1)
+        if run is None:
+            return
+        run.join()
+        _over.set()
+        # As by Ctrl-C, so that a student's code that it runs just now is ended too.
+        os.kill(os.getpid(), signal.SIGINT)
+        until = time.monotonic() + LAST_MOMENTS
+        while _working.is_set() and time.monotonic() < until:
+            time.sleep(0.01)
+        os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
