@@ -7,6 +7,7 @@ is graded.  A locked cell could not hold them: nbgrader's autograde puts the tea
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,8 @@ def check_gradebook(database: str) -> None:
     ImportError : nbgrader is not installed
     TaskError : it is not the address of a database, or the database cannot be opened
     """
-    import nbgrader.api  # pyright: ignore[reportMissingImports]  # noqa: F401
+    if find_spec("nbgrader") is None:
+        raise ImportError("nbgrader")
     from sqlalchemy import create_engine
     from sqlalchemy.exc import SQLAlchemyError
 
