@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import count, product
@@ -130,22 +130,20 @@ def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequ
             best = leaves
         if len(best) == 1:
             return best
-    return _evened(sheet, runs, ways_of_blocks, spreads, best)
+    return _evened(sheet, viewed, ways_of_blocks, spreads, best)
 
 
 def _evened(
     sheet: Format,
-    runs: Sequence[list[Panel]],
+    viewed: Callable[[Way], list[Leaf]],
     ways_of_blocks: Sequence[Sequence[Block]],
     spreads: Sequence[tuple[float, ...]],
     best: list[Leaf],
 ) -> list[Leaf]:
-    """The same on as many pages, the emptiest of them as full as it can be."""
+    """The same on as many pages, the emptiest of them as full as it can be.
 
-    @cache
-    def viewed(way: Way) -> list[Leaf]:
-        return _with_views(sheet, runs, way)
-
+    viewed : puts the views on pages in a way
+    """
     for blocks, gaps in product(ways_of_blocks, spreads):
         way = Way(gaps, pages=len(best))
         leaves = _with_blocks(sheet, viewed(way), blocks, way)
