@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 import graphcam as gc
+from graphcam.constructions.pressure_angle import shown_station
 from graphcam.main_job.sheet import sheet
 from graphcam.sheets.model import Stroke, Text
 from graphcam.task_file import builtin_text
@@ -66,6 +68,37 @@ def test_the_sheet_shows_the_contact_function_and_the_force_plan(tmp_path):
     stations = solution.chain.board.stations
     exact = gc.CamForces(solution.cam, solution.spring.load).at(stations.phase[k], stations.u[k])
     assert float(plan.readings["normal"].value) == pytest.approx(float(exact.normal), rel=0.01)
+
+
+JUMP = """
+rotation = "ccw"
+speed_rpm = 300
+[motion]
+phases = [
+  { kind = "rise", angle = 40, lift = 12, law = "rectangular", ratio = 2.5 },
+  { kind = "dwell", angle = 20 },
+  { kind = "return", angle = 120, lift = 12, law = "cycloidal" }, { kind = "dwell", angle = 180 },
+]
+[follower]
+kind = "translating"
+[spring]
+mass = 0.4
+stiffness = 2
+"""
+
+
+def test_the_force_plan_is_drawn_where_the_least_preload_leaves_a_load(tmp_path):
+    """Here the greatest pressure angle and the lost load are at one place, the jump of the acceleration."""
+    solution = solved(tmp_path, JUMP)
+    spring, stations = solution.spring, solution.chain.board.stations
+    forces = gc.CamForces(solution.cam, spring.load)
+    shown = shown_station(solution.chain.pressure_angle)
+    assert spring.least.phi == pytest.approx(math.radians(40 / 3.5))
+    assert math.radians(40) * stations.u[shown] == pytest.approx(spring.least.phi)
+    k = spring.force_plan.givens["station"]
+    normal = float(spring.force_plan.readings["normal"].value)
+    assert normal == pytest.approx(float(forces.at(stations.phase[k], stations.u[k]).normal), rel=0.02)
+    assert normal > 0.2 * spring.greatest_normal.value
 
 
 def test_a_flat_faced_follower_has_a_spring_but_no_plan_of_forces(tmp_path):

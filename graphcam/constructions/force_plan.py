@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.pressure_angle import angle_at, shown_station
+from graphcam.constructions.pressure_angle import angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import UP, dot, meet, turned
 from graphcam.drafting.ink import (
@@ -42,6 +42,8 @@ from graphcam.given.spring_load import SpringLoad
 
 LOAD_LENGTH = 50.0
 """The load is drawn at the largest round scale at which its arrow is not longer [mm]."""
+LEAST_LOAD = 0.1
+"""Of the greatest load on the rises: under less the triangle would show nothing but the errors of the drawn a and s."""
 ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Round scales are these times a power of ten."""
 
@@ -58,14 +60,14 @@ def force_plan(
 
     measured : from :func:`~graphcam.constructions.pressure_angle.pressure_angle`
     guide : None for one without friction
-    station : None for the one where the pressure angle on the rises is greatest
+    station : None for the one of :func:`plan_station`
     mu_force : scale of forces [N/mm]; None for a round one
 
     Readings [N]: ``load``; ``normal``, the contact force, with its parts ``along`` the motion and ``side``, across it;
     ``friction`` and ``reaction`` of the guide.  NaN where the load does not press, or the guide jams.
     """
     hand = pencil.hand("force_plan")
-    k = shown_station(measured) if station is None else station
+    k = plan_station(measured, load) if station is None else station
     integrated, sigma = measured.givens["integrated"], sense(measured.givens["rotation"])
     s, v, a = (integrated.readings[name].value[..., k] for name in ("s", "v", "a"))
     alpha = measured.readings["alpha"].paper[..., k]
@@ -93,6 +95,18 @@ def force_plan(
         {"foot": foot, "corner": corner, "contact_normal": normal, "across": across},
         _draw,
     )  # fmt: skip
+
+
+def plan_station(measured: Construction, load: SpringLoad) -> int:
+    """The station of the velocity plan, where the pressure angle on the rises is greatest.
+
+    With the least preload hardly any load may be left just there: then the station on the rises where it is greatest.
+    """
+    integrated = measured.givens["integrated"]
+    s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
+    force = np.where(moving_up(measured), load.force((s, v, a, np.zeros_like(s)), 1.0), 0.0)
+    k = shown_station(measured)
+    return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
 
 
 def _incline(guide: Guide, s: Floats) -> Floats:

@@ -9,6 +9,7 @@ needed.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
@@ -83,12 +84,16 @@ SLOW = 0.25
 
 def shown_station(measured: Construction) -> int:
     """The station at which the plan is drawn: where the angle is greatest while the follower rises at some speed."""
+    # At rest the plan shrinks to a point, though the angle may be greatest there.
+    return int(np.argmax(np.where(moving_up(measured), np.abs(measured.first("alpha")), -1.0)))
+
+
+def moving_up(measured: Construction) -> NDArray[np.bool_]:
+    """At which stations the follower rises at some speed."""
     integrated = measured.givens["integrated"]
     motion, stations, v = integrated.givens["motion"], integrated.givens["stations"], integrated.value("v")
     rising = np.array([motion.phases[k].direction > 0 for k in stations.phase])
-    # At rest the plan shrinks to a point, though the angle may be greatest there.
-    moving = rising & (v >= SLOW * np.max(v))
-    return int(np.argmax(np.where(moving, np.abs(measured.first("alpha")), -1.0)))
+    return rising & (v >= SLOW * np.max(v))
 
 
 def _draw(measured: Construction) -> list[Step]:

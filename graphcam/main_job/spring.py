@@ -76,7 +76,7 @@ class SpringDesign:
 
     @cached_property
     def force_plan(self) -> Construction | None:
-        """The force plan of a translating follower at the station of its velocity plan."""
+        """The force plan of a translating follower at the station of its velocity plan, if that is loaded."""
         if not isinstance(self.cam.follower, Translating):
             return None
         return force_plan(self.chain.pressure_angle, self.load, self.chain.pencil)
