@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from collections.abc import Generator
@@ -106,6 +107,19 @@ def whole_file(path: str | Path) -> Generator[Path]:
         _remove(made)
         raise
     folder.rmdir()
+
+
+def check_new(path: str | Path) -> None:
+    """See, before long work, that there is a place for a file which must not be there yet.
+
+    Raises
+    ------
+    OutputError : the file is there already, or its folder is not
+    """
+    if os.path.lexists(path):
+        raise OutputError(path, "it is there already", "name a new file, or remove that one first")
+    if not Path(path).parent.is_dir():
+        raise OutputError(path, "its folder is not there", "make the folder first")
 
 
 def write_new(path: str | Path, text: str) -> None:

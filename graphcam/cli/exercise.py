@@ -65,10 +65,12 @@ def simulate(
     """
     from graphcam.exercises.exercise_file import find_exercise
     from graphcam.exercises.simulate import simulate as run
-    from graphcam.files import write_new
+    from graphcam.files import check_new, write_new
 
     progress = progress_lines(quiet=as_json)
     with one_message():
+        if out:
+            check_new(out)
         found = run(find_exercise(name), SECRET, variants, hands, lambda k, n: progress(f"variant {k} of {n}"))
         text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
         if out:

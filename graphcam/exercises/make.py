@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import nullcontext
@@ -98,5 +99,6 @@ def _write_keys(path: Path, exercise: Exercise, certificates: list[Certificate])
         )
         for each in certificates:
             for row in key_rows(exercise, each):
-                paper = f"{each.keys[str(row[0])].tolerance_paper:.3f}"
+                length = each.keys[str(row[0])].tolerance_paper
+                paper = f"{length:.3f}" if math.isfinite(length) else ""
                 table.writerow([cell(each.student), each.draw, *map(str, row), paper, f"{each.bound:.3f}"])

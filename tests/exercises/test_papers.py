@@ -173,6 +173,9 @@ def test_a_course_is_made_whole(tmp_path):
     with (out / "teacher" / "keys.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert {row["student"] for row in rows} == set(students)
+    # A scale is no length on paper.
+    assert {row["tolerance_paper_mm"] == "" for row in rows if row["answer"] == "mu_v"} == {True}
+    assert all(float(row["tolerance_paper_mm"]) > 0 for row in rows if row["answer"] == "v_2")
     assert json.loads((out / "teacher" / "course.json").read_text())["exercise"] == "integration"
     again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert again.exit_code == 2

@@ -59,6 +59,18 @@ def test_careful_hands_pass_and_mistakes_are_named(name):
     assert found.right_diagnoses >= 0.99
 
 
+@pytest.mark.parametrize(
+    ("name", "why"), [("there.json", "there already"), ("nowhere/new.json", "folder is not there")]
+)
+def test_a_wrong_place_for_the_figures_is_told_before_anything_is_simulated(tmp_path, monkeypatch, name, why):
+    (tmp_path / "there.json").write_text("kept", encoding="utf-8")
+    monkeypatch.setattr("graphcam.exercises.simulate.simulate", None)
+    result = CliRunner().invoke(app, ["exercise", "simulate", "integration", "--out", str(tmp_path / name)])
+    assert result.exit_code == 2
+    assert why in " ".join(result.output.split())
+    assert (tmp_path / "there.json").read_text(encoding="utf-8") == "kept"
+
+
 def test_the_figures_are_printed_as_json():
     result = CliRunner().invoke(
         app, ["exercise", "simulate", "acceleration-and-scales", "--variants", "1", "--hands", "20", "--json"]
