@@ -87,6 +87,9 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
                         "check the name") from None  # fmt: skip
     except (ValueError, RecursionError) as error:
         raise TaskError(str(path), "the text", _Word(f"not TOML ({error})"), "a TOML file", HOW_TO) from None
+    if "motion" in data and "task" not in data:
+        raise TaskError(str(path), "the file", _Word("a task"), "an exercise, which has the task in its table [task]",
+                        "begin with a copy of one that 'graphcam exercise list' names")  # fmt: skip
     for key in NO_KEYS & data.keys():
         raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
     told = in_language(str(path), data, language)

@@ -11,6 +11,7 @@ from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.exercise_file import exercise_path, find_exercise, library, load_exercise
 from graphcam.exercises.misconceptions import CATALOGUE, misconception
 from graphcam.language import languages
+from graphcam.task_file import builtin_text
 
 TITLE = 'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"'
 TOPICS = {
@@ -120,3 +121,10 @@ def test_every_mistake_speaks_without_numbers():
         said = str(misconception(full).said)
         assert said.endswith(".")
         assert not any(character.isdigit() for character in said.replace("90°", ""))
+
+
+def test_a_task_file_is_told_from_an_exercise(tmp_path):
+    path = tmp_path / "cam.toml"
+    path.write_text(builtin_text("coursework"), encoding="utf-8")
+    with pytest.raises(TaskError, match=r"the file is a task, but must be an exercise, .* \[task\]"):
+        load_exercise(path)
