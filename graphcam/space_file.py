@@ -35,8 +35,9 @@ def load_space(path: str | Path) -> Space:
         return checked(Space, _CLASSES, str(path), data, data)
     except TaskError as error:
         # A task's example is of no use here.
-        remedy = _REMEDY if error.remedy.endswith(EXAMPLE) else error.remedy
-        raise TaskError(error.path, error.field, error.value, error.expected, remedy) from None
+        remedy = _REMEDY if error.remedy.endswith(EXAMPLE) else error.remedy.replace("task file", "space file")
+        field = error.field.replace("task file", "space file")
+        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
 
 
 def example_space() -> Path:

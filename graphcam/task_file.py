@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import json
+import re
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -26,6 +27,8 @@ BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
 
 EXAMPLE = "'graphcam init FILE' writes a commented example"
+
+_DECIMAL_COMMA = re.compile(rb"=\s*[-+]?(\d+),(\d+)")
 
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
@@ -204,7 +207,10 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
             path, f"line {line}", content[error.start : error.start + 1], "text in UTF-8", "save the file as UTF-8"
         ) from None
     except (ValueError, RecursionError) as error:
-        raise TaskError(path, "the text", _Words(f"not TOML ({error})"), "a TOML file", EXAMPLE) from None
+        line = re.search(r"at line (\d+)", str(error))
+        comma = line and _DECIMAL_COMMA.search(content.splitlines()[int(line[1]) - 1])
+        remedy = f"numbers have a decimal point, {comma[1].decode()}.{comma[2].decode()}" if comma else EXAMPLE
+        raise TaskError(path, "the text", _Words(f"not TOML ({error})"), "a TOML file", remedy) from None
     if not data:
         raise _not_a_file(path, "empty", EXAMPLE)
     return data
@@ -269,11 +275,7 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, detail: Error
     if kind == "missing":
         return TaskError(path, place, _Words("missing"), "given", EXAMPLE)
     if kind == "unexpected_keyword_argument":
-        # What the loader of the classes sets itself is no key of a file.
-        known = [field.name for field in dataclasses.fields(classes[_table(detail["loc"][:-1])]) if field.init]
-        return TaskError(
-            path, place, _Words("an unknown key"), "one that is known", nearest(place.split(".")[-1], known)
-        )
+        return _unknown_key(path, place, value, classes, _table(detail["loc"][:-1]))
     if kind.startswith("union_tag"):
         tags = [table[-1] for table in classes if table[:-1] == _table(detail["loc"])]
         found = value.get("kind", _Words("missing"))
@@ -282,6 +284,23 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, detail: Error
     if kind == "too_long":
         expected = f"a list of {context['max_length']}"
     return TaskError(path, place, _shown(value), str(expected), EXAMPLE)
+
+
+def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...]) -> TaskError:
+    """A key that its table does not have, or that only a table of another kind has."""
+    key, known = place.split(".")[-1], _keys(classes[table])
+    alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
+    kinds = [other[-1] for other in alike if key in _keys(classes[other])]
+    if kinds:
+        return TaskError(
+            path, place, _shown(value), f"left out where the kind is {table[-1]}", f"it is for {' and '.join(kinds)}"
+        )
+    return TaskError(path, place, _Words("an unknown key"), "one that is known", nearest(key, known))
+
+
+def _keys(table: type) -> list[str]:
+    """The keys of a table in a file; what the loader sets itself is none."""
+    return [field.name for field in dataclasses.fields(table) if field.init]
 
 
 def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -> TaskError:

@@ -52,7 +52,7 @@ FAULTS = {
     "a ratio of zero": (rise(ratio="0"), "motion.phases[0].ratio", "0 greater than 0"),
     "a mistyped key of a phase": (rise(lift="", lfit="30"), "motion.phases[0].lfit", "unknown did you mean 'lift'"),
     "a dwell with a lift": (
-        (DWELL, '{ kind = "dwell", angle = 175, lift = 1 }'), "motion.phases[3].lift", "unknown known are angle",
+        (DWELL, '{ kind = "dwell", angle = 175, lift = 1 }'), "motion.phases[3].lift", "1 left out dwell rise return",
     ),
     "a phase that is a number": ((RISE, "80"), "motion.phases[0]", "80 table"),
     "phases that are a number": ((MOTION, "[motion]\nphases = 4\n"), "motion.phases", "4 list"),
@@ -68,6 +68,11 @@ FAULTS = {
     "an arm without its length": (
         (FOLLOWER, '[follower]\nkind = "oscillating"\ndistance = 150\n'), "follower.arm", "missing",
     ),
+    "an offset of an arm": (
+        (FOLLOWER, '[follower]\nkind = "oscillating"\narm = 125\ndistance = 150\noffset = 10\n'), "follower.offset",
+        "10 left out oscillating translating",
+    ),
+    "a decimal comma": (rise(lift="30,5"), "the text", "TOML decimal point 30.5"),
     "a negative distance": (
         (FOLLOWER, '[follower]\nkind = "oscillating"\narm = 125\ndistance = -150\n'), "follower.distance", "-150 0 mm",
     ),

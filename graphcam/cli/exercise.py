@@ -135,7 +135,8 @@ def make(
             name, roster, secret_file, out, language=language, workers=workers,
             step=lambda k, n: say(f"student {k} of {n}"),
         )  # fmt: skip
-    typer.echo(f"{out}: {count} students, their papers in 'students', yours in 'teacher'")
+    students = "1 student" if count == 1 else f"{count} students"
+    typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 
 
 for command in (grade, export, speed):

@@ -45,4 +45,5 @@ def export(
         if roster:
             students = [student.id for student in read_roster(roster)]
         write(name, target, students, out, secret, step, language)
-    typer.echo(f"{len(students)} variants of {name} for {target} in {out}")
+    variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
+    typer.echo(f"{variants} of {name} for {target} in {out}")
