@@ -30,8 +30,9 @@ def _about(answer: Marked, answers: Answers) -> list[Words]:
     if answer.outcome == "missing":
         return [say("{name}: no answer was given.", name=name)]
     if answer.outcome == "unreadable":
-        reason = [answers.problems[name]] if name in answers.problems else []
-        return [say("{name}: the answer cannot be read.", name=name), *reason]
+        if name not in answers.problems:
+            return [say("{name}: the answer cannot be read.", name=name)]
+        return [say("{name}: the answer cannot be read: {reason}.", name=name, reason=answers.problems[name])]
     if answer.outcome == "follow-through":
         return [say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)]
     if answer.station is None and isinstance(answer.given, list):
