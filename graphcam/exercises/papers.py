@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from graphcam.constructions.views import PROFILE
 from graphcam.drafting.ink import Step
 from graphcam.exercises.axes import empty_axes
 from graphcam.exercises.certificate import Certificate
@@ -129,6 +130,9 @@ def _composed(
 ) -> Drawing:
     task = variant.task
     title = replace(task.title, name=variant.exercise.title, author=student.name or student.id)
+    # Diagrams alone have scales of their own, and the sheet none.
+    shown = any(step.view.name == PROFILE.name for _, step in steps)
+    title = title if shown or title.scale is not None else replace(title, scale="")
     scale = board_chain(task).profile_scale
     tell = variant.exercise.tell
     block = title_block(title, scale, tell)

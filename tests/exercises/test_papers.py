@@ -218,3 +218,7 @@ def test_a_worksheet_is_true_to_scale_and_its_diagrams_stand_in_order(name, view
     assert [origin.imag for origin in origins] == sorted((origin.imag for origin in origins), reverse=True)
     # A pole of 50 mm stands to the left of the zero, inside the frame.
     assert page.frame.left < origins[0].real - 50
+    # Diagrams alone have no scale that the title block could name.
+    (frame,) = [group for group in page.groups if group.name == "frame"]
+    scales = [e.text for e in frame.entities if isinstance(e, Text) and re.fullmatch(r"[\d.]+:[\d.]+", e.text)]
+    assert len(scales) == ("profile" in views)
