@@ -18,6 +18,7 @@ from graphcam.main_job.player import player_of
 from graphcam.main_job.profile_files import write_profile
 from graphcam.main_job.solution import FILES, Solution
 from graphcam.sheet_tables import one_of
+from graphcam.sheets.model import Drawing
 
 DXF = "plain", "cad"
 """Kinds of DXF."""
@@ -57,10 +58,6 @@ def write(
     OutputError : the folder cannot be written
     """
     check_papers(solution, upto, dxf=dxf)
-    # The renderers take long to load, so they come when there is something to render.
-    from graphcam.sheets.cad_renderer import write_cad
-    from graphcam.sheets.dxf_renderer import write_dxf
-    from graphcam.sheets.matplotlib_renderer import write_pdf, write_png, write_svg
 
     def report(line: str) -> None:
         if progress:
@@ -70,15 +67,7 @@ def write(
         report("laying out the sheet")
         drawing = sheet_of(solution, upto, per_construction=per_construction)
         stem = "sheet" if upto is None else "worksheet"
-        report("writing PDF")
-        write_pdf(drawing, folder / f"{stem}.pdf")
-        for k, page in enumerate(drawing.pages, 1):
-            name = stem if k == 1 else f"{stem}-{k}"
-            report(f"writing SVG and PNG, page {k} of {len(drawing.pages)}")
-            write_svg(page, folder / f"{name}.svg")
-            write_png(page, folder / f"{name}.png")
-        report("writing DXF")
-        (write_cad if dxf == "cad" else write_dxf)(drawing, folder / f"{stem}.dxf")
+        _write_sheet(drawing, folder, stem, dxf, report)
         if upto is None:
             report("writing the step player")
             page = player_of(solution, sheet_of(solution) if per_construction else drawing)
@@ -98,6 +87,24 @@ def write(
         text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "solution.json").write_text(text + "\n", encoding="utf-8")
     return files
+
+
+def _write_sheet(drawing: Drawing, folder: Path, stem: str, dxf: str, report: Callable[[str], None]) -> None:
+    """The drawing in every format, its files named after the stem."""
+    # The renderers take long to load, so they come when there is something to render.
+    from graphcam.sheets.cad_renderer import write_cad
+    from graphcam.sheets.dxf_renderer import write_dxf
+    from graphcam.sheets.matplotlib_renderer import write_pdf, write_png, write_svg
+
+    report("writing PDF")
+    write_pdf(drawing, folder / f"{stem}.pdf")
+    for k, page in enumerate(drawing.pages, 1):
+        name = stem if k == 1 else f"{stem}-{k}"
+        report(f"writing SVG and PNG, page {k} of {len(drawing.pages)}")
+        write_svg(page, folder / f"{name}.svg")
+        write_png(page, folder / f"{name}.png")
+    report("writing DXF")
+    (write_cad if dxf == "cad" else write_dxf)(drawing, folder / f"{stem}.dxf")
 
 
 def _profile(solution: Solution, folder: Path) -> dict[str, str]:
