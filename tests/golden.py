@@ -1,0 +1,116 @@
+"""What the built-in tasks read and draw, as plain data, to hold against what they read and drew before.
+
+``python tests/golden.py`` writes ``tests/golden.json`` anew: where a value, a mark or a caption is meant to change.  Of a
+mark or an entity stand what it is, its texts, and three sums of its coordinates, of which at least one changes when any
+point of it moves.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import graphcam as gc
+
+FILE = Path(__file__).with_name("golden.json")
+TASKS = Path(gc.__file__).parent / "data" / "tasks"
+
+
+def numbers(values: Any) -> list[float]:
+    """Real numbers in a row, of complex ones the two parts; no minus zero."""
+    flat = np.atleast_1d(np.asarray(values, dtype=complex if np.iscomplexobj(values) else float)).ravel()
+    return [float(x) + 0.0 for x in (flat.view(float) if np.iscomplexobj(flat) else flat)]
+
+
+def summary(value: Any) -> Any:
+    """A mark or an entity as its class's name, its words, and its coordinates summed up."""
+    if isinstance(value, np.ndarray):
+        flat = np.array(numbers(value))
+        # The cosine gives every coordinate a weight of its own, the square tells a swap of two from none.
+        return [flat.size, float(flat.sum()), float(flat @ np.cos(np.arange(flat.size))), float(flat @ flat)]
+    if isinstance(value, complex):
+        return [value.real + 0.0, value.imag + 0.0]
+    if is_dataclass(value):
+        return [type(value).__name__, *(summary(getattr(value, field.name)) for field in fields(value))]
+    if isinstance(value, tuple):
+        return [summary(item) for item in value]
+    return value if isinstance(value, int | float | None) else str(value)
+
+
+def construction(drawn: gc.Construction) -> dict[str, Any]:
+    """The readings, the points and the steps."""
+    return {
+        "readings": {
+            name: [numbers(read.paper), numbers(read.scale), read.unit] for name, read in drawn.readings.items()
+        },
+        "points": {name: numbers(points) for name, points in drawn.points.items()},
+        "steps": [
+            [str(step.title), str(step.caption), step.view.name, [summary(mark) for mark in step.marks]]
+            for step in drawn.steps()
+        ],
+    }
+
+
+def sheet(solution: Any) -> list[dict[str, Any]]:
+    """The pages of the finished sheet, group by group; entities of one class are summed up together."""
+    from graphcam.main_job import sheet_of
+
+    def group(entities: tuple[Any, ...]) -> dict[str, Any]:
+        kinds = sorted({type(entity).__name__ for entity in entities})
+        return {kind: totals([e for e in entities if type(e).__name__ == kind]) for kind in kinds}
+
+    return [{g.name: group(g.entities) for g in page.groups} for page in sheet_of(solution).pages]
+
+
+def totals(entities: list[Any]) -> list[Any]:
+    """How many there are, all their words, and the sums of all their numbers."""
+    found: list[Any] = []
+
+    def collect(value: Any) -> None:
+        if isinstance(value, list):
+            for item in value:
+                collect(item)
+        else:
+            found.append(value)
+
+    collect([summary(entity) for entity in entities])
+    words = [value for value in found if isinstance(value, str)]
+    sums = np.array([float(value) for value in found if isinstance(value, int | float)])
+    return [len(entities), " ".join(words), float(sums.sum()), float(sums @ np.cos(np.arange(sums.size)))]
+
+
+def solved(name: str) -> dict[str, Any]:
+    """All of one built-in task."""
+    solution = gc.solve(gc.load_task(TASKS / f"{name}.toml"))
+    return {
+        "constructions": {name: construction(drawn) for name, drawn in solution.drawn.items()},
+        "quantities": solution.to_dict()["quantities"],
+        "sheet": sheet(solution),
+    }
+
+
+def differences(before: Any, now: Any, tolerance: float, where: str = "") -> list[str]:
+    """Where two values of plain data differ, numbers by more than the tolerance, of themselves if they are large."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        if list(before) != list(now):
+            return [f"{where}: {list(before)} became {list(now)}"]
+        return [found for key in before for found in differences(before[key], now[key], tolerance, f"{where}/{key}")]
+    if isinstance(before, list) and isinstance(now, list):
+        if len(before) != len(now):
+            return [f"{where}: {len(before)} items became {len(now)}"]
+        pairs = enumerate(zip(before, now, strict=True))
+        return [found for k, (old, new) in pairs for found in differences(old, new, tolerance, f"{where}/{k}")]
+    if isinstance(before, float) and isinstance(now, float):
+        alike = (np.isnan(before) and np.isnan(now)) or before == now
+        near = abs(now - before) <= tolerance * max(1.0, abs(before))
+        return [] if alike or near else [f"{where}: {before!r} became {now!r}"]
+    return [] if before == now else [f"{where}: {before!r} became {now!r}"]
+
+
+if __name__ == "__main__":
+    text = json.dumps({path.stem: solved(path.stem) for path in sorted(TASKS.glob("*.toml"))}, ensure_ascii=False)
+    FILE.write_text(text + "\n", encoding="utf-8")
