@@ -9,9 +9,9 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import graphcam as gc
-from graphcam.comparison.bench.report import QUICK
-from graphcam.main_job import write
-from graphcam.main_job.bench import bench
+from graphcam.bench.bench_folder import bench
+from graphcam.bench.measuring import QUICK
+from graphcam.report.output_folder import write
 
 HERE = Path(__file__).parent
 WIDTHS = {"coursework": 1800, "arm": 1200, "flat": 1200}

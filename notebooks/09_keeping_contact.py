@@ -26,7 +26,7 @@ import numpy as np
 
 import graphcam as gc
 from graphcam.notebooks import Question, Slider, changed, chart, explore, picture_of, show_steps, table
-from graphcam.task import SpringTable
+from graphcam.tasks.task import SpringTable
 
 # %% [markdown]
 # ## Background

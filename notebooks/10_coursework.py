@@ -22,7 +22,6 @@
 
 
 import graphcam as gc
-from graphcam.main_job.sheet import sheet
 from graphcam.notebooks import (
     Question,
     Slider,
@@ -34,6 +33,7 @@ from graphcam.notebooks import (
     show_steps,
     table,
 )
+from graphcam.report.sheet_contents import sheet
 
 # %% [markdown]
 # ## Background: the chain

@@ -1,8 +1,8 @@
 """What the built-in tasks read and draw, as plain data, to hold against what they read and drew before.
 
-``python tests/golden.py`` writes ``tests/golden.json`` anew: where a value, a mark or a caption is meant to change.  Of a
-mark or an entity stand what it is, its texts, and three sums of its coordinates, of which at least one changes when any
-point of it moves.
+``python tests/golden.py`` writes ``tests/golden.json`` anew: where a value, a mark or a caption is meant to change.
+Of a mark or an entity stand what it is, its texts, and three sums of its coordinates, of which at least one changes
+when any point of it moves.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def construction(drawn: gc.Construction) -> dict[str, Any]:
 
 def sheet(solution: Any) -> list[dict[str, Any]]:
     """The pages of the finished sheet, group by group; entities of one class are summed up together."""
-    from graphcam.main_job import sheet_of
+    from graphcam.report.documents import sheet_of
 
     def group(entities: tuple[Any, ...]) -> dict[str, Any]:
         kinds = sorted({type(entity).__name__ for entity in entities})

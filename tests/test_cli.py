@@ -37,9 +37,9 @@ class Solution:
 
 @pytest.fixture
 def asked(monkeypatch):
-    """What the command line asked of the main job."""
+    """What the command line asked of the rooms below."""
     calls = []
-    main_job = ModuleType("graphcam.main_job")
+    solving, report = ModuleType("graphcam.solving.solve"), ModuleType("graphcam.report.output_folder")
 
     def solve(task, pencil=None):
         if task.follower.kind != "translating":
@@ -54,8 +54,9 @@ def asked(monkeypatch):
         progress("PDF")
         return {"pdf": "cam.pdf", "player": None}
 
-    main_job.solve, main_job.write, main_job.check_papers = solve, write, lambda solution, upto, dxf: None
-    monkeypatch.setitem(sys.modules, "graphcam.main_job", main_job)
+    solving.solve, report.write, report.check_papers = solve, write, lambda solution, upto, dxf: None
+    for module in (solving, report):
+        monkeypatch.setitem(sys.modules, module.__name__, module)
     return calls
 
 
@@ -94,7 +95,7 @@ def test_json_with_a_folder_writes_and_names_the_files(run, asked, tmp_path):
     assert files(tmp_path) == ["here/cam.pdf", "here/solution.json"]
 
 
-def test_options_reach_the_main_job(run, asked):
+def test_options_reach_the_rooms_below(run, asked):
     run("init", "cam.toml")
     result = run("solve", "cam.toml", "--pencil", "0.2", "--seed", "7", "--divisions", "24", "--out", "out")
     assert result.exit_code == 0
@@ -146,7 +147,7 @@ def test_a_fault_of_graphcam_is_not_called_the_users(run, asked, monkeypatch):
     def fail(*_):
         raise ZeroDivisionError
 
-    monkeypatch.setattr(sys.modules["graphcam.main_job"], "solve", fail)
+    monkeypatch.setattr(sys.modules["graphcam.solving.solve"], "solve", fail)
     assert isinstance(run("solve").exception, ZeroDivisionError)
 
 

@@ -21,11 +21,11 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import DesignError
 from graphcam.language import ENGLISH, language, languages
-from graphcam.main_job.kinds import note_of, sheet_of
-from graphcam.main_job.note import comparison_file
+from graphcam.report.documents import note_of, sheet_of
+from graphcam.report.note import comparison_file
 from graphcam.sheets.model import Text
-from graphcam.task import SpringTable
-from graphcam.task_file import BUILT_IN
+from graphcam.tasks.task import SpringTable
+from graphcam.tasks.task_file import BUILT_IN
 from graphcam.words import say, say_in, say_many, sequence
 
 PACKAGE = Path(gc.__file__).parent

@@ -21,10 +21,18 @@ import graphcam as gc
 from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.laws import LAWS, Law, law
 from graphcam.given.motion import FULL_TURN, cam_angle
-from graphcam.main_job.solution import Solution
 from graphcam.mechanism.three_points import circumradius
-from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
-from graphcam.task import CamTable, DrawingTable, FlatFacedTable, LimitsTable, OscillatingTable, Task, TranslatingTable
+from graphcam.solving.solution import Solution
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.task import (
+    CamTable,
+    DrawingTable,
+    FlatFacedTable,
+    LimitsTable,
+    OscillatingTable,
+    Task,
+    TranslatingTable,
+)
 
 Row = dict[str, Any]
 TABLE: dict[str, list[Row]] = tomllib.loads(Path(hard_cases.TABLE).read_text(encoding="utf-8"))

@@ -10,7 +10,7 @@ import typer
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
 
 if TYPE_CHECKING:
-    from graphcam.comparison.bench.tables import Table as Texts
+    from graphcam.bench.bench_tables import Table as Texts
 
 DEFAULT_BENCH = DEFAULT_FOLDER / "bench"
 
@@ -29,10 +29,10 @@ def bench(
 
     graphcam bench --out bench
     """
-    from graphcam.comparison.bench import report
-    from graphcam.comparison.bench.tables import tables
-    from graphcam.main_job.bench import FILES
-    from graphcam.main_job.bench import bench as measure
+    from graphcam.bench import measuring as report
+    from graphcam.bench.bench_folder import FILES
+    from graphcam.bench.bench_folder import bench as measure
+    from graphcam.bench.bench_tables import tables
 
     with one_message():
         measured = measure(report.QUICK if quick else report.FULL, out, progress_lines(quiet=False))

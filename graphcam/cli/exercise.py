@@ -14,7 +14,7 @@ from graphcam.cli.exercise_speed import speed
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
 
 if TYPE_CHECKING:
-    from graphcam.exercises.simulate import Simulation
+    from graphcam.exercises.marking.simulate import Simulation
 
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
@@ -31,7 +31,7 @@ def list_exercises() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from graphcam.exercises.exercise_file import find_exercise, library
+    from graphcam.exercises.definition.exercise_file import find_exercise, library
 
     table = Table()
     # The names are to be typed: none is cut short where the window is narrow.
@@ -63,8 +63,8 @@ def simulate(
 
     graphcam exercise simulate whole-cam --variants 20 --json
     """
-    from graphcam.exercises.exercise_file import find_exercise
-    from graphcam.exercises.simulate import simulate as run
+    from graphcam.exercises.definition.exercise_file import find_exercise
+    from graphcam.exercises.marking.simulate import simulate as run
     from graphcam.files import check_new, write_new
 
     progress = progress_lines(quiet=as_json)
@@ -127,7 +127,7 @@ def make(
 
     graphcam exercise make pressure-angle --roster roster.csv --secret-file secret --out week-5
     """
-    from graphcam.exercises.make import make as run
+    from graphcam.exercises.course.make import make as run
 
     say = progress_lines(quiet=False)
     with one_message():

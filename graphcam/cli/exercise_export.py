@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_bar
-from graphcam.exercises.exports.formats import Format
+from graphcam.exercises.exports.systems import Format
 
 DEFAULT_EXPORT = DEFAULT_FOLDER / "export"
 
@@ -35,9 +35,9 @@ def export(
 
     graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
     """
-    from graphcam.exercises.course_folder import read_secret
+    from graphcam.exercises.course.course_folder import read_secret
+    from graphcam.exercises.course.roster import read_roster
     from graphcam.exercises.exports.export import export as write
-    from graphcam.exercises.roster import read_roster
 
     with one_message(), progress_bar("variants") as step:
         secret = read_secret(secret_file) if secret_file else None

@@ -46,7 +46,7 @@ def grade(
 
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv --level L2 --feedback pages
     """
-    from graphcam.exercises.grading.course import Course, grade_course
+    from graphcam.exercises.grading.course_grading import Course, grade_course
 
     with one_message(), progress_bar("hand-ins") as step:
         course = Course(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook)

@@ -25,9 +25,9 @@ def speed(
     from rich.console import Console
     from rich.table import Table
 
-    from graphcam.comparison.bench.timing import Timer
-    from graphcam.exercises.exercise_file import find_exercise, library
-    from graphcam.exercises.marking_speed import marking_speed
+    from graphcam.bench.timing import Timer
+    from graphcam.exercises.definition.exercise_file import find_exercise, library
+    from graphcam.exercises.grading.marking_speed import marking_speed
 
     progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
     table = Table("hand-ins a second, one core")

@@ -43,7 +43,7 @@ def notebook(
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
         # Loads nbconvert: only when the input has been found right.
-        from graphcam.notebooks.folder import write_folder
+        from graphcam.notebooks.notebook_folder import write_folder
 
         files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
     typer.echo(f"{out}: " + ", ".join(files))

@@ -14,8 +14,8 @@ import graphcam
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
 
 if TYPE_CHECKING:
-    from graphcam.arcs_task import ArcsTask
-    from graphcam.task import Task
+    from graphcam.tasks.arcs_task import ArcsTask
+    from graphcam.tasks.task import Task
 
 LARGE = ("A1", "A2")
 """Formats that are too large for one construction."""
@@ -135,7 +135,8 @@ def _solve(
 ) -> tuple[dict[str, Any], dict[str, str | None], list[str]]:
     """The solution's document, the files that were written into the folder, if there is one, and the warnings."""
     # Loads the renderers: only when the input has been found right.
-    from graphcam.main_job import check_papers, solve, write
+    from graphcam.report.output_folder import check_papers, write
+    from graphcam.solving.solve import solve
 
     progress("drawing and computing")
     solution = solve(task, pencil)

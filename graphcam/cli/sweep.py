@@ -30,8 +30,8 @@ def sweep(
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     with one_message():
-        from graphcam.main_job.sweep import sweep_to_file
-        from graphcam.space_file import load_space
+        from graphcam.sweeps.space_file import load_space
+        from graphcam.sweeps.sweep_file import sweep_to_file
 
         designs = load_space(space)
         columns = TextColumn("designs"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()

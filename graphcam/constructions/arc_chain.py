@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
+from graphcam.constructions.arc_outline import three_arcs
 from graphcam.constructions.arc_roller import ArcStations, arc_roller, divide_arcs
-from graphcam.constructions.arcs import three_arcs
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.arcs import mirrored, outline, run
+from graphcam.constructions.arc_outline import mirrored, outline, run
 from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, turned, unit
 from graphcam.drafting.ink import (
     Circle,
@@ -76,7 +76,7 @@ def divide_arcs(parts: int) -> ArcStations:
 def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, pencil: Pencil) -> Construction:
     """Put the roller on the arcs at every station of the rise, and find s, v and a there.
 
-    arcs : from :func:`~graphcam.constructions.arcs.three_arcs`
+    arcs : from :func:`~graphcam.constructions.arc_outline.three_arcs`
     roller_radius : mm
 
     Readings: ``s``, ``v``, ``a`` [mm, per radian] and ``alpha`` [rad] at the stations, ``phi`` there [rad], ``x`` and

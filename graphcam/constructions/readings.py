@@ -114,8 +114,8 @@ class Row:
 def rows(construction: Construction, step: Step) -> list[Row]:
     """The readings that a step of a construction takes; one that could not be read anywhere is left out.
 
-    >>> from graphcam.main_job import solve
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> region = solve(builtin_task()).drawn["minimum_radius"]
     >>> for row in rows(region, region.steps()[-1]):
     ...     print(row.title, "=", row.said())

@@ -1,8 +1,8 @@
 """Exercises that grade themselves: variants, tolerances from the drawing, diagnosis, follow-through.
 
-An :class:`~graphcam.exercises.exercise.Exercise` is a short file.  A
-:class:`~graphcam.exercises.variant.Variant` is what one student gets of it.  A
-:class:`~graphcam.exercises.certificate.Certificate` holds all that marking needs, made once; and
-:func:`~graphcam.exercises.marking.mark` is arithmetic on it and the
-:class:`~graphcam.exercises.answers.Answers`.
+An :class:`~graphcam.exercises.definition.exercise.Exercise` is a short file.  A
+:class:`~graphcam.exercises.definition.variant.Variant` is what one student gets of it.  A
+:class:`~graphcam.exercises.key.answer_key.Certificate` holds all that marking needs, made once; and
+:func:`~graphcam.exercises.marking.marking.mark` is arithmetic on it and the
+:class:`~graphcam.exercises.definition.answers.Answers`.
 """

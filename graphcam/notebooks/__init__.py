@@ -1,7 +1,7 @@
 """Notebooks: what a step-by-step notebook shows, and how one is written, executed and turned into pages.
 
 In a notebook: :func:`~graphcam.notebooks.stages.show_steps` and :func:`~graphcam.notebooks.stages.drawing`,
-:func:`~graphcam.notebooks.tables.compared`, :func:`~graphcam.notebooks.picture.chart`,
+:func:`~graphcam.notebooks.shown_tables.compared`, :func:`~graphcam.notebooks.picture.chart`,
 :class:`~graphcam.notebooks.question.Question`, :func:`~graphcam.notebooks.explore.explore` and
 :func:`~graphcam.notebooks.variation.changed`.
 
@@ -12,8 +12,8 @@ from graphcam.notebooks.explore import Slider, explore
 from graphcam.notebooks.picture import Picture, chart, picture_of, picture_of_page
 from graphcam.notebooks.playing import player
 from graphcam.notebooks.question import Question
+from graphcam.notebooks.shown_tables import compared, table
 from graphcam.notebooks.stages import drawing, show_steps
-from graphcam.notebooks.tables import compared, table
 from graphcam.notebooks.variation import changed
 
 __all__ = [

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphcam.main_job.arcs_papers import TITLES as OF_ARCS
-from graphcam.main_job.note import TITLES
+from graphcam.report.arcs_report import TITLES as OF_ARCS
+from graphcam.report.note import TITLES
 from graphcam.words import Caption, say
 
 FIRST = say(

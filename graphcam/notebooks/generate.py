@@ -9,15 +9,15 @@ from typing import Any
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
-from graphcam.arcs_task import ArcsTask
 from graphcam.drafting.units import unit
-from graphcam.main_job import markdown
-from graphcam.main_job.arcs import AnySolution, ArcsSolution
-from graphcam.main_job.kinds import solve
-from graphcam.main_job.sheet import UNNAMED, title_name
 from graphcam.notebooks.backgrounds import BACKGROUNDS, CHECKED, ERRORS, FIRST, MOVED, QUESTIONS
 from graphcam.notebooks.extra import needed
-from graphcam.task import Task
+from graphcam.report import markdown
+from graphcam.report.sheet_contents import UNNAMED, title_name
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.solve import solve
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
 from graphcam.words import Tell, Words, say, say_in
 
 TASK_FILE = "task.toml"
@@ -44,7 +44,7 @@ explore(with_parts, parts=Slider("{parts}", {values}, {start}, {shown}))"""
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
     """The files of a task by their names: TOML, and the table of a measured motion.
 
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> list(task_files(builtin_task("measured")))
     ['task.toml', 'measured.csv']
 
@@ -71,7 +71,7 @@ def _filled(table: Mapping[str, Any]) -> dict[str, Any]:
 def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     """The notebook of a task, to be executed beside its :func:`task_files`.
 
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> notebook = write_notebook(builtin_task("flat"))
     >>> [cell.source.splitlines()[0] for cell in notebook.cells if cell.source.startswith("## ")][:3]
     ['## The task', '## Acceleration diagram', '## Velocity, displacement and the scales']

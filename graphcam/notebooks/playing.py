@@ -5,9 +5,9 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from graphcam.main_job.arcs import AnySolution
-from graphcam.main_job.kinds import sheet_of
-from graphcam.main_job.player import player_of
+from graphcam.report.documents import sheet_of
+from graphcam.report.step_player import player_of
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import say
 
 if TYPE_CHECKING:
@@ -20,8 +20,8 @@ HEIGHT = 720
 def player(solution: AnySolution) -> HTML:
     """The step player of a solution as a frame that holds the whole page: nothing is fetched.
 
-    >>> from graphcam.main_job import solve
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> player(solve(builtin_task())).data.startswith('<div class="player"><iframe')
     True
     """

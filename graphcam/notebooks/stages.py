@@ -138,8 +138,8 @@ def _in_progress(entity: Entity, stage: str) -> Entity:
 def ancestors(construction: Construction) -> list[Construction]:
     """The constructions that one starts from, directly or not, the first drawn first.
 
-    >>> from graphcam.main_job import solve
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> [c.name for c in ancestors(solve(builtin_task()).drawn["minimum_radius"])]
     ['acceleration', 'integration']
     """
@@ -178,8 +178,8 @@ def stages(construction: Construction, tell: Tell = str, on: Construction | None
 def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:
     """The finished drawing of a construction in one of its views, by default the first; ``tell`` says all texts.
 
-    >>> from graphcam.main_job import solve
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> drawing(solve(builtin_task()).drawn["minimum_radius"]).caption
     'Displacement and velocity: the least radius'
 

@@ -14,7 +14,7 @@ AnyTask = TypeVar("AnyTask")
 def changed(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
     """The task with other values, named as in its file: "drawing.divisions", "follower.offset", "rotation".
 
-    >>> from graphcam.task_file import builtin_task
+    >>> from graphcam.tasks.task_file import builtin_task
     >>> changed(builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
     12.0
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import jupytext
 import nbformat
+from docstrings import public_names
 from nbformat import NotebookNode
 from PIL import Image
 from sphinx.cmd.build import build_main
@@ -41,7 +42,7 @@ GROUPS = {
     "motion": ("Motions, followers, loads", ("given",)),
     "exact": ("Exact values", ("mechanism",)),
     "drawn": ("The drawing board", ("drafting", "constructions")),
-    "tasks": ("Tasks and solutions", ("task", "arcs_task", "task_file", "main_job")),
+    "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "sweeps")),
     "errors": ("Errors", ("errors",)),
 }
 """The pages of the reference: title, and the rooms whose public names stand there."""
@@ -80,8 +81,9 @@ def build(out: Path, notebook: Callable[[Path], NotebookNode] = run, sheets: Ite
 
 def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
     """The page of sheets, and their pictures."""
-    from graphcam.main_job import sheet_of, solve
+    from graphcam.report.documents import sheet_of
     from graphcam.sheets.matplotlib_renderer import write_png
+    from graphcam.solving.solve import solve
 
     page = [(folder / "index.md").read_text(encoding="utf-8")]
     for name, caption in GALLERY.items():
@@ -112,7 +114,7 @@ def write_reference(folder: Path) -> None:
 
 def room_of(name: str) -> str:
     """The room, or the module beside the rooms, in which a public name stands."""
-    return gc._WHEN_USED[name].split(".")[1]
+    return public_names()[name].split(".")[1]
 
 
 def entry(name: str) -> str:

@@ -6,8 +6,10 @@ numpy's style underlines.
 
 from __future__ import annotations
 
+import ast
 import re
 from importlib import import_module
+from pathlib import Path
 from pydoc import locate
 from typing import Any
 
@@ -19,6 +21,17 @@ import graphcam
 HEADINGS = {"Parameters", "Attributes", "Raises", "Returns"}
 NAMED = re.compile(r"(?P<names>\w+(?:, \w+)*) : (?P<meaning>.*)")
 MARKUP = re.compile(r"(``.+?``|:\w+:`[^`]+`|(?<![\w*])\*\w[^*]*\*(?![\w*]))")
+
+
+def public_names() -> dict[str, str]:
+    """The module in which each public name stands, by the one list of them.
+
+    >>> public_names()["Cam"]
+    'graphcam.mechanism.cam'
+    """
+    stub = ast.parse(Path(graphcam.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    return {alias.name: f"graphcam.{node.module}" for node in imports for alias in node.names}
 
 
 def plain(text: str) -> str:
@@ -97,7 +110,7 @@ def _find(app: Sphinx, env: Any, node: Any, text: nodes.TextElement) -> nodes.No
         domain = env.get_domain("py")
         return domain.resolve_xref(env, node["refdoc"], app.builder, node["reftype"], public, node, text)
     # A bare name is one of the module in which the docstring stands.
-    here = any(hasattr(import_module(module), target) for module in set(graphcam._WHEN_USED.values()))
+    here = any(hasattr(import_module(module), target) for module in set(public_names().values()))
     return text if here or locate(target) is not None else None
 
 

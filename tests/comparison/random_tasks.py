@@ -7,8 +7,16 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.given.laws import LAWS
-from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
-from graphcam.task import CamTable, DrawingTable, FlatFacedTable, LimitsTable, OscillatingTable, Task, TranslatingTable
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.task import (
+    CamTable,
+    DrawingTable,
+    FlatFacedTable,
+    LimitsTable,
+    OscillatingTable,
+    Task,
+    TranslatingTable,
+)
 
 SHAPES = (("rise", "dwell", "return", "dwell"), ("rise", "return"), ("dwell", "rise", "rise", "dwell", "return"))
 """Phases of a turn; of the last the second rise goes on where the first one stopped."""

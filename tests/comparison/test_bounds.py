@@ -13,12 +13,12 @@ from scipy.optimize import brentq
 from graphcam.comparison.quantities import Comparison
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS
-from graphcam.main_job import solve
-from graphcam.main_job.note import against_exact
 from graphcam.mechanism.cam import Cam
-from graphcam.motion_tables import MotionTable
-from graphcam.task import CamTable, LimitsTable, TranslatingTable
-from graphcam.task_file import builtin_task
+from graphcam.report.note import against_exact
+from graphcam.solving.solve import solve
+from graphcam.tasks.motion_tables import MotionTable
+from graphcam.tasks.task import CamTable, LimitsTable, TranslatingTable
+from graphcam.tasks.task_file import builtin_task
 
 STATION_READINGS = {
     "s": "integration", "v": "integration", "a": "integration", "alpha": "pressure_angle", "x": "inversion",

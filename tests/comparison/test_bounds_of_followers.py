@@ -10,7 +10,8 @@ from random_tasks import random_arm_task, random_flat_task
 from test_bounds import outside, stations_outside
 
 from graphcam.errors import DesignError
-from graphcam.main_job import Solution, solve
+from graphcam.solving.solution import Solution
+from graphcam.solving.solve import solve
 
 TASKS = 60
 FOLLOWERS = {"arm": random_arm_task, "flat": random_flat_task}

@@ -6,8 +6,8 @@ from math import atan, degrees, hypot, radians, sqrt, tan
 
 import pytest
 
-from graphcam.main_job import solve
-from graphcam.task_file import builtin_task
+from graphcam.solving.solve import solve
+from graphcam.tasks.task_file import builtin_task
 
 LIFT, RISE, RETURN, OFFSET, PRIME_RADIUS = 30.0, radians(80), radians(60), 10.0, 44.0
 ALL_DIGITS = 1e-13

@@ -10,9 +10,9 @@ import numpy as np
 
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Sizes
-from graphcam.constructions.flat_faced import DrawnFlatFaced
-from graphcam.constructions.oscillating import DrawnOscillating
-from graphcam.constructions.translating import DrawnTranslating
+from graphcam.constructions.drawn_arm import DrawnOscillating
+from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
+from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.scale import Scale
 from graphcam.given.limits import Limits
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise

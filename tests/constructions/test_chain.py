@@ -13,7 +13,7 @@ from boards import SIZES, arm_board, arm_motion, coursework, flat_board, flat_mo
 from numpy.testing import assert_array_equal
 
 from graphcam.constructions import chain as chain_module
-from graphcam.constructions import translating
+from graphcam.constructions import drawn_translating as translating
 from graphcam.constructions.chain import Chain, Sizes
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil

@@ -15,7 +15,7 @@ from test_convergence import distance_from_profile
 import graphcam as gc
 from graphcam.comparison.bounds import Bounds
 from graphcam.constructions.chain import Chain, Sizes
-from graphcam.constructions.flat_faced import DrawnFlatFaced
+from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.drafting.euclid import UP, dot
 from graphcam.drafting.ink import AngleMark, Line, Role
 from graphcam.drafting.pencil import Pencil

@@ -18,7 +18,7 @@ from graphcam.constructions.readings import TITLES, Row, rows
 from graphcam.drafting.ink import Construction, Step, View, reading, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.spring_load import SpringLoad
-from graphcam.task_file import builtin_arcs_task, builtin_task
+from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
 TASKS = ("coursework", "arm", "flat", "measured", "arcs")
 HANDS = (Pencil(), Pencil(line=0.1, dividers=0.1, protractor=math.radians(0.5), samples=3, seed=4))

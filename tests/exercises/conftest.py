@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.exercise_file import find_exercise
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import signal
 
-from graphcam.exercises.grading import work
-from graphcam.exercises.grading.hand_in import HandIn
+from graphcam.exercises.grading import grade_one as work
+from graphcam.exercises.grading.submission import HandIn
 
 
 def grade(assignment: work.Assignment, hand_in: HandIn) -> work.Graded:

@@ -6,13 +6,13 @@ from functools import cache
 
 import numpy as np
 
-from graphcam.exercises.answers import Answers
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.exercise_file import find_exercise
-from graphcam.exercises.issue import issue
-from graphcam.exercises.marking import mark
-from graphcam.exercises.record import Record
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.marking.marking import mark
+from graphcam.exercises.marking.record import Record
 
 SECRET = b"the secret of the tests"
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from graphcam.exercises.reading.answer_tables import DECIMAL_COMMA, toml_values
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.tables import DECIMAL_COMMA, toml_values
 
 NUMBERS = st.recursive(
     st.integers(-(10**20), 10**20).map(str) | st.floats(allow_nan=False, allow_infinity=False).map(repr),

@@ -16,9 +16,9 @@ from ezdxf import recover
 from ezdxf.document import Drawing
 from issued_variants import SECRET, issued, key
 
-from graphcam.exercises.grading.hand_in import HandIn, read_hand_in
-from graphcam.exercises.grading.work import Assignment, grade
-from graphcam.exercises.record import Marked, Record
+from graphcam.exercises.grading.grade_one import Assignment, grade
+from graphcam.exercises.grading.submission import HandIn, read_hand_in
+from graphcam.exercises.marking.record import Marked, Record
 
 NAME, LAYER = "inversion-translating", "PITCH"
 AWAY = 210 + 148j

@@ -7,10 +7,10 @@ import pytest
 from issued_variants import issued, key
 from test_drawn_answers import data_of, new, origin
 
-from graphcam.exercises.answers import Answers
-from graphcam.exercises.marking import mark
-from graphcam.exercises.reading.folder import from_files
-from graphcam.exercises.record import Record
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.marking.marking import mark
+from graphcam.exercises.marking.record import Record
+from graphcam.exercises.reading.submission_files import from_files
 from graphcam.exercises.reports.curves import worst_place
 
 NAME, ASKED, LAYER = "inversion-arm", "rollers", "ROLLERS"

@@ -8,10 +8,10 @@ import pytest
 from russian import english_words
 
 from graphcam.errors import DesignError, TaskError
-from graphcam.exercises.exercise_file import exercise_path, find_exercise, library, load_exercise
-from graphcam.exercises.misconceptions import CATALOGUE, misconception
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise, library, load_exercise
+from graphcam.exercises.definition.misconceptions import CATALOGUE, misconception
 from graphcam.language import languages
-from graphcam.task_file import builtin_text
+from graphcam.tasks.task_file import builtin_text
 
 TITLE = 'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"'
 TOPICS = {
@@ -65,7 +65,7 @@ def test_the_text_names_every_parameter_of_the_task(name):
     ],
 )
 def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
-    from graphcam.exercises.exercise_file import _folder
+    from graphcam.exercises.definition.exercise_file import _folder
 
     text = (_folder() / "integration.toml").read_text(encoding="utf-8")
     assert old in text

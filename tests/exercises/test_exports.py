@@ -15,18 +15,18 @@ import pytest
 from issued_variants import SECRET, issued, key, marked
 from russian import english_words
 
-from graphcam.exercises.answers import Answers
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.exports.export import export
-from graphcam.exercises.exports.formats import Format
 from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.folders import folder_name
-from graphcam.exercises.grading.course import Course, grade_course
-from graphcam.exercises.marking import mark
-from graphcam.exercises.misconceptions import misconception
+from graphcam.exercises.exports.systems import Format
+from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.marking.marking import mark
 
 NAME = "acceleration-and-scales"
 IDS = ("Anna", "=cmd", "Иван")

@@ -22,15 +22,15 @@ import pytest
 from issued_variants import SECRET, issued, key
 
 from graphcam.errors import GraphcamError
-from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path
-from graphcam.exercises.folders import folder_name
-from graphcam.exercises.grading import course as grading_course
-from graphcam.exercises.grading import run
-from graphcam.exercises.grading.course import Course, grade_course
-from graphcam.exercises.grading.crew import Crew, processes, results
-from graphcam.exercises.grading.hand_in import read_hand_in
-from graphcam.exercises.grading.work import Assignment
+from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.definition.exercise_file import exercise_path
+from graphcam.exercises.grading import course_grading as grading_course
+from graphcam.exercises.grading import grading_run as run
+from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.grading.grade_one import Assignment
+from graphcam.exercises.grading.submission import read_hand_in
+from graphcam.exercises.grading.worker_pool import Crew, processes, results
 from graphcam.files import OutputError
 
 NAME = "acceleration-and-scales"

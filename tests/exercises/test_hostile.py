@@ -18,16 +18,16 @@ import pytest
 from programs import program
 from russian import english_words
 
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.exercise_file import find_exercise
-from graphcam.exercises.grading import work
-from graphcam.exercises.grading.hand_in import read_hand_in
-from graphcam.exercises.grading.work import Assignment, grade
-from graphcam.exercises.record import Record
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.grading import grade_one as work
+from graphcam.exercises.grading.grade_one import Assignment, grade
+from graphcam.exercises.grading.submission import read_hand_in
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.marking.record import Record
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.limits import Limits
 from graphcam.exercises.running.probe import missing
+from graphcam.exercises.running.resource_limits import Limits
 from graphcam.exercises.running.sandbox import run_cells
 
 SECONDS = 2.0
@@ -48,7 +48,7 @@ def assignment(exercise: Exercise) -> Assignment:
 
 @pytest.fixture(scope="module")
 def certificate(assignment: Assignment) -> str:
-    from graphcam.exercises.issue import issue
+    from graphcam.exercises.key.issuing import issue
 
     return issue(assignment.exercise, STUDENT, SECRET)[1].to_json()
 
@@ -145,7 +145,8 @@ def test_a_faulty_file_says_nothing_on_the_terminal(tmp_path: Path):
     line = "0\nLINE\n5\nAA\n8\nPITCH\n10\n1\n20\n1\n11\n2\n21\n2\n"
     (tmp_path / "answers.dxf").write_text(f"0\nSECTION\n2\nENTITIES\n{line * 3}0\nENDSEC\n0\nEOF\n")
     # A process of its own, for here warnings and what is logged are caught.
-    read = "import sys; from graphcam.exercises.reading.folder import *; from_files([], read_files(sys.argv[1])[0])"
+    room = "graphcam.exercises.reading.submission_files"
+    read = f"import sys; from {room} import *; from_files([], read_files(sys.argv[1])[0])"
     done = subprocess.run([sys.executable, "-c", read, str(tmp_path)], capture_output=True, text=True, check=True)
     assert (done.stdout, done.stderr) == ("", "")
 

@@ -14,15 +14,15 @@ from issued_variants import SECRET, issued, key, marked, outcomes
 
 from graphcam.constructions.profile_view import pitch_curve
 from graphcam.drafting.pencil import Pencil
-from graphcam.exercises.answers import Answers
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.curve_distance import distance_from_drawn
-from graphcam.exercises.drawing import board_chain
-from graphcam.exercises.issue import issue
-from graphcam.exercises.marking import mark
-from graphcam.exercises.misconceptions import misconception
-from graphcam.exercises.scatter import answers_of
-from graphcam.exercises.variant import drawn
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.variant import drawn
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.curve_distance import distance_from_drawn
+from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.scatter import answers_of
+from graphcam.exercises.marking.marking import mark
 
 NAMES = ("acceleration-and-scales", "pressure-angle", "least-radius", "inversion-translating")
 

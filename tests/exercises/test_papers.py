@@ -19,16 +19,16 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.drafting.ink import Segments
 from graphcam.errors import TaskError
-from graphcam.exercises.axes import empty_axes
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.drawing import board_chain
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.exercise_file import find_exercise, library
-from graphcam.exercises.folders import folder_name
-from graphcam.exercises.papers import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet
-from graphcam.exercises.reading.folder import read_files
-from graphcam.exercises.roster import Student, read_roster
-from graphcam.exercises.variant import drawn
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.handouts import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet
+from graphcam.exercises.course.roster import Student, read_roster
+from graphcam.exercises.definition.blank_axes import empty_axes
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise, library
+from graphcam.exercises.definition.variant import drawn
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.reading.submission_files import read_files
 from graphcam.sheets.model import Text
 
 

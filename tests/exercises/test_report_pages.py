@@ -12,11 +12,11 @@ from browsers import opened
 from issued_variants import SECRET, issued, key
 from russian import english_words
 
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path, find_exercise
-from graphcam.exercises.folders import folder_name
-from graphcam.exercises.grading.course import Course, grade_course
+from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.key.answer_key import Certificate
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
 
@@ -118,7 +118,7 @@ def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages:
 
 def test_the_report_tells_what_to_teach_again(pages: Path):
     text = (pages / "grades.html").read_text()
-    from graphcam.exercises.misconceptions import misconception
+    from graphcam.exercises.definition.misconceptions import misconception
 
     assert str(misconception("offset-sign").said) in text
     assert "<img" not in text

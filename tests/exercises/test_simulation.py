@@ -12,11 +12,11 @@ from issued_variants import SECRET
 from typer.testing import CliRunner
 
 from graphcam.cli import app
-from graphcam.exercises.exercise_file import find_exercise, library
-from graphcam.exercises.grading.work import Assignment, grade
-from graphcam.exercises.marking_speed import HANDS, simulated
-from graphcam.exercises.marking_speed import SECRET as SPEED_SECRET
-from graphcam.exercises.simulate import simulate
+from graphcam.exercises.definition.exercise_file import find_exercise, library
+from graphcam.exercises.grading.grade_one import Assignment, grade
+from graphcam.exercises.grading.marking_speed import HANDS, simulated
+from graphcam.exercises.grading.marking_speed import SECRET as SPEED_SECRET
+from graphcam.exercises.marking.simulate import simulate
 
 EXERCISES = Path(__file__).parents[2] / "exercises"
 
@@ -64,7 +64,7 @@ def test_careful_hands_pass_and_mistakes_are_named(name):
 )
 def test_a_wrong_place_for_the_figures_is_told_before_anything_is_simulated(tmp_path, monkeypatch, name, why):
     (tmp_path / "there.json").write_text("kept", encoding="utf-8")
-    monkeypatch.setattr("graphcam.exercises.simulate.simulate", None)
+    monkeypatch.setattr("graphcam.exercises.marking.simulate.simulate", None)
     result = CliRunner().invoke(app, ["exercise", "simulate", "integration", "--out", str(tmp_path / name)])
     assert result.exit_code == 2
     assert why in " ".join(result.output.split())
@@ -85,7 +85,7 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
     # The figures can fail: with a bound that no hand keeps everybody loses a point.
     from dataclasses import replace
 
-    from graphcam.exercises import simulate as module
+    from graphcam.exercises.marking import simulate as module
 
     issue = module.issue
 

@@ -16,9 +16,9 @@ from issued_variants import SECRET, issued, key
 from programs import program
 from test_drawn_answers import data_of, handed_in, pitch_of, vertices
 
-from graphcam.exercises.papers import origins, worksheet
-from graphcam.exercises.roster import Student
-from graphcam.exercises.variant import drawn
+from graphcam.exercises.course.handouts import origins, worksheet
+from graphcam.exercises.course.roster import Student
+from graphcam.exercises.definition.variant import drawn
 from graphcam.sheets.dxf_renderer import write_dxf
 
 NAME, LAYER = "inversion-translating", "PITCH"

@@ -160,7 +160,7 @@ def test_the_sheet_of_the_region_is_drawn(tmp_path):
 def test_the_sheet_of_the_region_speaks_russian():
     from russian import english_words
 
-    from graphcam.main_job.sizing_sheet import BINDING
+    from graphcam.report.sizing_sheet import BINDING
     from graphcam.sheets.model import Text
 
     for name in ("angle and stress", "spring"):

@@ -12,7 +12,7 @@ from pdf_paths import pages
 from scene import drawing as scene
 
 import graphcam
-from graphcam.main_job.kinds import sheet_of
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.matplotlib_renderer import write_pdf

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import graphcam as gc
-from graphcam.main_job.arcs import AnySolution
-from graphcam.main_job.kinds import sheet_of
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS
 from graphcam.sheets.model import Page, Text
 from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import outline, sampled
-from graphcam.task import Task
-from graphcam.task_file import builtin_task
+from graphcam.solving.arcs_solution import AnySolution
+from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import builtin_task
 
 CELL = 10.0
 """Side of the cells by which a page is measured [mm]."""

@@ -11,15 +11,15 @@ from scene import TABLE, TITLE, drawing, steps
 
 import graphcam as gc
 from graphcam.drafting.ink import Line, Role, Step, View, say
-from graphcam.main_job.sheet import sheet
-from graphcam.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.report.sheet_contents import sheet
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Stroke, Strokes, Text
 from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import box_of
-from graphcam.task import TranslatingTable
-from graphcam.task_file import builtin_task
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.task import TranslatingTable
+from graphcam.tasks.task_file import builtin_task
 
 EVERY = [(paper, frame) for paper in SIZES for frame in MARGINS]
 

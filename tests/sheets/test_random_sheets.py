@@ -12,15 +12,15 @@ import pytest
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
-from graphcam.arcs_task import ArcsTask
-from graphcam.main_job.arcs import AnySolution
-from graphcam.main_job.kinds import sheet_of, worksheet
+from graphcam.report.documents import sheet_of, worksheet
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES
 from graphcam.sheets.model import Drawing, Strokes, Text
 from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import box_of
-from graphcam.task import SpringTable, Task
-from graphcam.task_file import builtin_arcs_task, builtin_task
+from graphcam.solving.arcs_solution import AnySolution
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import SpringTable, Task
+from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
 SHEETS = [(paper, frame, lie) for lie in ORIENTATIONS for paper in SIZES for frame in MARGINS]
 

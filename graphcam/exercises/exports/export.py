@@ -7,17 +7,17 @@ from collections.abc import Callable
 from pathlib import Path
 
 from graphcam.errors import DesignError
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.course_folder import TEACHER, Certificates
-from graphcam.exercises.exercise_file import exercise_path, find_exercise
-from graphcam.exercises.exports.formats import Format
+from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.exports.gradescope import write_autograder
 from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
-from graphcam.exercises.issue import issue
+from graphcam.exercises.exports.systems import Format
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.issuing import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
-from graphcam.sheet_tables import one_of
+from graphcam.tasks.sheet_tables import one_of
 
 MOST = 1000
 """Variants of one export."""

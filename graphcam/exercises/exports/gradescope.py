@@ -10,13 +10,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from graphcam.exercises.course_folder import TEACHER, Certificates, read_secret
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.exercise_file import find_exercise
-from graphcam.exercises.grading.hand_in import read_hand_in
-from graphcam.exercises.grading.work import Assignment, grade
-from graphcam.exercises.reports.words import OUTCOMES
-from graphcam.exercises.template import sentence
+from graphcam.exercises.course.course_folder import TEACHER, Certificates, read_secret
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.grading.grade_one import Assignment, grade
+from graphcam.exercises.grading.submission import read_hand_in
+from graphcam.exercises.reports.phrases import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash
 set -e

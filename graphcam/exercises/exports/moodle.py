@@ -10,18 +10,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.exercise import Asked, Exercise
-from graphcam.exercises.folders import folder_name
-from graphcam.exercises.misconceptions import misconception
-from graphcam.exercises.template import sentence
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.key.answer_key import Certificate
 from graphcam.words import say
 
 
 def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
     """The questions of several variants, each in a category of its own.
 
-    >>> from graphcam.exercises.exercise_file import find_exercise
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> moodle_xml(find_exercise("acceleration-and-scales"), []).splitlines()[1]
     '<quiz />'
     """

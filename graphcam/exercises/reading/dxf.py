@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphcam.exercises.reading.drawing import Drawn, Layer
+from graphcam.exercises.reading.drawn_layers import Drawn, Layer
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import MOST_POINTS, Points, shown
 from graphcam.words import say

@@ -8,8 +8,8 @@ import warnings
 from collections.abc import Generator
 from typing import Any
 
+from graphcam.exercises.reading.answer_tables import text_of
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.tables import text_of
 from graphcam.exercises.reading.values import shown
 from graphcam.words import say
 

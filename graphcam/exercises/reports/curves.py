@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Points
-from graphcam.exercises.exercise import Kind
-from graphcam.exercises.expectation import Expected
-from graphcam.exercises.pairing import paired
+from graphcam.exercises.definition.exercise import Kind
+from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.key.pairing import paired
 
 MARGIN = 5.0
 """mm around what is shown."""

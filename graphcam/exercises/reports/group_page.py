@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.exercise import Exercise
-from graphcam.exercises.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.key.answer_key import Certificate
 from graphcam.exercises.reports.charts import Chart, stacked
 from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
-from graphcam.exercises.reports.pages import page
+from graphcam.exercises.reports.phrases import spoken
 from graphcam.exercises.reports.statistics import EDGE, Mistake, StepErrors, mistakes, step_errors
-from graphcam.exercises.reports.words import spoken
+from graphcam.exercises.reports.web_pages import page
 from graphcam.words import Caption, Tell, say
 
 WORDS = {

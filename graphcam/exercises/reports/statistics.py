@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphcam.exercises.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import Asked, Exercise
 
 OUTCOMES = ("right", "follow-through", "wrong", "unreadable", "missing")
 EDGE = 8.0

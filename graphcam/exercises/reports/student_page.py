@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from graphcam.drafting.ink import Caption, Words, say
-from graphcam.exercises.certificate import Certificate
-from graphcam.exercises.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.key.answer_key import Certificate
 from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
-from graphcam.exercises.reports.pages import page
-from graphcam.exercises.reports.words import OUTCOMES, given_text, spoken
-from graphcam.exercises.template import sentence
+from graphcam.exercises.reports.phrases import OUTCOMES, given_text, spoken
+from graphcam.exercises.reports.web_pages import page
 
 WORDS = {
     "asked": say("Asked"), "given": say("Your answer"), "outcome": say("Result"), "marks": say("Marks"),

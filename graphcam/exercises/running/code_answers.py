@@ -12,8 +12,8 @@ from graphcam.exercises.reading.notebook import cell_source, code_cells, noteboo
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import shown
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.limits import Limits
 from graphcam.exercises.running.process import Ended
+from graphcam.exercises.running.resource_limits import Limits
 from graphcam.exercises.running.sandbox import run_cells
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.limits import MEBIBYTE, Limits
+from graphcam.exercises.running.resource_limits import MEBIBYTE, Limits
 from graphcam.exercises.running.sandbox import run_cells, visible
 
 FEW = Limits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)

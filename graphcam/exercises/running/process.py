@@ -12,7 +12,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from io import FileIO
 
-from graphcam.exercises.running.limits import Limits
+from graphcam.exercises.running.resource_limits import Limits
 
 CHUNK = 1 << 16
 PATIENCE = 0.05

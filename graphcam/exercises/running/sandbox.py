@@ -19,8 +19,8 @@ from typing import Any
 
 from graphcam.exercises.running import launcher
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.limits import Limits
 from graphcam.exercises.running.process import Ended, run_limited
+from graphcam.exercises.running.resource_limits import Limits
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
 SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")

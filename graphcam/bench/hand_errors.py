@@ -1,0 +1,99 @@
+"""Pencil error against the number of parts: more parts lower the method's error and raise the hand's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphcam.bench.convergence import distance_from_profile
+from graphcam.bench.scenes import LIFT, Scene, free_scene, motion_of, scene
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.laws import Floats
+
+SIGMA = 0.2
+"""Position of a sharp line [mm]."""
+PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
+QUANTILES = (5.0, 95.0)
+"""Between these percentages lies a band of hands."""
+
+
+@dataclass(frozen=True)
+class Hands:
+    """What many hands make of the displacement of one rise, by the number of parts, relative to the lift.
+
+    mean, low, high : the greatest error of a hand, its mean and its quantiles over the hands
+    method : the same of a perfect hand
+    """
+
+    law: str
+    parts: tuple[int, ...]
+    mean: tuple[float, ...]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    method: tuple[float, ...]
+
+    @property
+    def _best(self) -> int:
+        return int(np.argmin(self.mean))
+
+    @property
+    def best(self) -> int:
+        """The number of parts with the least mean error."""
+        return self.parts[self._best]
+
+    @property
+    def floor(self) -> float:
+        """That least mean error: a hand does no better."""
+        return self.mean[self._best]
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """The quantiles at the best number of parts."""
+        return self.low[self._best], self.high[self._best]
+
+
+def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
+    """Draw one rise on a base of 120 mm, with an ordinate of 50 mm and poles of 40 mm."""
+    fixed = scene("translating", law)
+    where = replace(fixed, board=replace(fixed.board, motion=motion_of(law, LIFT, 120, 60, 120)))
+    pencil = Pencil(line=SIGMA, samples=hands)
+    errors = np.array([shape_errors(where, n, pencil) for n in parts])
+    low, high = np.percentile(errors, QUANTILES, axis=1).tolist()
+    method = [float(shape_errors(where, n, Pencil(samples=1))[0]) for n in parts]
+    return Hands(law, tuple(parts), tuple(errors.mean(axis=1).tolist()), tuple(low), tuple(high), tuple(method))
+
+
+def shape_errors(where: Scene, parts: int, pencil: Pencil) -> Floats:
+    """The greatest error of s on the rise of every hand, relative to the lift."""
+    chain = where.chain(parts, pencil)
+    stations = chain.board.stations
+    rise = stations.phases[0]
+    exact = chain.board.motion.at(0, stations.u[rise])[0]
+    return np.abs(chain["integration"].readings["s"].value[:, rise] - exact).max(axis=1) / LIFT
+
+
+def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
+    """Between which relative errors nine hands in ten stay, in the usual number of parts, by question."""
+    pencil = Pencil(line=SIGMA, samples=hands)
+    fixed, free = scene("translating", law), free_scene(law)
+    least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
+    errors = {
+        "displacement": shape_errors(fixed, parts, pencil),
+        "least radius": np.abs(least / free.least().prime_radius - 1),
+        "profile": _profile_errors(fixed, parts, pencil),
+    }
+    return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}
+
+
+def _profile_errors(where: Scene, parts: int, pencil: Pencil) -> Floats:
+    """The greatest distance of every hand's touch points from the exact profile, relative to the prime radius."""
+    chain = where.chain(parts, pencil)
+    profile = chain["working_profile"]
+    touch = profile.points["touch"] * profile.givens["inverted"].givens["mu_l"].per_mm
+    near = np.broadcast_to(chain.board.stations.phi, touch.shape)
+    kept = np.isfinite(touch)  # a touch point that another circle covers is not drawn
+    distance = np.zeros(touch.shape)
+    distance[kept] = distance_from_profile(where.cam, touch[kept], near[kept])
+    return distance.max(axis=1) / where.sizes.prime_radius

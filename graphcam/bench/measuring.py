@@ -1,0 +1,124 @@
+"""The whole report: what is measured with how much effort, and the same as plain data for strict JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from graphcam.bench.convergence import PARTS, Series, convergence
+from graphcam.bench.drawing_time import DrawingTime, drawing_times
+from graphcam.bench.exact_rows import Row, exact_rows
+from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS
+from graphcam.bench.hand_errors import SIGMA, Hands, bands, by_hand
+from graphcam.bench.peers import Peer, peers
+from graphcam.bench.scenes import LAWS
+from graphcam.bench.timing import Timer
+from graphcam.bench.tradeoff import LAW, Method, Sizes, tradeoff
+
+PAIR_STATIONS = 100_000
+"""Sines and cosines over which the unit of time is measured."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured: numbers of parts, hands, stations, and seconds for every measurement of a time."""
+
+    parts: tuple[int, ...]
+    laws: tuple[str, ...]
+    hands: int
+    pencil_parts: tuple[int, ...]
+    sizes: Sizes
+    law_stations: int
+    cam_stations: int
+    budget: float
+
+
+QUICK = Effort(
+    PARTS, LAWS, 1000, PENCIL_PARTS,
+    Sizes((6, 12, 24, 48, 96, 384, 1536, 6144), (6, 12, 24, 48, 96, 384), (6, 12, 24, 48, 96, 384, 1536, 6144, 24576),
+          (12, 36, 120, 360, 1080, 3240), (12, 36, 120, 360), (24, 96, 360, 1440, 5760)),
+    100_000, 1_000_000, 0.02,
+)  # fmt: skip
+FULL = Effort(
+    PARTS, LAWS, 2000, PENCIL_PARTS,
+    Sizes((6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304), (6, 12, 24, 48, 96, 384, 1536),
+          (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304), (12, 36, 120, 360, 1080, 3240, 9720, 29160),
+          (12, 36, 120, 360), (24, 96, 360, 1440, 5760, 23040)),
+    100_000, 1_000_000, 0.2,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything that was measured.
+
+    pair : the time of one sine and one cosine on this machine [s], the unit of all times
+    bands : between which relative errors nine hands in ten stay, by the question of the methods
+    rendering : times of laying out and rendering the sheet of the built-in task, in pairs
+    """
+
+    pair: float
+    series: tuple[Series, ...]
+    hands: tuple[Hands, ...]
+    bands: Mapping[str, tuple[float, float]]
+    methods: tuple[Method, ...]
+    rows: tuple[Row, ...]
+    peers: tuple[Peer, ...]
+    drawing: tuple[DrawingTime, ...]
+    rendering: Mapping[str, float]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Ratios and errors as plain data: times are in sine-cosine pairs, no seconds are kept."""
+        return _plain(
+            {
+                "unit_of_time": "one sine and one cosine of 1e5, in the same run",
+                "convergence": [
+                    asdict(s) | {"exact": s.exact, "order": s.order, "n2_error": s.constant} for s in self.series
+                ],
+                "pencil": [
+                    asdict(h) | {"sigma_mm": SIGMA, "best_parts": h.best, "floor": h.floor, "band": list(h.band)}
+                    for h in self.hands
+                ],
+                "pencil_bands": dict(self.bands),
+                "error_against_time": [asdict(m) for m in self.methods],
+                "exact": [{key: value for key, value in asdict(r).items() if key != "seconds"} for r in self.rows],
+                "peers": [asdict(p) for p in self.peers],
+                "drawing": [asdict(d) for d in self.drawing],
+                "rendering": dict(self.rendering),
+            }
+        )
+
+
+def measure(
+    effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[str], None]
+) -> Report:
+    """Measure everything; ``rendering`` gives the times of the sheet [s], which this side knows nothing of."""
+    timer = Timer(effort.budget)
+    pair = timer.pairs(PAIR_STATIONS) / PAIR_STATIONS
+    progress("error against the number of parts")
+    series = tuple(convergence(effort.parts, effort.laws))
+    progress("error of the hand")
+    hands = tuple(by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws)
+    bands_of_hands = bands(LAW, effort.hands)
+    progress("error against time")
+    methods = tuple(tradeoff(effort.sizes, timer, pair))
+    progress("the exact side")
+    rows = tuple(exact_rows(effort.law_stations, effort.cam_stations, timer))
+    progress("other packages")
+    others = tuple(peers(timer))
+    progress("readings and steps")
+    drawing = tuple(drawing_times(timer, pair))
+    progress("rendering")
+    rendered = {name: seconds / pair for name, seconds in rendering(timer).items()}
+    return Report(pair, series, hands, bands_of_hands, methods, rows, others, drawing, rendered)
+
+
+def _plain(value: Any) -> Any:
+    """Lists, dictionaries and numbers; None for what is not finite."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

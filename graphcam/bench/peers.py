@@ -1,0 +1,146 @@
+"""Other packages on one test cam: prime radius 60, offset 10, roller 12, lift 30, phases of 120, 30, 90, 120 degrees,
+cycloidal rise, harmonic return.  What a package cannot describe is left out, and said.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+
+from graphcam.bench.convergence import distance_from_profile, nearest_angles
+from graphcam.bench.rivals import optional
+from graphcam.bench.timing import Timer
+from graphcam.given.follower import Translating
+from graphcam.given.laws import Floats, law
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.least_radius import minimum_radius
+
+LIFT, BASE, ROLLER, OFFSET = 30.0, 48.0, 12.0, 10.0
+ANGLES = tuple(math.radians(degrees) for degrees in (120, 30, 90, 120))
+REACH = math.radians(20)
+"""How far from its own direction the nearest place of the profile is sought: the packages leave out the roller."""
+STATIONS = 360
+
+
+@dataclass(frozen=True)
+class Peer:
+    """What a package gives for one quantity.
+
+    error : in ``unit``, None where it gives nothing; slower : its time over graphcam's for the same; reason : why there
+    is no figure, or what the error comes from
+    """
+
+    package: str
+    quantity: str
+    error: float | None
+    unit: str
+    slower: float | None
+    reason: str
+
+
+def peer_cam() -> Cam:
+    """The cam that the packages are asked for.
+
+    >>> [round(math.degrees(value[0]), 3) for value in (peer_cam().extremes().pressure_angle_rise,)]
+    [14.264]
+    """
+    rise, dwell, back, rest = ANGLES
+    motion = Motion([Rise(LIFT, rise, "cycloidal"), Dwell(dwell), Return(LIFT, back, "cosine"), Dwell(rest)])
+    return Cam(motion, Translating(OFFSET, ROLLER), BASE + ROLLER)
+
+
+def peers(timer: Timer) -> list[Peer]:
+    """Each package where it can be imported, else the reason why not."""
+    found: list[Peer] = []
+    asked: list[tuple[str, str, Callable[[Any, Timer], list[Peer]]]] = [
+        ("mechanism", "mechanism", _mechanism), ("pylinkage", "pylinkage.cam", _pylinkage),
+    ]  # fmt: skip
+    for name, imported, ask in asked:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # theirs, not ours
+            module = optional(imported)
+            if module is None or _named(name) == name:
+                reason = "not installed; it comes with the extra peers"
+                found.append(Peer(name, "everything", None, "", None, reason))
+                continue
+            try:
+                found += ask(module, timer)
+            except Exception as error:  # noqa: BLE001  whatever another package does, the report goes on
+                found.append(Peer(_named(name), "everything", None, "", None, f"it fails: {error}"))
+    return found
+
+
+def _mechanism(module: Any, timer: Timer) -> list[Peer]:
+    step = FULL_TURN / STATIONS
+    degrees = [math.degrees(angle) for angle in ANGLES]
+    phases = [("Rise", LIFT, degrees[0]), ("Dwell", degrees[1]), ("Fall", LIFT, degrees[2]), ("Dwell", degrees[3])]
+    cam, name = peer_cam(), _named("mechanism")
+
+    def make() -> Any:
+        """The other package's cam."""
+        return module.Cam(motion=phases, degrees=True, omega=1.0, rotation="ccw", h=step)
+
+    theirs = make()
+    phi = np.asarray(theirs.thetas)
+    # It takes one law for all phases, so rise and return come from two cams.
+    rising = phi < ANGLES[0] + ANGLES[1] / 2
+    s = np.where(rising, theirs.cycloidal.S, theirs.harmonic.S)
+    radius = BASE + s
+    drawn = radius * np.exp(1j * (math.pi / 2 - phi))
+    distance = distance_from_profile(cam, drawn, nearest_angles(cam, drawn), REACH)
+    exact = cam.motion(phi)[0]
+    slower = timer.seconds(make) / timer.seconds(lambda: cam.profile(phi))
+    sized = theirs.get_base_circle(
+        kind="cycloidal", follower="roller", roller_radius=ROLLER, eccentricity=OFFSET, max_pressure_angle=30
+    )
+    symmetric = Motion([Rise(LIFT, ANGLES[0], "cycloidal"), Dwell(ANGLES[1]), Return(LIFT, ANGLES[2], "cycloidal"),
+                        Dwell(ANGLES[3])])  # fmt: skip
+    least = minimum_radius(symmetric, Translating(), return_=math.radians(30), offset=OFFSET, rest=False).prime_radius
+    return [
+        Peer(name, "displacement", float(np.abs(s - exact).max()), "mm", slower,
+             "its two laws joined: it takes one law for all phases"),
+        Peer(name, "working profile", float(distance.max()), "mm", slower, "no offset and no roller envelope"),
+        Peer(name, "least prime radius", float(sized["Rb"]) + ROLLER - least, "mm", None,
+             "30 degrees on both sides; its s0 is sqrt(r0^2 + e^2)"),
+    ]  # fmt: skip
+
+
+def _pylinkage(module: Any, timer: Timer) -> list[Peer]:
+    name = _named("pylinkage")
+    profile = module.FunctionProfile(
+        motion_law=module.CycloidalMotionLaw(), base_radius=BASE, total_lift=LIFT, rise_start=0.0, rise_end=ANGLES[0],
+        dwell_high_end=sum(ANGLES[:2]), fall_end=sum(ANGLES[:3]),
+    )  # fmt: skip
+    cam = peer_cam()
+    phi = np.linspace(0, ANGLES[0], STATIONS)
+
+    def theirs() -> list[float]:
+        """The other package's radii on the rise."""
+        return [profile.evaluate(x) for x in phi.tolist()]
+
+    off = np.abs(np.array(theirs()) - BASE - cam.motion(phi)[0]).max()
+    slower = timer.seconds(theirs) / timer.seconds(lambda: cam.motion(phi))
+    trapezoidal = module.ModifiedTrapezoidalMotionLaw()
+    u = np.linspace(0, 1, 1001)
+    lift: Floats = np.array([trapezoidal.displacement(x) for x in u.tolist()])
+    wrong = float(np.abs(lift - law("modified-trapezoidal")(u)[0]).max())
+    return [
+        Peer(name, "displacement, rise", float(off), "mm", slower, "one law for rise and return: no harmonic return"),
+        Peer(name, "modified-trapezoidal law", wrong * LIFT, "mm", None, "its lift jumps"),
+        Peer(name, "working profile", None, "mm", None, "gives a radius by angle, without offset and envelope"),
+    ]
+
+
+def _named(package: str) -> str:
+    """Name and version of an installed package; the name alone where only a folder of that name is there."""
+    try:
+        return f"{package} {version(package)}"
+    except PackageNotFoundError:
+        return package

@@ -1,0 +1,103 @@
+"""What the bench draws: three followers under four laws, each with its exact counterpart."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import radians
+
+from graphcam.constructions.board import Board, DrawnFollower
+from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.drawn_arm import DrawnOscillating
+from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
+from graphcam.constructions.drawn_translating import DrawnTranslating
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import Rotation
+from graphcam.given.limits import Limits
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
+from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.least_radius import LeastRadius, minimum_radius
+
+FOLLOWERS = ("translating", "arm", "flat")
+LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
+LIFT = 30.0
+"""Of the translating and the flat-faced follower [mm]."""
+ARM = 100.0
+"""Length of the arm [mm]; its centre distance is left open where the least radius is sought."""
+LIMIT = radians(30)
+"""The permitted pressure angle of the translating follower [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """One follower under one law, with sizes that do not depend on the drawing: what converges is one cam's drawing."""
+
+    follower: str
+    law: str
+    board: Board
+    sizes: Sizes
+
+    def chain(self, parts: int, pencil: Pencil | None = None) -> Chain:
+        """The drawing in so many parts a phase; nothing of it is drawn yet."""
+        return Chain(replace(self.board, divisions=parts), pencil or Pencil(), self.sizes)
+
+    @property
+    def cam(self) -> Cam:
+        """The same cam, exact."""
+        follower = self.board.follower.built(self.sizes.place, self.sizes.roller_radius)
+        return Cam(self.board.motion, follower, self.sizes.prime_radius, self.board.rotation)
+
+    def least(self) -> LeastRadius:
+        """The exact least prime radius."""
+        board, limits = self.board, self.board.limits
+        follower = board.follower.built(board.follower.place, 0.0)
+        return minimum_radius(
+            board.motion, follower, board.rotation, rise=limits.rise, return_=limits.return_, rest=limits.rest,
+            **board.follower.conditions,
+        )  # fmt: skip
+
+
+def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> Motion:
+    """Rise, dwell, return, and a dwell for the rest of the turn; the angles in degrees."""
+    angles = radians(rise), radians(dwell), radians(back)
+    return Motion(
+        [
+            Rise(lift, angles[0], law),
+            Dwell(angles[1]),
+            Return(lift, angles[2], law),
+            Dwell(FULL_TURN - sum(angles)),
+        ]
+    )
+
+
+def scene(follower: str, law: str) -> Scene:
+    """The translating follower is that of the built-in coursework task.
+
+    >>> scene("arm", "3-4-5").cam.follower
+    Oscillating(arm=100.0, distance=120.0, roller_radius=10.0)
+    """
+    if follower == "translating":
+        motion, sizes = motion_of(law, LIFT, 80, 45, 60), Sizes(46.0, -10.0, 12.0)
+        return Scene(follower, law, _board(motion, DrawnTranslating(-10.0), Limits(LIMIT, None, True), "cw"), sizes)
+    if follower == "arm":
+        motion, sizes = motion_of(law, radians(20), 90, 40, 80), Sizes(50.0, 120.0, 10.0)
+        limits = Limits(radians(45), None, True)
+        return Scene(follower, law, _board(motion, DrawnOscillating(ARM, None), limits, "ccw"), sizes)
+    motion, sizes = motion_of(law, LIFT, 120, 30, 100), Sizes(60.0, 0.0, 0.0)
+    return Scene(follower, law, _board(motion, DrawnFlatFaced(8.0), Limits(LIMIT, None, True), "ccw"), sizes)
+
+
+def free_scene(law: str) -> Scene:
+    """The translating follower with its offset left open and both pressure angles limited: the least radius alone."""
+    fixed = scene("translating", law)
+    board = replace(fixed.board, follower=DrawnTranslating(None), limits=Limits(LIMIT, LIMIT, True))
+    return replace(fixed, board=board)
+
+
+def _board(motion: Motion, follower: DrawnFollower, limits: Limits, rotation: Rotation) -> Board:
+    return Board(
+        motion=motion, follower=follower, rotation=rotation, limits=limits, prime_radius=None, roller_radius=None,
+        roller_rule=roller_rule(DEFAULT_RULE), divisions=12, ordinate=50.0, poles=(40.0, 40.0),
+        mu_phi=Scale(radians(1), "rad"), rounding=None, profile_room=(330.0, 330.0),
+    )  # fmt: skip

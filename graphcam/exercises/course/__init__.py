@@ -1,0 +1,1 @@
+"""A course: the students of a roster, and the handouts that each gets."""

@@ -1,0 +1,134 @@
+"""The teacher's folder of a course: which exercise it is, in which language, and one certificate a student."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from graphcam.errors import TaskError
+from graphcam.exercises.course.folder_names import folder_name, is_cut, student_of
+from graphcam.language import ENGLISH
+
+STUDENTS, TEACHER = "students", "teacher"
+"""The two folders that 'exercise make' writes; the first may be handed out as it is."""
+SUBMITTED = "submitted"
+"""Where nbgrader collects: a folder for every student, and in it one for every assignment."""
+COURSE = "course.json"
+"""In the teacher's folder, what the course is about."""
+HIDDEN = ".graphcam"
+"""Where certificates go in a course that was not made so; no student's folder has a name that begins with a point."""
+
+
+@dataclass(frozen=True)
+class Certificates:
+    """The certificates kept in a folder."""
+
+    folder: Path
+
+    @staticmethod
+    def of(course: Path) -> tuple[Path, Certificates]:
+        """Where the hand-ins of a course are, and where its certificates: beside them if graphcam made the course."""
+        for hand_ins in (STUDENTS, SUBMITTED):
+            # Students may have any name, and hand in what they like.
+            if (course / hand_ins).is_dir() and (course / TEACHER / COURSE).is_file():
+                return course / hand_ins, Certificates(course / TEACHER)
+        beside = course.resolve().parent / TEACHER
+        if course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir():
+            return course, Certificates(beside)
+        return course, Certificates(course / HIDDEN)
+
+    def find(self, student: str) -> str:
+        """A student's certificate as JSON; empty where there is none."""
+        try:
+            return self._path(student).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError):
+            return ""
+
+    def student(self, place: str) -> str:
+        """The student whose folder has this name; who had to be cut for it is named by the certificate."""
+        if not is_cut(place):
+            return student_of(place)
+        try:
+            said = json.loads((self.folder / "certificates" / f"{place}.json").read_bytes())
+            student = str(said["student"])
+        except (OSError, ValueError, TypeError, KeyError):
+            return student_of(place)
+        return student if folder_name(student) == place else student_of(place)
+
+    def keep(self, student: str, certificate: str) -> None:
+        """Keep a certificate; it is there whole or not at all."""
+        path = self._path(student)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        # Two runs may keep the same one.
+        draft = path.with_name(f"{path.name}.{os.getpid()}.new")
+        draft.write_text(certificate, encoding="utf-8")
+        draft.replace(path)
+
+    def keep_course(self, exercise: Path, secret: bytes, **said: Any) -> None:
+        """Note what the course is about: a copy of the exercise's file, and what else is said, such as the language.
+
+        Of the secret a part of a digest is noted, so that another one is not taken for it.
+
+        A copy, so that the course can be graded wherever it goes, and after the library's exercise has changed.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / exercise.name).write_bytes(exercise.read_bytes())
+        said = {"exercise": exercise.stem, "secret": _digest(secret), **said}
+        (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8")
+
+    def exercise(self) -> str:
+        """What the course is about, as ``find_exercise`` takes it; or empty."""
+        name = str(self.course().get("exercise", ""))
+        copy = self.folder / f"{name}.toml"
+        return str(copy) if copy.is_file() else name
+
+    def check_secret(self, secret: bytes, path: str | Path) -> None:
+        """Hold the secret against the course's: with another one, everybody's work would be that of a stranger.
+
+        Raises
+        ------
+        TaskError : the course was made with another one
+        """
+        if self.course().get("secret", _digest(secret)) != _digest(secret):
+            raise TaskError(str(path), "the secret", "another one", "the one that the course was made with",
+                            "name the file that 'graphcam exercise make' or 'export' was given")  # fmt: skip
+
+    def language(self) -> str:
+        """The language that the course is noted to be in; English where nothing is."""
+        return str(self.course().get("language", ENGLISH.name))
+
+    def course(self) -> dict[str, Any]:
+        """What is noted of the course; empty where nothing is."""
+        try:
+            said = json.loads((self.folder / COURSE).read_bytes())
+        except (OSError, ValueError):
+            return {}
+        return said if isinstance(said, dict) else {}
+
+    def _path(self, student: str) -> Path:
+        return self.folder / "certificates" / f"{folder_name(student)}.json"
+
+
+def _digest(secret: bytes) -> str:
+    return hashlib.sha256(b"graphcam course" + secret).hexdigest()[:16]
+
+
+def read_secret(path: str | Path) -> bytes:
+    """The secret of a course, without the end of its line.
+
+    Raises
+    ------
+    TaskError : the file cannot be read, or it is empty
+    """
+    try:
+        secret = Path(path).read_bytes().strip()
+    except OSError as error:
+        raise TaskError(str(path), "the secret", error.strerror or "not readable", "a file that only you can read",
+                        "check the name") from None  # fmt: skip
+    if not secret:
+        raise TaskError(str(path), "the secret", "empty", "a long random text", "write one into the file and keep it")
+    return secret

@@ -1,0 +1,197 @@
+"""What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.ink import Step
+from graphcam.exercises.course.roster import Student
+from graphcam.exercises.definition.blank_axes import empty_axes
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.reading.drawn_layers import ORIGIN
+from graphcam.exercises.reading.submission_files import DXF
+from graphcam.report.markdown import number
+from graphcam.report.sheet_contents import title_block
+from graphcam.sheets.layout import compose
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.tables import Table
+from graphcam.words import Caption, Words, say, say_in, say_many
+
+TAG = "answers"
+"""The tag of the notebook's cell that holds the answers."""
+KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
+"""Of the key's table, as :func:`key_rows` fills them."""
+KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+
+
+def instructions(variant: Variant) -> str:
+    """The exercise's text with the variant's numbers, its lines joined."""
+    exercise = variant.exercise
+    return " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
+
+
+def answer_file(exercise: Exercise) -> str:
+    """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong."""
+    how = say("Take the # away before an answer and write the number behind the = sign, with a decimal point.")
+    lines = [f"# {exercise.title}. {exercise.tell(how)}", ""]
+    for asked in exercise.answers:
+        lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {_blank(asked)}", ""]
+    return "\n".join(lines)
+
+
+def notebook(variant: Variant) -> str:
+    """A notebook with the task, and a tagged cell of literals for the answers."""
+    exercise = variant.exercise
+    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
+    how = say("Write your answers into the next cell: plain numbers with a decimal point, nothing else.")
+    blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
+    cells = [
+        _cell("task", "markdown", f"# {exercise.title}\n\n{instructions(variant)}"),
+        _cell("asked", "markdown", f"{exercise.tell(how)}\n\n{asked}"),
+        _cell("answers", "code", blanks, {"tags": [TAG]}),
+    ]
+    whole = {"cells": cells, "metadata": KERNEL, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
+
+
+def task_file(variant: Variant) -> str:
+    """The variant as a task file of graphcam."""
+    return toml_text(variant.task.to_dict())
+
+
+def worksheet(variant: Variant, student: Student) -> Drawing:
+    """The sheet to draw on: what is given, and the table for the answers."""
+    exercise = variant.exercise
+    chain = board_chain(variant.task)
+    steps = [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
+    blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
+    rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
+    table = Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
+    return _composed(variant, student, steps, [table], [instructions(variant)])
+
+
+def key_sheet(variant: Variant, student: Student, certificate: Certificate) -> Drawing:
+    """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
+    exercise = variant.exercise
+    chain = board_chain(variant.task)
+    steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
+    table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, certificate)))
+    return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
+
+
+def _drawn_for(exercise: Exercise, order: tuple[str, ...]) -> list[str]:
+    """The constructions up to the last one that is asked for; one that stands beside them is drawn alone."""
+    asked = {each.construction for each in exercise.answers}
+    within = [order.index(name) for name in asked if name in order]
+    return [*order[: max(within) + 1 if within else 0], *sorted(asked - set(order))]
+
+
+def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[Words, ...]]:
+    """A line an answer: name, unit, value, tolerance, marks."""
+    rows: list[tuple[Words, ...]] = []
+    for asked in exercise.answers:
+        key = certificate.keys[asked.name]
+        value = key.expected.value
+        told = number(value, asked.decimals) if isinstance(value, float) else say("see the drawing")
+        tolerance = number(key.tolerance, asked.decimals + 1)
+        rows.append((asked.name, asked.unit_said, told, tolerance, say("{marks:g}", marks=asked.marks)))
+    return rows
+
+
+def origins(variant: Variant) -> dict[str, str]:
+    """The views in which answers are drawn, by the layer on which a POINT of worksheet.dxf marks the view's origin.
+
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> from graphcam.exercises.definition.variant import drawn
+    >>> origins(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
+    {'ORIGIN': 'profile'}
+    """
+    chain = board_chain(variant.task)
+    of = {asked.layer: asked.construction for asked in variant.exercise.answers if asked.kind != "number"}
+    views = {layer: {step.view.name for step in getattr(chain, name).steps()} for layer, name in of.items()}
+    if len(set().union(*views.values())) == 1:
+        return {ORIGIN.upper(): next(iter(views.values())).pop()}
+    # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
+    return {f"{layer}-{ORIGIN}".upper(): found.pop() for layer, found in views.items() if len(found) == 1}
+
+
+def _composed(
+    variant: Variant, student: Student, steps: list[tuple[str, Step]], tables: list[Table], notes: list[str]
+) -> Drawing:
+    task = variant.task
+    title = replace(task.title, name=variant.exercise.title, author=student.name or student.id)
+    # Diagrams alone have scales of their own, and the sheet none.
+    shown = any(step.view.name == PROFILE.name for _, step in steps)
+    title = title if shown or title.scale is not None else replace(title, scale="")
+    scale = board_chain(task).profile_scale
+    tell = variant.exercise.tell
+    block = title_block(title, scale, tell)
+    return compose(steps, tables, block, task.drawing.format, task.drawing.frame, notes, tell=tell)
+
+
+def _how(asked: Asked) -> Caption:
+    if asked.kind != "number":
+        what = say("Points in mm on paper") if asked.kind == "points" else say("A curve in mm on paper")
+        return say(
+            "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file and handed in as {file}, "
+            "its origin marked by a POINT on the layer ORIGIN.)",
+            what=what, layer=asked.layer, file=DXF,
+        )  # fmt: skip
+    decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
+    if not asked.unit:
+        return say("({decimals}.)", decimals=decimals)
+    return say("(in {unit}, {decimals}.)", unit=asked.unit_said, decimals=decimals)
+
+
+def _blank(asked: Asked) -> str:
+    return "" if asked.kind == "number" else "[[x, y], [x, y]]"
+
+
+def _cell(name: str, kind: str, source: str, metadata: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    code = {"execution_count": None, "outputs": []} if kind == "code" else {}
+    return {"id": name, "cell_type": kind, "metadata": dict(metadata or {}), "source": source, **code}
+
+
+def toml_text(table: Mapping[str, Any]) -> str:
+    """A table of plain values as TOML.
+
+    >>> print(toml_text({"rotation": "cw", "cam": {"prime_radius": 44}}))
+    rotation = "cw"
+    cam = {prime_radius = 44}
+    <BLANKLINE>
+    """
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items() if value is not None)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_value(each)}" for key, each in value.items() if each is not None) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+def write_papers(variant: Variant, student: Student, folder: Path) -> None:
+    """Write all that the student gets into a folder."""
+    from graphcam.sheets.dxf_renderer import write_dxf
+    from graphcam.sheets.matplotlib_renderer import write_pdf
+
+    sheet = worksheet(variant, student)
+    write_pdf(sheet, folder / "worksheet.pdf")
+    layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
+    write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
+    for name, text in (
+        ("answers.toml", answer_file(variant.exercise)), ("answers.ipynb", notebook(variant)),
+        ("task.toml", task_file(variant)),
+    ):  # fmt: skip
+        (folder / name).write_text(text, encoding="utf-8")

@@ -1,0 +1,104 @@
+"""Making an exercise for a course: the students' papers in one folder, the teacher's in another."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Iterable
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import nullcontext
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, Certificates, read_secret
+from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.handouts import key_rows, key_sheet, write_papers
+from graphcam.exercises.course.roster import Student, read_roster
+from graphcam.exercises.course.spreadsheet import cell
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.issuing import issue
+from graphcam.files import OutputError, whole_folder
+from graphcam.language import languages
+from graphcam.tasks.sheet_tables import one_of
+
+
+@dataclass(frozen=True)
+class _Order:
+    exercise: Exercise
+    student: Student
+    secret: bytes
+    folder: Path
+
+
+def make(
+    name: str,
+    roster: str | Path,
+    secret_file: str | Path,
+    out: str | Path,
+    *,
+    language: str = "en",
+    workers: int = 1,
+    step: Callable[[int, int], None] = lambda done, total: None,
+) -> int:
+    """Make every student's papers; how many students there are.
+
+    language : of all papers, and noted for the feedback
+
+    Raises
+    ------
+    GraphcamError : the exercise, the roster or the secret is not there, or the folder cannot be written
+    """
+    one_of("language", language, languages())
+    exercise, students, secret = find_exercise(name, language), read_roster(roster), read_secret(secret_file)
+    out = Path(out)
+    for part in (STUDENTS, TEACHER):
+        if (out / part).exists():
+            raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
+    with whole_folder(out) as draft, _pool(workers) as pool:
+        orders = [_Order(exercise, student, secret, draft) for student in students]
+        results: Iterable[str] = pool.map(_papers, orders) if pool else map(_papers, orders)
+        certificates: list[Certificate] = []
+        for done, text in enumerate(results, 1):
+            certificates.append(Certificate.from_json(text))
+            step(done, len(orders))
+        kept = Certificates(draft / TEACHER)
+        kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
+        _write_keys(draft / TEACHER / "keys.csv", exercise, certificates)
+    return len(students)
+
+
+def _pool(workers: int) -> Executor | nullcontext[None]:
+    # Started afresh: a process that is copied while threads run may wait for ever.
+    return ProcessPoolExecutor(workers, mp_context=get_context("spawn")) if workers > 1 else nullcontext()
+
+
+def _papers(order: _Order) -> str:
+    """All papers of one student; the certificate as text."""
+    from graphcam.sheets.matplotlib_renderer import write_pdf
+
+    variant, certificate = issue(order.exercise, order.student.id, order.secret)
+    name = folder_name(order.student.id)
+    theirs, keys, kept = order.folder / STUDENTS / name, order.folder / TEACHER / "keys", order.folder / TEACHER
+    for folder in (theirs, keys, kept / "certificates"):
+        folder.mkdir(parents=True, exist_ok=True)
+    write_papers(variant, order.student, theirs)
+    write_pdf(key_sheet(variant, order.student, certificate), keys / f"{name}.pdf")
+    text = certificate.to_json()
+    (kept / "certificates" / f"{name}.json").write_text(text, encoding="utf-8")
+    return text
+
+
+def _write_keys(path: Path, exercise: Exercise, certificates: list[Certificate]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, quoting=csv.QUOTE_ALL)
+        table.writerow(
+            ["student", "draw", "answer", "unit", "key", "tolerance", "marks", "tolerance_paper_mm", "bound"]
+        )
+        for each in certificates:
+            for row in key_rows(exercise, each):
+                length = each.keys[str(row[0])].tolerance_paper
+                paper = f"{length:.3f}" if math.isfinite(length) else ""
+                table.writerow([cell(each.student), each.draw, *map(str, row), paper, f"{each.bound:.3f}"])

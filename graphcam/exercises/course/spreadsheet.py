@@ -1,0 +1,34 @@
+"""Cells of a table that is opened in a spreadsheet: no text of a stranger is taken for a formula."""
+
+from __future__ import annotations
+
+import re
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+"""What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
+_AFTER_SEPARATOR = re.compile(r"([;\t][\s\"']*)(?=[=+\-@＝＋－＠])")
+"""A formula behind what separates the cells where the comma is decimal: there the same file opens with other cells."""
+
+
+def cell(value: object) -> str:
+    """A cell: numbers as they are, text such that no spreadsheet takes it for a formula.
+
+    >>> cell(2.5), cell(-1.0), cell("-1"), cell(" =1+1"), cell(None), cell(True)
+    ('2.5', '-1', "'-1", "' =1+1", '', 'yes')
+    >>> cell("\\u200b\\xa0=1")[0], cell("\\u202bAnna")[0] == "'"
+    ("'", False)
+    >>> cell("a;=1+1"), cell("Anna; Ben")
+    ("a;'=1+1", 'Anna; Ben')
+    """
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int | float):
+        return f"{value:.10g}"
+    # Surrogates that a folder's name may hold cannot be written.
+    text = str(value).encode("utf-8", "backslashreplace").decode()
+    text = _AFTER_SEPARATOR.sub(r"\1'", text)
+    # What is not seen may stand before it: spaces of all kinds, marks of the direction of writing.
+    seen = next((letter for letter in text if letter.isprintable() and not letter.isspace()), "")
+    return f"'{text}" if seen in FORMULA or text.startswith(FORMULA) else text

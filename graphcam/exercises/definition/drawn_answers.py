@@ -1,0 +1,170 @@
+"""Answers out of a drawing, and a student's own answer put back into it."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Construction, Reading
+from graphcam.drafting.pencil import Pencil
+from graphcam.errors import DesignError
+from graphcam.exercises.definition.exercise import Asked
+from graphcam.given.stations import Stations
+from graphcam.tasks.task import Task
+
+PRIMES = "'’′"
+"""How a second or third moving phase is marked on a keyboard and in print."""
+PER_PART = ("middles",)
+PER_PHASE = ("greatest", "closing_v")
+PER_INTERVAL = ("differentiation",)
+"""Readings and constructions whose places are numbered from 1: parts, moving phases, intervals."""
+
+
+def board_chain(task: Task, pencil: Pencil | None = None) -> Chain:
+    """The drawing of a task."""
+    # Marking needs the catalogue of mistakes, which redraw, but draws nothing itself.
+    from graphcam.solving.task_board import board_of
+
+    return Chain(board_of(task), pencil or Pencil())
+
+
+def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
+    """What a hand that drew this answers: ([samples,]) numbers in the student's unit, or complex points ([samples,] m).
+
+    Raises
+    ------
+    DesignError : there is no such place in the drawing
+    """
+    construction = _construction(chain, asked)
+    if asked.points:
+        points = _named(construction.points, asked.points, "points")
+        if asked.kind != "number":
+            return points
+        place = points[..., place_of(chain, asked)] if asked.station else points
+        return place.real if asked.component == "x" else place.imag
+    reading = _named(construction.readings, asked.reading, "reading")
+    unit = math.degrees(1) if asked.unit.startswith("deg") else 1.0
+    if asked.of == "scale":
+        return unit * np.asarray(reading.scale, dtype=np.float64)
+    values = reading.value if asked.of == "value" else reading.paper
+    return unit * (values[..., place_of(chain, asked)] if asked.station else values)
+
+
+def per_mm(chain: Chain, asked: Asked) -> float:
+    """Units of the answer in one millimetre of paper; NaN for an angle or a scale, which has no length."""
+    if asked.points or asked.of == "paper":
+        return 1.0
+    reading = _construction(chain, asked).readings[asked.reading]
+    if asked.of == "scale" or reading.unit == "rad":
+        return math.nan
+    return float(np.ravel(reading.scale)[0])
+
+
+def place_of(chain: Chain, asked: Asked) -> int:
+    """Where the answer stands in its array.
+
+    Raises
+    ------
+    DesignError : the station's name is not one of the drawing's
+    """
+    name = re.fullmatch(rf"(\d+)([{PRIMES}]*)", asked.station)
+    stations = chain.board.stations
+    if name is None:
+        raise DesignError("station", asked.station, "a number, with a prime for each phase after the first")
+    number, phase = int(name[1]), len(name[2])
+    if asked.construction in PER_INTERVAL or asked.reading in PER_PHASE:
+        return number - 1
+    if phase >= len(stations.phases):
+        raise DesignError("station", asked.station, f"in one of {len(stations.phases)} moving phases")
+    return _in_phase(stations, number, phase, asked)
+
+
+def _in_phase(stations: Stations, number: int, phase: int, asked: Asked) -> int:
+    span, first = (stations.parts, 1) if asked.reading in PER_PART else (stations.phases, 0)
+    place = span[phase].start + number - first
+    if not span[phase].start <= place < span[phase].stop:
+        raise DesignError("station", asked.station, f"up to {span[phase].stop - span[phase].start - 1 + first}")
+    return place
+
+
+def with_own(chain: Chain, asked: Asked, values: NDArray[np.float64]) -> Chain:
+    """The drawing gone on with from a student's own answers ([samples,]), numbers: what comes later follows them."""
+    if asked.points:
+        return chain  # a point's own coordinates go no further than its construction
+    return chain.going_on_from(_replaced(chain, _construction(chain, asked), asked, values))
+
+
+def _replaced(chain: Chain, construction: Construction, asked: Asked, values: NDArray[np.float64]) -> Construction:
+    reading = construction.readings[asked.reading]
+    values = values / (math.degrees(1) if asked.unit.startswith("deg") else 1.0)
+    if asked.of == "scale":
+        return rescaled(construction, asked.reading, values)
+    paper = values if asked.of == "paper" else values / np.asarray(reading.scale)
+    if not asked.station:
+        return read_as(construction, asked.reading, paper)
+    if asked.reading == "greatest":
+        factor = np.ones((*values.shape, len(chain.board.stations.phases)))
+        factor[..., place_of(chain, asked)] = paper / reading.paper[..., place_of(chain, asked)]
+        return with_ordinates(construction, factor)
+    changed = np.array(np.broadcast_to(reading.paper, (*values.shape, *reading.paper.shape[values.ndim :])))
+    changed[..., place_of(chain, asked)] = paper
+    drawn = read_as(construction, asked.reading, changed)
+    if construction.name == "integration" and asked.reading == "s" and asked.of == "paper":
+        # The greatest displacement on paper is what the known lift is divided by.
+        top = int(np.argmax(chain.perfect.integration.readings["s"].paper))
+        if place_of(chain, asked) == top:
+            return rescaled(drawn, "s", chain.board.motion.lift / paper)
+    return drawn
+
+
+FOLLOWING = {"s": ("s", "v", "a", "a_before", "max_v", "max_a"), "v": ("v", "a", "a_before", "max_v", "max_a"),
+             "a": ("a", "a_before", "max_a")}  # fmt: skip
+"""Scales that are found from one another, each with those that follow from it."""
+
+
+def rescaled(construction: Construction, name: str, scale: NDArray[np.float64]) -> Construction:
+    """The construction read with another scale, and with it the scales that follow from that one."""
+    factor = scale / np.asarray(construction.readings[name].scale)
+    following = FOLLOWING[name] if construction.name in ("integration", "differentiation") else (name,)
+    readings = dict(construction.readings)
+    for each in following:
+        if each in readings:
+            readings[each] = replace(readings[each], scale=np.asarray(readings[each].scale) * factor)
+    return replace(construction, readings=readings)
+
+
+def read_as(construction: Construction, name: str, paper: NDArray[np.float64]) -> Construction:
+    """The construction with another length or angle read off the paper."""
+    reading = construction.readings[name]
+    return replace(construction, readings={**construction.readings, name: Reading(paper, reading.scale, reading.unit)})
+
+
+def with_ordinates(diagram: Construction, factor: NDArray[np.float64]) -> Construction:
+    """The acceleration diagram with the ordinates of every moving phase (..., phases) times a factor."""
+    stations: Stations = diagram.givens["stations"]
+    of_part = np.repeat(np.arange(len(stations.parts)), [part.stop - part.start for part in stations.parts])
+    phases = {"greatest": slice(None), "middles": of_part, "stations": stations.moving, "before": stations.moving}
+    readings = {
+        name: Reading(diagram.readings[name].paper * factor[..., phase], diagram.readings[name].scale, "mm of paper")
+        for name, phase in phases.items()
+    }
+    return replace(diagram, readings={**diagram.readings, **readings})
+
+
+def _construction(chain: Chain, asked: Asked) -> Construction:
+    known = (*chain, "differentiation")
+    if asked.construction not in known:
+        raise DesignError("construction", asked.construction, "one of " + ", ".join(known))
+    return getattr(chain, asked.construction)
+
+
+def _named(things: Any, name: str, kind: str) -> Any:
+    if name not in things:
+        raise DesignError(kind, name, "one of " + ", ".join(things))
+    return things[name]

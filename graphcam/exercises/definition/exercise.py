@@ -1,0 +1,196 @@
+"""What an exercise is: a task with open parameters, the answers asked, and the mistakes it can tell."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, ClassVar, Literal
+
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import UNITS
+from graphcam.errors import DesignError
+from graphcam.language import ENGLISH, language, languages
+from graphcam.tasks.sheet_tables import one_of, positive
+from graphcam.words import Tell, Words
+
+Kind = Literal["number", "points", "curve"]
+Of = Literal["value", "paper", "scale"]
+Diagram = Literal["acceleration", "velocity", "displacement"]
+Value = float | str
+"""A parameter's value: a number, or a word such as a law's name."""
+
+STEP_DIGITS = 9
+"""Decimals to which a parameter's value is rounded, so that 3 steps of 0.1 are 0.3."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What differs between students: a number from ``start`` to ``stop`` in steps, or one of some ``choices``.
+
+    >>> Parameter(start=24, stop=30, step=2).values
+    (24, 26, 28, 30)
+    """
+
+    start: float | None = None
+    stop: float | None = None
+    step: float | None = None
+    choices: tuple[float | str, ...] | None = None
+
+    def __post_init__(self) -> None:
+        grid = (self.start, self.stop, self.step)
+        if (self.choices is None) == (None in grid):
+            raise DesignError("parameter", "neither or both", "start, stop and step, or choices")
+        if self.choices is not None and not self.choices:
+            raise DesignError("choices", "empty", "a list of one or more")
+        if self.choices is None:
+            positive("step", self.step, "")
+            if self.stop is not None and self.start is not None and self.stop < self.start:
+                raise DesignError("stop", self.stop, f"at least start, {self.start:g}")
+
+    @cached_property
+    def values(self) -> tuple[Value, ...]:
+        """All values, in order."""
+        if self.choices is not None:
+            return tuple(choice if isinstance(choice, str) else _number(choice) for choice in self.choices)
+        assert self.start is not None
+        assert self.stop is not None
+        assert self.step is not None
+        count = int((self.stop - self.start) / self.step + 1e-6) + 1
+        return tuple(_number(self.start + k * self.step) for k in range(count))
+
+
+def _number(value: float) -> float:
+    """Whole numbers whole, so that a sheet says 30 and not 30.0."""
+    rounded = round(value, STEP_DIGITS)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+@dataclass(frozen=True)
+class Asked:
+    """One answer: where in the drawing it is read, and how it is given.
+
+    name : key of the answer in the student's file
+    text : what is asked, in a sentence
+    construction : name of the construction, as in :class:`~graphcam.constructions.chain.Chain`
+    reading : of the construction; or points : the name of its points
+    station : of a reading or points with several places: a station's name such as "4" or "4'" (second moving phase);
+        for ordinates in the middle of a part the number of the part, for one a phase that of the moving phase
+    of : of a reading its machine "value", its length on "paper", or its "scale" (machine units per mm)
+    component : of points that are asked as a number, their "x" or "y" [mm of paper]
+    unit : as the student gives it; "deg" turns radians into degrees
+    decimals : to which the student rounds
+    marks : for this answer
+    kind : a "number", plotted "points", or a "curve"; points and curves are in mm of paper
+    layer : of a DXF file, for points and curves
+    """
+
+    name: str
+    text: str
+    construction: str
+    reading: str = ""
+    points: str = ""
+    station: str = ""
+    of: Of = "value"
+    component: Literal["", "x", "y"] = ""
+    unit: str = ""
+    decimals: int = 1
+    marks: float = 1.0
+    kind: Kind = "number"
+    layer: str = ""
+
+    def __post_init__(self) -> None:
+        positive("marks", self.marks, "")
+        if bool(self.reading) == bool(self.points):
+            raise DesignError("reading", self.reading, "given where there are no points", "name a reading or points")
+        if self.kind == "number" and self.points and not self.component:
+            raise DesignError("component", self.component, "x or y where points are asked as a number")
+        if self.kind != "number" and not (self.points and self.layer):
+            raise DesignError("points", self.points, f"given with a layer where a {self.kind} is asked")
+        if self.layer and not re.fullmatch(r"[\w-]+", self.layer):
+            raise DesignError("layer", self.layer, "of letters, digits, hyphens and underscores")
+
+    @property
+    def unit_said(self) -> Words:
+        """The unit as a language writes it; one that only this exercise has stays as its file writes it."""
+        return UNITS.get(self.unit, self.unit)
+
+
+@dataclass(frozen=True)
+class HandTable:
+    """``[hand]``: how exactly a careful student draws (standard deviations; see :class:`~graphcam.Pencil`).
+
+    >>> HandTable().pencil(samples=5).protractor < 0.01
+    True
+    """
+
+    line: float = 0.15
+    dividers: float = 0.2
+    division: float = 0.5
+    protractor_deg: float = 0.25
+
+    def pencil(self, samples: int, seed: int = 0) -> Pencil:
+        """As many careful hands."""
+        from graphcam.exercises.definition.hands import SteadyPencil
+
+        return SteadyPencil(self.line, self.dividers, self.division, math.radians(self.protractor_deg), samples, seed)
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """An exercise as its file says it.
+
+    name : of the file
+    language : in which its texts are, and in which it speaks to students
+    version : goes into every variant, so that a changed exercise draws new ones
+    title, text : for the student; ``{lift}`` in the text stands for a parameter's value
+    parameters : by name
+    task : template of a task file's tables: the text "{lift}" stands for a parameter's value, "{rest}" for the angle
+        that is missing of 360 degrees
+    answers : in the order of the construction, which is the order in which mistakes travel
+    misconceptions : names from the catalogue of :mod:`~graphcam.exercises.definition.misconceptions`, with an argument
+        after a colon where one is taken ("wrong-law: cosine")
+    axes, sheet : what the student's worksheet shows: empty axes of diagrams over the cam angle, and so many steps of
+        each construction, which are then given
+    hand : the careful student
+    careful : part of the careful students who may lose any point
+    """
+
+    title: str
+    text: str
+    parameters: Mapping[str, Parameter]
+    task: Mapping[str, Any]
+    answers: tuple[Asked, ...]
+    misconceptions: tuple[str, ...] = ()
+    axes: tuple[Diagram, ...] = ()
+    sheet: Mapping[str, int] = field(default_factory=dict[str, int])
+    hand: HandTable = field(default_factory=HandTable)
+    careful: float = 0.03
+    version: int = 1
+    name: str = ""
+    language: str = ENGLISH.name
+
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
+
+    def __post_init__(self) -> None:
+        one_of("language", self.language, languages())
+        if not self.answers:
+            raise DesignError("answers", "empty", "a list of one or more")
+        names = [asked.name for asked in self.answers]
+        doubled = sorted({name for name in names if names.count(name) > 1})
+        if doubled:
+            raise DesignError("answers", doubled[0], "named once each")
+        for asked in self.answers:
+            one_of("kind", asked.kind, ("number", "points", "curve"))
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in its language."""
+        return language(self.language).text
+
+    @property
+    def marks(self) -> float:
+        """Of all answers together."""
+        return sum(asked.marks for asked in self.answers)

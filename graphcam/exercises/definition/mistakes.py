@@ -1,0 +1,222 @@
+"""Drawings with one mistake in them: functions from the right drawing to a wrong one.
+
+Most change what was given to one construction and go on from there; some change how a length was read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Construction
+from graphcam.errors import DesignError, nearest
+from graphcam.exercises.definition.drawn_answers import read_as, rescaled, with_ordinates
+from graphcam.given.follower import Rotation, sense
+from graphcam.given.laws import LAWS
+from graphcam.given.limits import Limits
+from graphcam.given.motion import Dwell, Motion, Phase
+
+
+def wrong_law(law: str) -> Callable[[Chain], Chain]:
+    """All moving phases by another law."""
+    if law not in LAWS:
+        raise DesignError("law", law, "one of the known laws", nearest(law, LAWS))
+
+    def by_law(phase: Phase) -> Phase:
+        return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
+
+    return lambda chain: _redrawn(
+        chain, replace(chain.board, motion=Motion([by_law(phase) for phase in chain.board.motion.phases]))
+    )
+
+
+def laws_swapped(chain: Chain) -> Chain:
+    """The law of the first moving phase in the second, and that of the second in the first."""
+    phases = list(chain.board.motion.phases)
+    first, second = [k for k, phase in enumerate(phases) if not isinstance(phase, Dwell)][:2]
+    a, b = phases[first], phases[second]
+    assert not isinstance(a, Dwell)
+    assert not isinstance(b, Dwell)
+    phases[first], phases[second] = replace(a, law=b.law, ratio=b.ratio), replace(b, law=a.law, ratio=a.ratio)
+    return _redrawn(chain, replace(chain.board, motion=Motion(phases)))
+
+
+def ordinates_equal(chain: Chain) -> Chain:
+    """Every phase drawn with the ordinate that was chosen for the first rise."""
+    return _other_ordinates(chain, lambda ratio: 1 / ratio)
+
+
+def ordinates_swapped(chain: Chain) -> Chain:
+    """The ratio of the other phases' ordinates to the chosen one turned round."""
+    return _other_ordinates(chain, lambda ratio: 1 / ratio**2)
+
+
+def _other_ordinates(chain: Chain, change: Callable[[Any], Any]) -> Chain:
+    # The greatest ordinate of every phase over the chosen one, and what the mistake makes of it.
+    ratio = chain.acceleration.readings["greatest"].paper / chain.board.ordinate
+    return chain.going_on_from(with_ordinates(chain.acceleration, change(ratio)))
+
+
+def end_ordinate(chain: Chain) -> Chain:
+    """The ordinate at the end of each part in place of the one at its middle."""
+    before = chain.acceleration.readings["before"].paper
+    ends = before[..., chain.board.stations.left + 1]
+    return chain.going_on_from(read_as(chain.acceleration, "middles", ends))
+
+
+def degree_for_radian(name: str) -> Callable[[Chain], Chain]:
+    """The scale of the cam angle in degrees a millimetre in the scales of v and a of the construction of that name."""
+    return lambda chain: _wrong_scales(chain, name, (math.degrees(1), math.degrees(1)))
+
+
+def pole_forgotten(name: str) -> Callable[[Chain], Chain]:
+    """The scales of v and a without the pole distances in the construction of that name."""
+
+    def forgotten(chain: Chain) -> Chain:
+        first, second = chain.board.poles if name == "differentiation" else chain.board.poles[::-1]
+        return _wrong_scales(chain, name, (1 / first, 1 / second))
+
+    return forgotten
+
+
+def _wrong_scales(chain: Chain, name: str, divisors: tuple[float, float]) -> Chain:
+    """The scale of v divided by the first number, that of a by both."""
+    v = rescaled_by(getattr(chain, name), "v", 1 / divisors[0])
+    return chain.going_on_from(rescaled_by(v, "a", 1 / divisors[1]))
+
+
+def rescaled_by(construction: Construction, name: str, factor: float) -> Construction:
+    """The construction with a scale, and those that follow from it, times a factor."""
+    return rescaled(construction, name, np.asarray(construction.readings[name].scale) * factor)
+
+
+def scale_forgotten(place: str) -> Callable[[Chain], Chain]:
+    """A length on paper taken for the value; ``place`` is a construction and its reading, joined by a point."""
+    name, _, reading = place.partition(".")
+
+    def forgotten(chain: Chain) -> Chain:
+        construction: Construction = getattr(chain, name)
+        return chain.going_on_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
+
+    return forgotten
+
+
+def slope_inverted(chain: Chain) -> Chain:
+    """Run over rise for rise over run: every ordinate H/(rise/run)."""
+    derived = chain.differentiation
+    v = derived.readings["v"].paper
+    with np.errstate(divide="ignore"):
+        return chain.going_on_from(read_as(derived, "v", derived.givens["poles"][0] ** 2 / v))
+
+
+def chord_at_its_end(chain: Chain) -> Chain:
+    """The value of a chord set down at its end: in the middle of the next part stands the mean of two chords."""
+    derived = chain.differentiation
+    v = derived.readings["v"].paper
+    return chain.going_on_from(read_as(derived, "v", (v + np.roll(v, 1, axis=-1)) / 2))
+
+
+def offset_sign(chain: Chain) -> Chain:
+    """The follower's line on the other side of the cam centre."""
+    follower: Any = chain.board.follower
+    return _redrawn(chain, replace(chain.board, follower=replace(follower, place=-follower.place)))
+
+
+def rotation_sense(chain: Chain) -> Chain:
+    """The cam turned in the other sense."""
+    return _redrawn(chain, replace(chain.board, rotation=_other(chain.board.rotation)))
+
+
+def numbering_sense(chain: Chain) -> Chain:
+    """The positions of the follower numbered with the rotation."""
+    return _inverted(chain, chain.prime_radius, _other(chain.board.rotation))
+
+
+def base_circle(chain: Chain) -> Chain:
+    """The circle of the profile's least radius where the prime circle is asked."""
+    # The scale of the profile stays what it is, so the task's own prime radius does not change.
+    board, radius = chain.board, chain.prime_radius - chain.roller_radius
+    measured = board.follower.pressure_angle(chain.integration, board.rotation, radius, chain.place, chain.pencil)
+    return _inverted(chain.going_on_from(measured), radius, board.rotation)
+
+
+def offset_circle(chain: Chain) -> Chain:
+    """The displacements laid off from the points where the tangents touch the circle e."""
+    # A hair more than the circle e itself, which a tangent meets in one point or, by rounding, in none.
+    return _inverted(chain, abs(chain.place) * (1 + 1e-9), chain.board.rotation)
+
+
+def polar_angle(chain: Chain) -> Chain:
+    """The points of the pitch curve, at their radii, on the rays of the cam angles from the first of them on."""
+    inverted, stations = chain.inversion, chain.board.stations
+    pitch = inverted.points["pitch"]
+    rays = np.exp(-1j * sense(chain.board.rotation) * (stations.phi - stations.phi[0]))
+    placed = np.abs(pitch) * (pitch / np.abs(pitch))[..., :1] * rays
+    readings = {
+        **inverted.readings,
+        "x": replace(inverted.readings["x"], paper=placed.real),
+        "y": replace(inverted.readings["y"], paper=placed.imag),
+        "polar_angle": replace(inverted.readings["polar_angle"], paper=np.angle(placed)),
+    }
+    return chain.going_on_from(replace(inverted, readings=readings, points={**inverted.points, "pitch": placed}))
+
+
+def unequal_scales(chain: Chain) -> Chain:
+    """The lengths of v from its own diagram laid off beside s, in the scale of v."""
+    integrated, board = chain.integration, chain.board
+    laid_off = rescaled(integrated, "v", np.asarray(integrated.readings["s"].scale))
+    place = board.follower.place
+    region = board.follower.least_radius(laid_off, board.rotation, board.limits, place, chain.pencil)
+    return chain.going_on_from(region)
+
+
+def limits_swapped(chain: Chain) -> Chain:
+    """The rise at the return's permitted angle, the return at the rise's."""
+    limits = chain.board.limits
+    if limits.return_ is None:
+        raise DesignError("limits", "without one of the return", "two where they are to be swapped")
+    return _redrawn(chain, replace(chain.board, limits=Limits(limits.return_, limits.rise, limits.rest)))
+
+
+def limit_from_the_horizontal(chain: Chain) -> Chain:
+    """The permitted angles laid off from the axis across the motion."""
+    limits = chain.board.limits
+    back = None if limits.return_ is None else math.pi / 2 - limits.return_
+    return _redrawn(chain, replace(chain.board, limits=Limits(math.pi / 2 - limits.rise, back, limits.rest)))
+
+
+def diameter_for_radius(chain: Chain) -> Chain:
+    """The radius of curvature doubled."""
+    return chain.going_on_from(read_as(chain.curvature, "rho", 2 * chain.curvature.readings["rho"].paper))
+
+
+def rule_greater(chain: Chain) -> Chain:
+    """The greatest of what the rule for the roller proposes."""
+    greatest = chain.roller.readings["candidates"].paper.max(axis=-1)
+    return chain.going_on_from(read_as(chain.roller, "roller_radius", greatest))
+
+
+def _other(rotation: Rotation) -> Rotation:
+    return "cw" if rotation == "ccw" else "ccw"
+
+
+def _redrawn(chain: Chain, board: Board) -> Chain:
+    """Everything drawn from the start with other givens; the diagrams stay where the motion does."""
+    same = board.motion is chain.board.motion
+    done = {"acceleration": chain.acceleration, "integration": chain.integration} if same else {}
+    return replace(chain, board=board, done=done)
+
+
+def _inverted(chain: Chain, prime_radius: float, rotation: Rotation) -> Chain:
+    """The inversion alone drawn otherwise."""
+    follower = chain.board.follower
+    inverted = follower.inversion(
+        chain.integration, rotation, prime_radius, chain.place, chain.profile_scale, chain.pencil
+    )
+    return chain.going_on_from(inverted)

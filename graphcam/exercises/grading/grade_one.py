@@ -1,0 +1,141 @@
+"""One hand-in, graded: this is what the workers do, here or on another machine."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Generator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from types import FrameType
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.variant import drawn
+from graphcam.exercises.grading.submission import HandIn
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.marking.marking import mark
+from graphcam.exercises.marking.record import Marked, Record
+from graphcam.exercises.reading.paper_area import Room
+from graphcam.exercises.reading.submission_files import DXF, from_files
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.resource_limits import Limits
+
+READING = 10.0
+"""Seconds of the processor's time in which a hand-in is read and marked; its code has a time of its own.
+
+Of the processor's, so that a busy machine gives the same marks as an idle one.
+"""
+
+
+class LateError(BaseException):
+    """Reading or marking took too long; whatever a library catches, this it does not.
+
+    >>> print(LateError(10))
+    it took more than 10 s
+    """
+
+    def __str__(self) -> str:
+        return f"it took more than {self.args[0]:g} s"
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """What all hand-ins have in common.
+
+    level : at which code is run; at L0 nothing is
+    """
+
+    exercise: Exercise
+    secret: bytes
+    level: Level = Level.L0
+    limits: Limits = field(default_factory=Limits)
+
+
+@dataclass(frozen=True)
+class Graded:
+    """The record of one hand-in, and the certificate where it had to be made."""
+
+    record: Record
+    certificate: str
+
+
+def grade(assignment: Assignment, hand_in: HandIn) -> Graded:
+    """The record of one hand-in; it never raises, since a hand-in that none foresaw has its record too."""
+    text = ""
+    try:
+        certificate, text = _certificate(assignment, hand_in)
+        with _seconds(READING):
+            answers = _answers(assignment, hand_in, certificate)
+            return Graded(mark(assignment.exercise, certificate, answers, level=assignment.level), text)
+    except (Exception, LateError) as error:  # noqa: BLE001
+        why = say("this hand-in could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
+        return Graded(unmarked(assignment, hand_in.student, why), text)
+
+
+def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
+    """The record of a hand-in that cannot be marked."""
+    exercise = assignment.exercise
+    answers = tuple(Marked(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
+    return Record(student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False,
+                  (exercise.tell(why),), (exercise.tell(why),), assignment.level)  # fmt: skip
+
+
+def _certificate(assignment: Assignment, hand_in: HandIn) -> tuple[Certificate, str]:
+    """The student's certificate and its text; what a file says counts only where the secret says the same."""
+    exercise = assignment.exercise
+    if hand_in.certificate:
+        known = Certificate.from_json(hand_in.certificate)
+        variant = drawn(exercise, hand_in.student, assignment.secret, known.draw)
+        same = (known.exercise, known.version, known.student) == (exercise.name, exercise.version, hand_in.student)
+        if same and dict(known.parameters) == dict(variant.parameters):
+            return known, hand_in.certificate
+    # Whoever has a certificate needs nothing that draws.
+    from graphcam.exercises.key.issuing import issue
+
+    _, made = issue(exercise, hand_in.student, assignment.secret)
+    return made, made.to_json()
+
+
+def _answers(assignment: Assignment, hand_in: HandIn, certificate: Certificate) -> Answers:
+    asked = assignment.exercise.answers
+    read = partial(from_files, asked, hand_in.files, hand_in.errors)
+    if DXF in hand_in.files:
+        read = partial(read, rooms=_rooms(assignment.exercise, certificate))
+    if assignment.level is Level.L0:
+        return read()
+    from graphcam.exercises.running.code_answers import run_notebook
+
+    return read(notebook=partial(run_notebook, assignment.level, [one.name for one in asked], assignment.limits))
+
+
+def _rooms(exercise: Exercise, certificate: Certificate) -> dict[str, Room]:
+    """Where drawn answers can lie: where the key does, or what a usual mistake makes of it."""
+    rooms: dict[str, Room] = {}
+    for k, asked in enumerate(exercise.answers):
+        if asked.kind != "number":
+            key = certificate.keys[asked.name]
+            known = [key.expected, *(wrong[k] for wrong in certificate.hypotheses.values())]
+            rooms[asked.name] = Room.around(asked.kind, known, key.tolerance)
+    return rooms
+
+
+@contextmanager
+def _seconds(seconds: float) -> Generator[None]:
+    """End what takes longer with a LateError; a thread other than the main one cannot be interrupted."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def late(_: int, __: FrameType | None) -> None:
+        raise LateError(seconds)
+
+    former = signal.signal(signal.SIGPROF, late)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, former)

@@ -1,0 +1,86 @@
+"""How many hand-ins of an exercise one core reads and marks in a second, at level L0, where nothing is run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.bench.timing import Timer
+from graphcam.constructions.chain import Chain
+from graphcam.exercises.course.handouts import toml_text
+from graphcam.exercises.definition.answers import Given
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.grading.grade_one import Assignment, grade
+from graphcam.exercises.grading.submission import HandIn
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.scatter import answers_of
+from graphcam.exercises.reading.submission_files import TOML
+
+STUDENT, SECRET = "speed", b"speed"
+HANDS = 60
+"""Students of each kind."""
+DRAWN = 2
+"""Decimals of drawn points, mm of paper: nobody measures finer."""
+
+
+@dataclass(frozen=True)
+class MarkingSpeed:
+    """Hand-ins that are read and marked in a second of the processor's time, from their bytes to their records.
+
+    careful : of careful students
+    wrong : of students with every mistake of the catalogue, as many with each; there the mistake is looked for
+    """
+
+    exercise: str
+    careful: float
+    wrong: float
+
+
+def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpeed:
+    """Measured with simulated students, whose answers are read from an ``answers.toml``, points of a curve too.
+
+    Raises
+    ------
+    DesignError : no variant can be diagnosed
+    """
+    timer, assignment = timer or Timer(), Assignment(exercise, SECRET)
+    careful, wrong = simulated(exercise)
+
+    def graded(hand_ins: list[HandIn]) -> Callable[[], object]:
+        return lambda: [grade(assignment, hand_in) for hand_in in hand_ins]
+
+    return MarkingSpeed(
+        exercise.name, len(careful) / timer.seconds(graded(careful)), len(wrong) / timer.seconds(graded(wrong))
+    )
+
+
+def simulated(exercise: Exercise) -> tuple[list[HandIn], list[HandIn]]:
+    """Hand-ins of one variant: of careful students, and of others with every mistake."""
+    variant, certificate = issue(exercise, STUDENT, SECRET)
+    chain = board_chain(variant.task, exercise.hand.pencil(HANDS, seed=1))
+    wrong = [misconception(name).change(chain) for name in exercise.misconceptions]
+    return (
+        _hand_ins(exercise, certificate, chain),
+        [each for mistaken in wrong for each in _hand_ins(exercise, certificate, mistaken)],
+    )
+
+
+def _hand_ins(exercise: Exercise, certificate: Certificate, chain: Chain) -> list[HandIn]:
+    text, drawn = certificate.to_json(), answers_of(exercise, chain)
+    found: list[HandIn] = []
+    for hand in range(HANDS):
+        given = {asked.name: _given(answers[hand]) for asked, answers in zip(exercise.answers, drawn, strict=True)}
+        found.append(HandIn(STUDENT, STUDENT, {TOML: toml_text(given).encode()}, (), text))
+    return found
+
+
+def _given(answer: Given) -> float | list[list[float]]:
+    if not isinstance(answer, np.ndarray):
+        return float(answer)
+    points = np.round(np.column_stack([answer.real, answer.imag]), DRAWN)
+    return [[float(x), float(y)] for x, y in points]

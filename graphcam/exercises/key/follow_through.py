@@ -1,0 +1,84 @@
+"""How an answer follows from the student's own earlier ones: the construction drawn again from these.
+
+The construction is drawn again when the certificate is made (:mod:`graphcam.exercises.key.redrawing`), from a range of
+values in place of each earlier answer, the others being right; marking only looks up.  A student with several answers
+off gets the effects put together, by factors or by sums, whichever agrees better with drawings from several own values
+at once.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+NODES = 33
+"""Own values from which each later answer is drawn again."""
+REACH = 16.0
+"""The own values reach over so many times the right one, to both sides, and down to that part of it: from an absurd
+value, and from nought above all, anything follows."""
+Together = Literal["product", "sum"]
+
+
+@dataclass(frozen=True, eq=False)
+class Effect:
+    """What an answer becomes where one earlier answer is the student's own, at equally spaced t.
+
+    An own value x is centre + width sinh(t): near the right one the values lie densely, and they reach far.
+    """
+
+    centre: float
+    width: float
+    values: tuple[float | None, ...]
+
+    def at(self, own: float) -> float:
+        """The answer that follows; NaN where none was drawn, and from a value too small to have been drawn."""
+        # What is nought but for the scatter may be small: there the width is more than a part of the centre.
+        if abs(own) * REACH < abs(self.centre) and self.width < abs(self.centre):
+            return math.nan
+        t = (math.asinh((own - self.centre) / self.width) / span(self.centre, self.width) + 1) * (NODES - 1) / 2
+        if not 0 <= t <= NODES - 1:
+            return math.nan
+        k = min(max(round(t), 1), NODES - 2)
+        left, middle, right = self.values[k - 1 : k + 2]
+        if left is None or middle is None or right is None:
+            return math.nan
+        # The parabola through the three nearest drawings.
+        u = t - k
+        return middle + u * (right - left) / 2 + u * u * (right - 2 * middle + left) / 2
+
+
+@dataclass(frozen=True, eq=False)
+class Dependence:
+    """All effects on one answer, by the name of the earlier answer, and how they go together."""
+
+    effects: Mapping[str, Effect]
+    together: Together
+
+    def expected(self, key: float, own: Mapping[str, float]) -> float:
+        """The answer that follows from a student's own values; NaN where it cannot be drawn."""
+        found = key
+        for name, effect in self.effects.items():
+            if name in own:
+                alone = effect.at(own[name])
+                found = found * alone / key if self.together == "product" else found + alone - key
+        return found
+
+    def to_json(self) -> str:
+        """As text."""
+        effects = {name: [each.centre, each.width, list(each.values)] for name, each in self.effects.items()}
+        return json.dumps({"together": self.together, "effects": effects}, allow_nan=False)
+
+    @staticmethod
+    def from_json(text: str) -> Dependence:
+        """What :meth:`to_json` wrote."""
+        said = json.loads(text)
+        effects = {name: Effect(c, w, tuple(values)) for name, (c, w, values) in said["effects"].items()}
+        return Dependence(effects, said["together"])
+
+
+def span(centre: float, width: float) -> float:
+    """The greatest t of the own values about a centre."""
+    return math.asinh(REACH * max(abs(centre), width) / width)

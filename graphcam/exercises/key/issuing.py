@@ -1,0 +1,36 @@
+"""Issuing variants: parameters are drawn until every catalogued mistake can be told."""
+
+from __future__ import annotations
+
+from graphcam.errors import DesignError
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.variant import Variant, drawn
+from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.keying import certify
+
+MOST_DRAWS = 400
+"""Draws after which an exercise is held to have no variant that can be diagnosed."""
+
+
+def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, Certificate]:
+    """The student's variant and its certificate: the first draw in which every mistake can be told from every other.
+
+    The same exercise, student and secret give the same variant on every machine.
+
+    Raises
+    ------
+    DesignError : no draw can be diagnosed
+    """
+    for draw in range(MOST_DRAWS):
+        candidate = drawn(exercise, student, secret, draw)
+        certificate = certify(candidate)
+        if certificate:
+            return candidate, certificate
+    raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws",
+                      "widen the parameters, ask for another reading, leave a misconception out, or choose an ordinate "
+                      "and poles for which the diagrams fit on the worksheet")  # fmt: skip
+
+
+def variant(exercise: Exercise, student: str, secret: bytes) -> Variant:
+    """The student's variant alone."""
+    return issue(exercise, student, secret)[0]

@@ -1,0 +1,69 @@
+"""Making a certificate: the variant drawn by a perfect hand, by many careful ones, and with every mistake."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from graphcam.errors import GraphcamError
+from graphcam.exercises.definition.blank_axes import finds_room
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.key.answer_key import Certificate, Key
+from graphcam.exercises.key.hypothesis import Hypothesis
+from graphcam.exercises.key.redrawing import dependences
+from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected
+from graphcam.exercises.key.separation import alike, hypotheses, passing, perfect_hands, promising
+
+HANDS = 2000
+"""Careful hands behind the tolerances."""
+MARGIN = 0.6
+"""The bound is set for this part of the permitted rate of losses: a rate from finitely many hands is uncertain."""
+TOO_EXACT = 5e-4
+"""A hand-in is remarked on as too exact where so few careful hands are as near to the key."""
+
+
+def certify(variant: Variant) -> Certificate | None:
+    """The certificate of a variant; None where its answers cannot tell every mistake from every other.
+
+    Nor has one a variant whose diagrams find no room on the worksheet.  What is quickly found out comes first: of
+    several draws most are turned away.
+
+    Raises
+    ------
+    DesignError : a careful hand comes to nothing with it
+    """
+    exercise = variant.exercise
+    try:
+        right = board_chain(variant.task)
+        if not finds_room(exercise, right):
+            return None
+        drawn = perfect_hands(exercise, right)
+    except GraphcamError:
+        return None
+    if not promising(exercise, drawn):
+        return None
+    wrong = hypotheses(exercise, drawn)
+    if alike(exercise, wrong):
+        return None
+    hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HANDS)))
+    far = distances(exercise, drawn.answers, hands)
+    keys = expected(exercise, drawn.answers, far, drawn.lengths, bulges_of(exercise, drawn.right))
+    off = deviations(exercise, keys, far)
+    bound = float(np.quantile(off.max(axis=1), 1 - MARGIN * exercise.careful))
+    if passing(exercise, keys, wrong, bound):
+        return None
+    by_hand = [float(np.std(samples)) > 0 for samples in hands]
+    near = np.sqrt(np.mean(off[:, by_hand] ** 2, axis=1)) if any(by_hand) else np.full(HANDS, np.nan)
+    return Certificate(
+        exercise.name, exercise.version, variant.student, variant.draw, variant.parameters, bound,
+        float(np.mean(off.max(axis=1) > bound)),
+        {
+            asked.name: Key(key, tolerance, tolerance / length, is_drawn)
+            for asked, key, length, is_drawn in zip(exercise.answers, keys, drawn.lengths, by_hand, strict=True)
+            for tolerance in [bound * float(np.max(key.scatter))]
+        },
+        {name: Hypothesis.of(values) for name, values in wrong.items()},
+        (),
+        dependences(exercise, drawn.right, keys, bound),
+        float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
+    )  # fmt: skip

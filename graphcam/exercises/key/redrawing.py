@@ -1,0 +1,96 @@
+"""The construction drawn again from a student's possible own answers: how later answers depend on earlier ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.pencil import Pencil
+from graphcam.exercises.definition.drawn_answers import ask, with_own
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.key.expectation import Expected, Floats
+from graphcam.exercises.key.follow_through import NODES, Dependence, Effect, Together, span
+
+NOTHING = 0.05
+"""Effects of less than this part of the tolerance are none."""
+TRIALS = 24
+"""Drawings from several own values at once, to see how effects go together."""
+SPREAD = 0.4
+"""By what part of themselves the own values of these are off at most."""
+
+
+def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: float) -> dict[str, Dependence]:
+    """How every numeric answer depends on the numeric ones before it; answers that depend on none are left out.
+
+    chain : the right drawing
+    """
+    numbers = [(asked, key) for asked, key in zip(exercise.answers, keys, strict=True) if asked.kind == "number"]
+    if len(numbers) < 2:
+        return {}
+    asked = [each for each, _ in numbers]
+    centres = np.array([float(np.real(key.value)) for _, key in numbers])
+    scatters = np.array([float(key.scatter) for _, key in numbers])
+    widths = np.maximum(np.abs(centres) / 4, 4 * scatters)
+    # One drawing for all: in its samples one own value each is off, then several at once.
+    alone, trials = _one_off(centres, widths), _several_off(centres)
+    own = np.concatenate([alone.reshape(-1, centres.size), trials.reshape(-1, centres.size)])
+    one, several = np.split(_drawn_again(chain, asked, own), [alone.size // centres.size])
+    one, several = one.reshape(alone.shape), several.reshape(trials.shape)
+    found: dict[str, Dependence] = {}
+    for k in range(1, centres.size):
+        effects = {
+            asked[i].name: Effect(float(centres[i]), float(widths[i]), _figures(one[i, :, k]))
+            for i in range(k)
+            if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NOTHING * bound * scatters[k]
+        }
+        if effects:
+            rows = [dict(zip([each.name for each in asked[:k]], row, strict=False)) for row in trials[k - 1].tolist()]
+            found[asked[k].name] = _put_together(effects, float(centres[k]), rows, several[k - 1, :, k])
+    return found
+
+
+def _one_off(centres: Floats, widths: Floats) -> Floats:
+    """Own values (n - 1, NODES, n): in each row one of the first n - 1 is off, from little to far."""
+    own = np.tile(centres, (centres.size - 1, NODES, 1))
+    for i in range(centres.size - 1):
+        t = np.linspace(-1, 1, NODES) * span(centres[i], widths[i])
+        own[i, :, i] = centres[i] + widths[i] * np.sinh(t)
+    return own
+
+
+def _several_off(centres: Floats) -> Floats:
+    """Own values (n - 1, TRIALS, n): those before the second answer are off at random, those before the third, ..."""
+    own = np.tile(centres, (centres.size - 1, TRIALS, 1))
+    for k in range(1, centres.size):
+        own[k - 1, :, :k] *= 1 + SPREAD * np.random.RandomState(0).uniform(-1, 1, (TRIALS, k))
+    return own
+
+
+def _drawn_again(chain: Chain, asked: Sequence[Asked], own: Floats) -> Floats:
+    """The answers (rows, n) of a perfect hand, each drawn from the own values (rows, n) of those before it."""
+    drawn = np.empty(own.shape)
+    chain = chain.by(Pencil(samples=len(own)))
+    with np.errstate(all="ignore"):
+        for k, each in enumerate(asked):
+            drawn[:, k] = ask(chain, each)
+            chain = with_own(chain, each, own[:, k])
+    return drawn
+
+
+def _figures(values: Floats) -> tuple[float | None, ...]:
+    """Seven figures, which are far finer than the parabola between the nodes, and quicker to read."""
+    return tuple(float(f"{value:.7g}") if math.isfinite(value) else None for value in values.tolist())
+
+
+def _put_together(effects: Mapping[str, Effect], key: float, own: list[dict[str, float]], drawn: Floats) -> Dependence:
+    """The effects, with the rule that comes nearer to what was drawn (rows,) from several own values at once."""
+
+    def missed(together: Together) -> float:
+        rule = Dependence(effects, together)
+        return float(np.nanmedian(np.abs(np.array([rule.expected(key, row) for row in own]) - drawn)))
+
+    by_factors = bool(key) and missed("product") <= missed("sum")
+    return Dependence(effects, "product" if by_factors else "sum")

@@ -1,0 +1,103 @@
+"""Many careful students draw: what they answer, and how it scatters."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.chain import Chain
+from graphcam.exercises.definition.drawn_answers import ask, per_mm
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.key.bulges import bulges
+from graphcam.exercises.key.curve_distance import distance_to_curve
+from graphcam.exercises.key.expectation import Expected, Floats
+
+Drawn = list[NDArray[Any]]
+"""One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
+
+UNIFORM = 1 / math.sqrt(12)
+"""Standard deviation of a rounding, in its steps."""
+CALCULATED = 1e-3
+"""Relative standard deviation of what is only calculated: three figures are carried."""
+NORMAL_95 = 1.959964
+"""95 % of normally distributed values lie within so many standard deviations."""
+
+
+def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
+    """What the hands that drew this answer: many hands round as asked, a perfect one without samples does not."""
+    samples = chain.pencil.samples
+    given: Drawn = []
+    for asked in exercise.answers:
+        answer = np.asarray(ask(chain, asked))
+        if samples is None:
+            given.append(answer)
+        elif asked.kind == "number":
+            given.append(np.round(np.broadcast_to(answer, (samples,)), asked.decimals))
+        else:
+            given.append(np.broadcast_to(answer, (samples, answer.shape[-1])))
+    return given
+
+
+def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float) -> float:
+    """What every number scatters by at least: by its rounding, by reading a scale, by calculating.
+
+    length : units of the answer in one mm of paper, NaN for what is not a length
+    """
+    read = 0.0 if math.isnan(length) else length * math.hypot(exercise.hand.line, exercise.hand.division * UNIFORM)
+    return max(UNIFORM * 10.0**-asked.decimals, CALCULATED * abs(value), read)
+
+
+def distances(exercise: Exercise, perfect: Drawn, hands: Drawn) -> Drawn:
+    """How far the answers of many hands lie from those of a perfect one: (samples,) each, of points (samples, m)."""
+    return [
+        distance_to_curve(value, samples) if asked.kind == "curve" else np.abs(samples - value)
+        for asked, value, samples in zip(exercise.answers, perfect, hands, strict=True)
+    ]
+
+
+def expected(
+    exercise: Exercise, perfect: Drawn, off: Drawn, lengths: list[float], bent: list[Floats] | None = None
+) -> list[Expected]:
+    """Values and scatters of all answers.
+
+    perfect : of a perfect hand; off : :func:`distances` of careful ones
+    lengths : units of each answer in one mm of paper; bent : bulges of each, where it matters
+    """
+    bent = bent or [np.empty(0)] * len(lengths)
+    found: list[Expected] = []
+    for asked, value, apart, length, bulge in zip(exercise.answers, perfect, off, lengths, bent, strict=True):
+        if asked.kind == "number":
+            least = least_scatter(exercise, asked, float(value), length)
+            found.append(Expected(float(value), max(least, float(np.sqrt(np.mean(apart**2))))))
+            continue
+        scatter = np.maximum(np.sqrt(np.mean(apart**2, axis=0) / 2), exercise.hand.line)
+        # The worst of many points strays farther than one number does; in this unit it strays as far.
+        worst = float(np.quantile((apart / scatter).max(axis=1), 0.95))
+        found.append(Expected(np.asarray(value), scatter * worst / NORMAL_95, bulge))
+    return found
+
+
+def lengths_of(exercise: Exercise, chain: Chain) -> list[float]:
+    """Units of each answer in one mm of paper, NaN for what is not a length; drawn by a perfect hand."""
+    return [per_mm(chain, asked) for asked in exercise.answers]
+
+
+def bulges_of(exercise: Exercise, chain: Chain) -> list[Floats]:
+    """The bulges of every answer that is a curve, of others none; drawn by a perfect hand."""
+    return [bulges(chain, asked) if asked.kind == "curve" else np.empty(0) for asked in exercise.answers]
+
+
+def deviations(exercise: Exercise, keys: list[Expected], off: Drawn) -> NDArray[np.float64]:
+    """How far each of many hand-ins is off, (samples, answers), in pencil units, from its :func:`distances`.
+
+    A hand that joins its plotted points is nowhere farther off than at one of them, so of curves these count alone.
+    """
+    relative = [each / key.scatter for each, key in zip(off, keys, strict=True)]
+    columns = [
+        each if asked.kind == "number" else each.max(axis=1)
+        for asked, each in zip(exercise.answers, relative, strict=True)
+    ]
+    return np.stack(columns, axis=1)

@@ -1,0 +1,1 @@
+"""Marking: what was handed in beside the answer key, what explains it, and what the student is told."""

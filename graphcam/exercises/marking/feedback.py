@@ -1,0 +1,61 @@
+"""What the student is told: where to look again, never what is right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from graphcam.drafting.ink import Caption, Words, say
+from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.marking.record import Diagnosis, Marked
+
+
+def feedback(
+    exercise: Exercise, marked: Sequence[Marked], answers: Answers, diagnosis: Diagnosis | None
+) -> tuple[str, ...]:
+    """Sentences for the student: about every answer, then about the mistake behind them."""
+    captions = [caption for each in marked for caption in _about(each, answers)]
+    if diagnosis:
+        captions += _mistake(diagnosis)
+    elif any(each.outcome == "wrong" for each in marked):
+        captions.append(say("No usual mistake explains these answers; go through the wrong steps once more."))
+    return tuple(map(exercise.tell, captions))
+
+
+def _about(answer: Marked, answers: Answers) -> list[Words]:
+    name = answer.name
+    if answer.outcome == "right":
+        return [say("{name}: right.", name=name)]
+    if answer.outcome == "missing":
+        return [say("{name}: no answer was given.", name=name)]
+    if answer.outcome == "unreadable":
+        if name not in answers.problems:
+            return [say("{name}: the answer cannot be read.", name=name)]
+        return [say("{name}: the answer cannot be read: {reason}.", name=name, reason=answers.problems[name])]
+    if answer.outcome == "follow-through":
+        return [say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)]
+    if answer.station is None and isinstance(answer.given, list):
+        return [
+            say(
+                "{name}: points read: {count}; another number is asked. Mark every place once, and nothing else.",
+                name=name, count=len(answer.given),
+            )
+        ]  # fmt: skip
+    if answer.station is None:
+        return [say("{name}: farther off than a careful hand draws or calculates.", name=name)]
+    return [
+        say(
+            "{name}: farther off than a careful hand draws, most of all at point {number}, the first station being "
+            "point one.",
+            name=name, number=answer.station + 1,
+        )
+    ]  # fmt: skip
+
+
+def _mistake(diagnosis: Diagnosis) -> list[Caption]:
+    said = [misconception(diagnosis.misconception).said]
+    if diagnosis.alike:
+        said.append(say("These answers do not tell this mistake from another one; that may be it as well:"))
+        said += [misconception(name).said for name in diagnosis.alike]
+    return said

@@ -1,0 +1,93 @@
+"""What marking finds: one record a hand-in, as plain data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from graphcam.exercises.definition.exercise import Value
+
+Outcome = Literal["right", "follow-through", "wrong", "missing", "unreadable"]
+
+
+@dataclass(frozen=True)
+class Marked:
+    """One answer.
+
+    given : the number as given, or a list of points [x, y] in mm of paper; None where there is none
+    marks, of : earned and possible
+    deviation : from the key, in pencil units; None where none can be said
+    station : of points and curves, the place of the largest deviation, counted from 0
+    off_paper : of points and curves, the largest deviation in mm of paper
+    """
+
+    name: str
+    outcome: Outcome
+    marks: float
+    of: float
+    given: Any = None
+    deviation: float | None = None
+    station: int | None = None
+    off_paper: float | None = None
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The catalogued mistake that explains the answers best.
+
+    confidence : its probability among the catalogued ones and "something else"
+    alike : other mistakes that these answers cannot tell from it
+    """
+
+    misconception: str
+    confidence: float
+    alike: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Record:
+    """One hand-in, marked.
+
+    version, draw, parameters : of the variant
+    total, of : marks earned and possible
+    too_exact : advisory, never a mark: the answers are nearer to the key than a hand can draw
+    feedback : sentences for the student, which never disclose the key
+    notes : for the teacher, such as what could not be read
+    level : how the answers were come by, "L0" where nothing was run
+    """
+
+    student: str
+    exercise: str
+    version: int
+    draw: int
+    parameters: Mapping[str, Value]
+    answers: tuple[Marked, ...]
+    total: float
+    of: float
+    diagnosis: Diagnosis | None
+    too_exact: bool
+    feedback: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+    level: str = "L0"
+
+    def to_dict(self) -> dict[str, Any]:
+        """As strict JSON takes it.
+
+        >>> marked = Marked("v", "right", 1.0, 1.0, given=2.0, deviation=math.inf)
+        >>> Record("s", "e", 1, 0, {}, (marked,), 1.0, 1.0, None, False, ()).to_dict()["answers"][0]["deviation"]
+        """
+        return _strict(self)
+
+
+def _strict(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, (Record, Marked, Diagnosis)):
+        value = vars(value)
+    if isinstance(value, dict):
+        return {key: _strict(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_strict(each) for each in value]
+    return value

@@ -1,0 +1,157 @@
+"""A student's folder: which of its files hold answers, and what they say together."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.definition.answers import Answers, Given
+from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.reading.answer_tables import csv_values, toml_values
+from graphcam.exercises.reading.drawn_layers import Drawn
+from graphcam.exercises.reading.dxf import read_dxf
+from graphcam.exercises.reading.notebook import notebook_values
+from graphcam.exercises.reading.paper_area import Room
+from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.values import number, points, shown
+
+TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
+LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
+"""Bytes of a file that are read."""
+Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
+"""Values by name out of a file's bytes, and sentences on it."""
+
+
+def data_of_notebook(name: str, data: bytes) -> tuple[Mapping[str, Any], list[Caption]]:
+    """The literals of a notebook's answer cell."""
+    return notebook_values(name, data), []
+
+
+def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[UnreadableError]]:
+    """The bytes of the answer files that are there, and why others cannot be read."""
+    try:
+        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+    except OSError:
+        return {}, [UnreadableError(say("the hand-in is not a folder"))]
+    found: dict[str, bytes] = {}
+    errors: list[UnreadableError] = []
+    try:
+        for name, limit in LIMITS.items():
+            try:
+                os.stat(name, dir_fd=descriptor, follow_symlinks=False)
+                found[name] = read_regular(name, limit, descriptor)
+            except OSError:
+                continue
+            except UnreadableError as error:
+                errors.append(error)
+    finally:
+        os.close(descriptor)
+    if not found and not errors:
+        errors.append(UnreadableError(say("there is none of {names}", names=", ".join(LIMITS))))
+    return found, errors
+
+
+def from_files(asked: Iterable[Asked], files: Mapping[str, bytes], notes: Iterable[Caption] = (),
+               notebook: Reader = data_of_notebook, rooms: Mapping[str, Room] | None = None) -> Answers:  # fmt: skip
+    """What the files answer.
+
+    asked : the answers that there should be
+    files : bytes by name, as :func:`read_files` finds them
+    notes : sentences on files that could not be read
+    notebook : how the notebook is read, or run
+    rooms : by the answer's name, where on the paper a drawn one can lie
+    """
+    asked, notes = list(asked), list(notes)
+    given: dict[str, list[Any]] = {}
+    readers: dict[str, Reader] = {TOML: _table(toml_values), CSV: _table(csv_values), NOTEBOOK: notebook}
+    for name in (name for name in readers if name in files):
+        try:
+            values, more = readers[name](name, files[name])
+        except UnreadableError as error:
+            notes.append(error.why)
+            continue
+        notes += more
+        for answer, value in values.items():
+            # "" and None are the gaps of a form that was not filled in.
+            if not (value is None or (isinstance(value, str) and not value)):
+                given.setdefault(answer, []).append(value)
+    drawing = None
+    if DXF in files:
+        try:
+            drawing = read_dxf(DXF, files[DXF])
+        except UnreadableError as error:
+            notes.append(error.why)
+    return _answers(asked, given, drawing, notes, rooms or {})
+
+
+def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
+    return lambda name, data: (values(name, data), [])
+
+
+def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn | None, notes: list[Caption],
+             rooms: Mapping[str, Room]) -> Answers:  # fmt: skip
+    values: dict[str, Given] = {}
+    problems: dict[str, Caption] = {}
+    unmarked = False
+    for one in asked:
+        try:
+            if one.name in given:
+                values[one.name] = _agreed(one, given[one.name])
+            elif drawing is not None and one.kind != "number":
+                values[one.name], more = _drawn(one, drawing, rooms.get(one.name))
+                notes = [*notes, *more]
+                unmarked = unmarked or not drawing.marks_origin(one.layer)
+        except UnreadableError as error:
+            problems[one.name] = error.why
+    if unmarked:
+        notes = [*notes, say("{name} marks no origin by a POINT on the layer ORIGIN; its own zero is taken", name=DXF)]
+    if not values and not problems:
+        notes = [*notes, say("none of the answers is given")]
+    return Answers(values, problems, (*notes, *_unknown(asked, given)))
+
+
+def _drawn(asked: Asked, drawing: Drawn, room: Room | None) -> tuple[Given, list[Caption]]:
+    """What is drawn, and sentences on it."""
+    points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
+    if room is None:
+        return points, []
+    marked = drawing.marks_origin(asked.layer)
+    room.admit(asked.layer, points, marked=marked)
+    if not (marked and room.moved(points)):
+        return points, []
+    # It is marked as it lies: the place is part of the answer.
+    return points, [say("the drawing on the layer {layer} looks moved as a whole against the POINT on the layer "
+                        "ORIGIN; check that it marks the origin of this drawing", layer=asked.layer)]  # fmt: skip
+
+
+def _agreed(asked: Asked, listed: list[Any]) -> Given:
+    for value in listed:
+        if isinstance(value, UnreadableError):
+            raise value
+    found = [_value(asked, value) for value in listed]
+    if any(np.shape(one) != np.shape(found[0]) or np.any(one != found[0]) for one in found[1:]):
+        raise UnreadableError(say("{answer} is answered differently in two files", answer=asked.name))
+    return found[0]
+
+
+def _value(asked: Asked, value: Any) -> Given:
+    if asked.kind == "number":
+        return number(asked.name, value)
+    return value if isinstance(value, np.ndarray) else points(asked.name, value)
+
+
+def _unknown(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption]:
+    """A sentence on the first name that was not asked: a slip of the keys loses an answer otherwise."""
+    names = [one.name for one in asked]
+    strange = [name for name in given if name not in names]
+    if not strange or len(given.keys() & set(names)) == len(names):
+        return []
+    first = shown(strange[0])
+    if close := get_close_matches(first, names, n=1):
+        return [say("{answer} is not asked; did you mean {meant}?", answer=first, meant=close[0])]
+    return [say("{answer} is not asked; asked are {names}", answer=first, names=", ".join(names))]

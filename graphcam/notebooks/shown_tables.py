@@ -1,0 +1,57 @@
+"""Tables of a notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from graphcam.drafting.units import unit
+from graphcam.report import markdown
+from graphcam.report.markdown import number
+from graphcam.solving.arcs_solution import AnySolution
+from graphcam.words import say
+
+if TYPE_CHECKING:
+    from IPython.display import Markdown
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 3) -> Markdown:
+    """A table: texts as they are, numbers with so many decimals.
+
+    >>> print(table(("law", "C"), [("2-3", 6.0)], digits=1).data)
+    | law |   C |
+    | :-- | --: |
+    | 2-3 | 6.0 |
+    """
+    from IPython.display import Markdown
+
+    return Markdown(markdown.table(header, [[_cell(cell, digits) for cell in row] for row in rows]))
+
+
+def _cell(cell: object, digits: int) -> str:
+    return str(cell) if isinstance(cell, str | int) else str(number(float(cell), digits))  # pyright: ignore[reportArgumentType]
+
+
+def compared(solution: AnySolution, *names: str) -> Markdown:
+    """Drawn against exact, by the names of ``solution.json``; without a name all quantities that there are.
+
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> print(compared(solve(builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
+    [' greatest v, mm/rad ', ' 57.296 ', ' 57.296 ']
+    """
+    from IPython.display import Markdown
+
+    quantities = solution.comparison.quantities
+    chosen = [quantities[name] for name in names] or [q for q in quantities.values() if q.drawn == q.drawn]
+    rows = [
+        (
+            say("{title}, {unit}", title=q.title, unit=unit(q.unit)),
+            *(number(value, 3) for value in (q.drawn, q.exact, q.error, q.error_paper, q.tolerance_paper)),
+        )
+        for q in chosen
+    ]
+    header = (
+        say("quantity"), say("drawn"), say("exact"), say("error"), say("on paper, mm"), say("bound, mm"),
+    )  # fmt: skip
+    return Markdown(markdown.table(header, rows, solution.tell))

@@ -1,0 +1,47 @@
+"""The documents that a solution gets, whichever kind of task it solves."""
+
+from __future__ import annotations
+
+from graphcam.report.arcs_report import arcs_contents, arcs_note
+from graphcam.report.contents import Contents, drawing
+from graphcam.report.note import note
+from graphcam.report.sheet_contents import contents
+from graphcam.sheets.model import Drawing
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+
+
+def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
+    """The sheets: finished, or drawn up to a step.
+
+    upto : number of the last step that is drawn, or name of the construction that it ends; None draws all
+    per_construction : every construction on sheets of its own
+
+    Raises
+    ------
+    DesignError : there is no such step or construction
+    """
+    return drawing(contents_of(solution), upto, per_construction=per_construction)
+
+
+def contents_of(solution: AnySolution) -> Contents:
+    """What stands on the sheets."""
+    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else contents(solution)
+
+
+def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawing:
+    """The blank sheet for students: frame, title block, what the task gives, scales and axes, and room to draw.
+
+    Everything stands where it stands on the finished sheet, so that one may be laid over the other.
+
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> blank, finished = worksheet(solve(builtin_task())), sheet_of(solve(builtin_task()))
+    >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
+    (True, True)
+    """
+    return sheet_of(solution, 0, per_construction=per_construction)
+
+
+def note_of(solution: AnySolution) -> str:
+    """The note in Markdown."""
+    return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)

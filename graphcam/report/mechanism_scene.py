@@ -1,0 +1,128 @@
+"""The mechanism over a turn, exactly: where the follower is, where it touches, and which way it is pushed.
+
+Points are complex, in mm, in the frame with the cam centre at the origin; the step player lets them move.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from graphcam.constructions.axes import phase_symbol, phase_title
+from graphcam.drafting.ink import Caption, Points, say
+from graphcam.errors import DesignError
+from graphcam.given.follower import FlatFaced, Oscillating
+from graphcam.given.laws import Floats
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.flat_faced import face_width
+from graphcam.mechanism.followers import kinematics
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+
+POSITIONS = 720
+"""In a turn, so that the cam angle goes in halves of a degree."""
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A phase of the turn: its name in full and in short, and the cam angles [rad] where it begins and ends."""
+
+    name: str | Caption
+    symbol: str | Caption
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A mechanism at n + 1 cam angles, the last position the first again.
+
+    kind : what follows: a stem with a roller or a knife edge, an arm, a flat face
+    sigma : the sense in which the cam turns;  roller : its radius, 0 for none;  pivot : of the arm
+    profile : (m,) the closed profile of the cam as it lies at phi = 0
+    face : how far the face reaches to the left (negative) and to the right
+    phi : (n + 1,) cam angles [rad]
+    trace, contact : (n + 1,) the trace point, or the middle of the face, and where the profile is touched
+    motion, normal : (n + 1,) unit directions of the trace point's motion on the rise, and of the normal off the cam
+    alpha : (n + 1,) from the motion to the normal, positive in the sense of the rotation [rad]
+    s, v : (n + 1,) displacement and velocity [mm, mm/rad; of an arm rad, rad/rad]
+    """
+
+    kind: Literal["stem", "arm", "face"]
+    sigma: int
+    roller: float
+    profile: Points
+    phases: tuple[Phase, ...]
+    phi: Floats
+    trace: Points
+    contact: Points
+    motion: Points
+    normal: Points
+    alpha: Floats
+    s: Floats
+    v: Floats
+    pivot: complex = 0j
+    face: tuple[float, float] = (0.0, 0.0)
+
+
+def scene(solution: AnySolution) -> Scene:
+    """The mechanism of a solution.
+
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> found = scene(solve(builtin_task()))
+    >>> found.kind, found.trace[0].round(4).item(), found.phi.size
+    ('stem', (-10+42.8486j), 721)
+    """
+    phi = np.linspace(0.0, 2 * math.pi, POSITIONS + 1)
+    return _of_arcs(solution, phi) if isinstance(solution, ArcsSolution) else _of_cam(solution.cam, phi)
+
+
+def _of_cam(cam: Cam, phi: Floats) -> Scene:
+    follower, values = cam.follower, cam.motion(phi)
+    exact = kinematics(follower, cam.prime_radius, cam.sigma, cam.motion.lift)
+    trace, normal = exact.point(values), exact.normal(values)
+    contact, motion = trace - cam.roller_radius * normal, np.full(phi.shape, 1j)
+    kind, pivot, face = "stem", 0j, (0.0, 0.0)
+    if isinstance(follower, FlatFaced):
+        kind, trace, width = "face", 1j * trace.imag, face_width(cam.motion, cam.rotation)
+        face = (-width.left, width.right)
+    elif isinstance(follower, Oscillating):
+        kind, pivot = "arm", complex(follower.distance or 0.0)
+        # From the left the arm swings clockwise on the rise.
+        motion = -1j * (trace - pivot) / follower.arm
+    starts = [*cam.motion.starts.tolist(), 2 * math.pi]
+    phases = tuple(
+        Phase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
+        for k, (start, end) in enumerate(pairwise(starts))
+    )
+    return Scene(kind, cam.sigma, cam.roller_radius, _outline(cam, contact, phi), phases, phi, trace, contact, motion,
+                 normal, cam.pressure_angle(phi), values[0], values[1], pivot, face)  # fmt: skip
+
+
+def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
+    """The profile that is cut; where none can be cut, the whole envelope with its loops."""
+    try:
+        points = cam.trimmed_profile(POSITIONS)
+    except DesignError:
+        return (contact * np.exp(-1j * cam.sigma * phi))[:-1]
+    return points[:, 0] + 1j * points[:, 1]
+
+
+def _of_arcs(solution: ArcsSolution, phi: Floats) -> Scene:
+    """Seen so that the follower stands upright."""
+    moved = solution.motion
+    s, v, _, _ = moved(phi)
+    alpha = moved.pressure_angle(phi)
+    normal = 1j * np.exp(1j * moved.sigma * alpha)
+    trace = 1j * (moved.prime_radius + s)
+    contact = trace - moved.roller_radius * normal
+    edges = [0.0, moved.rise, moved.rise + moved.dwell, 2 * moved.rise + moved.dwell, 2 * math.pi]
+    names = (say("rise"), say("dwell"), say("return"), say("rest"))
+    phases = [Phase(n, n, a, b) for n, a, b in zip(names, edges, edges[1:], strict=False) if b > a]
+    profile = (contact * np.exp(-1j * moved.sigma * phi))[:-1]
+    return Scene("stem", moved.sigma, moved.roller_radius, profile, tuple(phases), phi, trace, contact,
+                 np.full(phi.shape, 1j), normal, alpha, s, v)  # fmt: skip

@@ -1,0 +1,134 @@
+"""What the step player shows of a turning mechanism, as plain data: the page looks it up and turns the cam."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from graphcam.drafting.ink import Caption, Points, say
+from graphcam.given.laws import Floats
+from graphcam.report.mechanism_scene import Scene
+from graphcam.solving.json_values import plain_number
+
+DECIMALS = 3
+"""Of lengths [mm] and angles [degrees]: far more than a screen shows."""
+ABOUT = {
+    "stem": say("Cam and translating follower; the normal and the line of motion make the pressure angle."),
+    "arm": say("Cam and oscillating follower; the normal and the direction of motion make the pressure angle."),
+    "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
+}
+LIVE = ("pressure_angle", "displacement", "velocity")
+"""What is read off while the cam turns."""
+
+
+def mechanism_view(scene: Scene, tell: Callable[[str | Caption], str], decimal: str = ".") -> dict[str, Any]:
+    """The data of ``mechanism.js``: lengths in mm, angles in degrees.
+
+    tell : says a caption in the language of the page, whose decimals stand behind ``decimal``
+    """
+    greatest = float(np.abs(scene.trace).max())
+    unit, swings = greatest / 28, scene.kind == "arm"
+    ground, top = (_pivot(scene, unit), 0.0) if swings else _guide(scene, unit)
+    degree = math.degrees(1.0) if swings else 1.0
+    data: dict[str, Any] = {
+        "kind": scene.kind,
+        "about": tell(ABOUT[scene.kind]),
+        "sigma": scene.sigma,
+        "step": 360 / (scene.phi.size - 1),
+        "phases": [
+            {"name": tell(p.name), "symbol": tell(p.symbol), "start": round(math.degrees(p.start), DECIMALS),
+             "extent": round(math.degrees(p.end - p.start), DECIMALS)}
+            for p in scene.phases
+        ],
+        "profile": _points(scene.profile),
+        "pitch": None if scene.kind == "face" else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1]),
+        "mark": _point(0.92 * scene.profile[0]),
+        "pivot": _point(scene.pivot),
+        "ground": ground,
+        "sizes": {
+            "unit": _rounded(unit), "roller": _rounded(scene.roller), "reach": _rounded(0.55 * greatest),
+            "stem": _rounded(top + 1.5 * unit - float(scene.trace.imag.min())),
+            "face": [_rounded(scene.face[0] - 2 * unit), _rounded(scene.face[1] + 2 * unit)],
+        },
+        "arrays": {
+            "trace": _points(scene.trace), "contact": _points(scene.contact), "motion": _directions(scene.motion),
+            "normal": _directions(scene.normal), "pressure_angle": _numbers(np.degrees(scene.alpha)),
+            "displacement": _numbers(degree * scene.s), "velocity": _numbers(scene.v),
+        },
+        "live": list(LIVE),
+        "units": {"pressure_angle": "°", "displacement": "°" if swings else " " + tell(say("mm")),
+                  "velocity": " " + tell(say("rad/rad") if swings else say("mm/rad"))},
+        "digits": {"pressure_angle": 2, "displacement": 2, "velocity": 3 if swings else 2},
+        "decimal": decimal,
+    }  # fmt: skip
+    return data | {"box": _box(scene, data, unit)}
+
+
+def _guide(scene: Scene, unit: float) -> tuple[list[dict[str, Any]], float]:
+    """The guide of a stem above its highest place, and how high it reaches [mm]."""
+    x, low = float(scene.trace[0].real), float(scene.trace.imag.max()) + scene.roller + 1.5 * unit
+    high = low + 4 * unit
+    marks = [_mark("axis", np.array([x - 1j * 3 * unit, x + 1j * (high + 2 * unit)]))]
+    for side in (-1, 1):
+        wall = x + side * 1.1 * unit
+        marks.append(_mark("guide", np.array([wall + 1j * low, wall + 1j * high])))
+        ticks = wall + 1j * np.linspace(low, high - unit, 5)
+        marks += [_mark("hatch", np.array([tick, tick + (side + 1j) * 0.9 * unit])) for tick in ticks.tolist()]
+    return marks, high
+
+
+def _pivot(scene: Scene, unit: float) -> list[dict[str, Any]]:
+    """The bearing of an arm."""
+    at, foot = scene.pivot, np.array([-1.6 - 3.4j, 1.6 - 3.4j]) * unit
+    ticks = at + np.arange(-2.2, 2.3, 1.1) * unit - 3.4j * unit
+    return [
+        _mark("axis", np.array([0j, at])),
+        _mark("guide", np.array([at, *(at + foot)]), closed=True),
+        *(_mark("hatch", np.array([tick, tick - (0.9 + 0.9j) * unit])) for tick in ticks.tolist()),
+    ]
+
+
+def _box(scene: Scene, data: dict[str, Any], unit: float) -> list[float]:
+    """The box of all that ever shows, y downwards: left, top, width, height [mm]."""
+    # The cam sweeps a whole circle.
+    swept = float(np.abs(scene.profile).max())
+    corners = [complex(-swept, -swept), complex(swept, swept)]
+    corners += [complex(*point) for mark in data["ground"] for point in mark["points"]]
+    reach = data["sizes"]["reach"] + 4 * unit
+    corners += [*(scene.trace + reach * scene.normal), *(scene.trace + reach * scene.motion)]
+    corners += [scene.trace.min() - scene.roller, scene.trace.max() + scene.roller]
+    if scene.kind == "face":
+        corners += [complex(x, 0) for x in data["sizes"]["face"]]
+    if scene.kind != "arm":
+        corners.append(scene.trace[np.argmax(scene.trace.imag)] + 1j * data["sizes"]["stem"])
+    x, y = np.real(corners), np.imag(corners)
+    left, top = float(x.min()) - 2 * unit, -float(y.max()) - 2 * unit
+    return [_rounded(n) for n in (left, top, float(np.ptp(x)) + 4 * unit, float(np.ptp(y)) + 4 * unit)]
+
+
+def _mark(kind: str, points: Points, *, closed: bool = False) -> dict[str, Any]:
+    return {"kind": kind, "points": _points(points), "closed": closed}
+
+
+def _rounded(value: float) -> float:
+    return round(value, DECIMALS) + 0.0
+
+
+def _point(point: complex) -> list[float]:
+    return [_rounded(point.real), _rounded(point.imag)]
+
+
+def _points(points: Points) -> list[list[float]]:
+    return [_point(point) for point in points.tolist()]
+
+
+def _numbers(values: Floats) -> list[float | None]:
+    return [plain_number(_rounded(value)) for value in values.tolist()]
+
+
+def _directions(vectors: Points) -> list[float | None]:
+    """The directions of vectors in degrees."""
+    return _numbers(np.degrees(np.angle(vectors)))

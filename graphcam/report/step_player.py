@@ -1,0 +1,75 @@
+"""The step player of a solution: its sheet step by step with what is read off, and its mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from graphcam.constructions.readings import Row, rows
+from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.language import language
+from graphcam.report.arcs_report import TITLES as ARCS_TITLES
+from graphcam.report.documents import contents_of
+from graphcam.report.mechanism_scene import scene
+from graphcam.report.mechanism_view import mechanism_view
+from graphcam.report.note import TITLES
+from graphcam.sheets.model import Drawing
+from graphcam.sheets.player import WORDS, ReadingText, Slide, player
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.words import Tell
+
+CHAPTERS: Mapping[str, Caption] = {
+    **TITLES,
+    **ARCS_TITLES,
+    "scheme": say("Scheme of the mechanism"),
+    "contact": say("Contact force"),
+    "force_plan": say("Force plan"),
+}
+"""What the constructions are called."""
+
+
+def player_of(solution: AnySolution, drawing: Drawing) -> str:
+    """The page of HTML.
+
+    drawing : the solution's finished sheet, all of it
+    """
+    spoken = language(solution.task.drawing.language)
+    words = {name: spoken.text(word) for name, word in WORDS.items()}
+    turning = mechanism_view(scene(solution), spoken.text, spoken.decimal)
+    return player(drawing, slides(solution, spoken.text), turning, words, spoken.name)
+
+
+def slides(solution: AnySolution, tell: Tell = str) -> list[Slide]:
+    """What is said of each step of the sheet, in order."""
+    drawn = _constructions(solution)
+    return [_slide(name, step, drawn.get(name), tell) for name, step in contents_of(solution).steps]
+
+
+def _constructions(solution: AnySolution) -> dict[str, Construction]:
+    spring = None if isinstance(solution, ArcsSolution) else solution.spring
+    plan = spring.force_plan if spring else None
+    return {**solution.drawn, **({"force_plan": plan} if plan else {})}
+
+
+def _slide(name: str, step: Step, construction: Construction | None, tell: Tell) -> Slide:
+    read = rows(construction, step) if construction else []
+    return Slide(
+        tell(CHAPTERS[name]), step.view.name, tell(step.title), tell(step.caption),
+        tuple(_reading(row, tell) for row in read),
+    )  # fmt: skip
+
+
+def _reading(row: Row, tell: Tell) -> ReadingText:
+    taken, _, value = tell(row.said()).rpartition(" = ")
+    title = tell(row.title)
+    if not row.places:
+        return ReadingText(title, taken, value)
+    at = say("{title}, greatest of {count}", title=title, count=len(row.places))
+    return ReadingText(tell(at), taken, value, tuple(_line(row, k, tell) for k in range(len(row.places))))
+
+
+def _line(row: Row, place: int, tell: Tell) -> tuple[str, str, str]:
+    """One value of many: where, on paper, value."""
+    if row.paper[place] != row.paper[place]:
+        return row.places[place], "–", "–"
+    taken, _, value = tell(row.said(place)).rpartition(" = ")
+    return row.places[place], taken.partition(" × ")[0], value

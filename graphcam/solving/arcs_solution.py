@@ -1,0 +1,161 @@
+"""The main job for a cam of three circular arcs: task to solution."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphcam import __version__
+from graphcam.comparison.arc_quantities import ArcsComparison
+from graphcam.constructions.arc_chain import ArcBoard, ArcChain
+from graphcam.drafting.ink import Construction, Reading
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.errors import DesignError
+from graphcam.given.follower import Rotation
+from graphcam.mechanism.arc_motion import ArcMotion
+from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
+from graphcam.sheets.layout import profile_room
+from graphcam.solving.diagram_sizes import diagram_room
+from graphcam.solving.json_values import plain_number, plain_quantities, plain_stations
+from graphcam.solving.solution import FILES, Solution
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.words import Tell
+
+POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
+SHARE = 0.9
+"""Of the room for a profile, for each of the two views of the cam."""
+
+
+def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
+    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    Raises
+    ------
+    DesignError : the data give no sound cam, or the roller cannot run on it
+
+    >>> from graphcam.tasks.task_file import builtin_arcs_task
+    >>> solution = solve_arcs(builtin_arcs_task())
+    >>> solution.cam.F.round(3).tolist(), round(float(solution.drawn["three_arcs"].readings["F_x"].value), 3)
+    ([46.834, 25.855], 46.834)
+    """
+    given, drawing = task.arcs(), task.drawing
+    roots = three_arc_cam(given.D, given.G, given.rho1, given.A, given.C1, given.C2)
+    if not roots[0].sound:
+        raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
+    width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
+    diagrams = diagram_room(drawing)
+    board = ArcBoard(
+        given=given,
+        dwell=math.radians(task.arcs.dwell),
+        roller_radius=task.follower.roller_radius,
+        divisions=drawing.divisions,
+        mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
+        room=(SHARE * width, SHARE * height),
+        heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
+    )
+    motion = roots[0].motion(board.roller_radius, board.dwell)
+    return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
+
+
+@dataclass(frozen=True, eq=False)
+class ArcsSolution:
+    """A solved cam of three circular arcs.
+
+    Attributes
+    ----------
+    task : as given
+    chain : the drawn side, whose constructions are drawn when they are first asked for
+    roots : the exact side, the sound root first
+    motion : what the roller does on the sound one
+    """
+
+    task: ArcsTask
+    chain: ArcChain
+    roots: tuple[ThreeArcCam, ThreeArcCam]
+    motion: ArcMotion
+
+    @property
+    def cam(self) -> ThreeArcCam:
+        """The sound root."""
+        return self.roots[0]
+
+    @property
+    def drawn(self) -> Mapping[str, Construction]:
+        """The constructions by name, in order."""
+        return self.chain
+
+    @cached_property
+    def comparison(self) -> ArcsComparison:
+        """Drawn against exact."""
+        return ArcsComparison(self.chain, self.cam, self.motion)
+
+    @property
+    def warnings(self) -> list[str]:
+        """None: a cam of arcs that is not sound is refused."""
+        return []
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in the language of the task."""
+        return self.task.drawing.tell
+
+    @property
+    def rotation(self) -> Rotation:
+        """The sense in which the cam turns when the roller runs from A to D."""
+        return "ccw" if self.motion.sigma > 0 else "cw"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""
+        return {
+            "graphcam": __version__,
+            "task": self.task.to_dict(),
+            "cam": {
+                "prime_radius": self.motion.prime_radius,
+                "offset": 0.0,
+                "roller_radius": self.motion.roller_radius,
+                "rotation": self.rotation,
+                "roots": [_root(root) for root in self.roots],
+            },
+            "scales": self._scales(),
+            "quantities": plain_quantities(self.comparison.quantities),
+            "stations": self._stations(),
+            "files": dict.fromkeys(FILES),
+        }
+
+    def _scales(self) -> dict[str, Any]:
+        board, readings = self.chain.board, self.drawn["arc_diagrams"].readings
+        tops = {name: readings[reading] for name, reading in (("s", "lift"), ("v", "max_v"), ("a", "max_a"))}
+        return {
+            "phi": {"per_mm": math.degrees(board.mu_phi.per_mm), "unit": "deg"},
+            **{name: {"per_mm": _scale(top), "unit": top.unit} for name, top in tops.items()},
+        }
+
+    def _stations(self) -> list[dict[str, Any]]:
+        """The stations of the rise; their phase is the number of the arc."""
+        phi, (s, v, a, _), alpha, pitch = self.comparison.exact_stations
+        drawn = self.comparison.drawn_stations
+        pairs = {
+            "s": (drawn["s"], s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
+        }  # fmt: skip
+        read = np.stack([drawn["x"], drawn["y"]], axis=-1)
+        return plain_stations(phi, self.chain.stations.arc.tolist(), pairs, (read, pitch))
+
+
+AnySolution = Solution | ArcsSolution
+
+
+def _scale(read: Reading) -> float:
+    return float(np.ravel(read.scale)[0])
+
+
+def _root(root: ThreeArcCam) -> dict[str, Any]:
+    points = {name: [plain_number(x) for x in getattr(root, name)] for name in POINTS}
+    radii = {name: plain_number(getattr(root, name)) for name in ("rho1", "rho2", "rho3")}
+    return {**points, **radii, "sound": root.sound, "why": root.why}

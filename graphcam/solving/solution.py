@@ -1,0 +1,143 @@
+"""Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from graphcam import __version__
+from graphcam.comparison.quantities import Comparison
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.follower import FlatFaced, Oscillating
+from graphcam.mechanism.cam import Cam
+from graphcam.solving.json_values import plain_quantities, plain_stations
+from graphcam.solving.spring_design import SpringDesign
+from graphcam.solving.task_board import board_of
+from graphcam.solving.warnings import cautions, less_round
+from graphcam.tasks.task import Task
+from graphcam.words import Tell
+
+FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
+
+
+def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
+    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    Raises
+    ------
+    DesignError : there is no such cam, or its follower is not there yet
+
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> solution = solve_motion(builtin_task())
+    >>> solution.cam.prime_radius, solution.cam.follower
+    (44.0, Translating(offset=-10.0, roller_radius=17.0))
+    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
+    43.28
+    """
+    chain = Chain(board_of(task), pencil or Pencil())
+    follower = chain.board.follower.built(chain.place, chain.roller_radius)
+    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A solved task.
+
+    Attributes
+    ----------
+    task : as given
+    chain : the drawn side, whose constructions are drawn when they are first asked for
+    cam : the exact side, with the sizes that the drawing proposed and the design adopted
+    """
+
+    task: Task
+    chain: Chain
+    cam: Cam
+
+    @property
+    def drawn(self) -> Mapping[str, Construction]:
+        """The constructions by name, in order."""
+        return self.chain
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """Drawn against exact."""
+        return Comparison(self.chain, self.cam)
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
+        said = cautions(self.cam, self.chain.board, self.comparison.least[0])
+        return [self.tell(caution) for caution in (*said, *less_round(self.chain))]
+
+    @property
+    def tell(self) -> Tell:
+        """Says texts in the language of the task."""
+        return self.task.drawing.tell
+
+    @cached_property
+    def spring(self) -> SpringDesign | None:
+        """What the task's spring does, if it has one."""
+        spring, speed = self.task.spring, self.task.speed_rpm
+        if spring is None or speed is None:
+            return None
+        return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""
+        return {
+            "graphcam": __version__,
+            "task": self.task.to_dict(),
+            "cam": {
+                "prime_radius": self.cam.prime_radius,
+                **self._follower_sizes(),
+                "rotation": self.cam.rotation,
+            },
+            "scales": self._scales(),
+            "quantities": plain_quantities(self.comparison.quantities),
+            "stations": self._stations(),
+            **({"spring": self.spring.to_dict()} if self.spring else {}),
+            "files": dict.fromkeys(FILES),
+        }
+
+    def _follower_sizes(self) -> dict[str, float | None]:
+        if isinstance(self.cam.follower, FlatFaced):
+            return {"offset": None, "roller_radius": None}
+        follower = self.cam.follower
+        arm: dict[str, float | None] = {"arm": follower.arm} if isinstance(follower, Oscillating) else {}
+        place = {self.chain.board.follower.place_name: self.chain.place}
+        return {**arm, **place, "roller_radius": self.chain.roller_radius}
+
+    @property
+    def _lift(self) -> tuple[float, str]:
+        """How many units of a lift in files one of the API is, and their name: an arm's lift is in degrees there."""
+        return (math.degrees(1), "deg") if self.chain.board.follower.unit == "rad" else (1.0, "mm")
+
+    def _scales(self) -> dict[str, Any]:
+        readings, (factor, unit) = self.chain["integration"].readings, self._lift
+        scales = {name: float(np.ravel(readings[name].scale)[0]) for name in ("s", "v", "a")}
+        return {
+            "phi": {"per_mm": math.degrees(self.chain.board.mu_phi.per_mm), "unit": "deg"},
+            "s": {"per_mm": factor * scales["s"], "unit": unit},
+            "v": {"per_mm": scales["v"], "unit": readings["v"].unit},
+            "a": {"per_mm": scales["a"], "unit": readings["a"].unit},
+        }
+
+    def _stations(self) -> list[dict[str, Any]]:
+        stations, (factor, _) = self.chain.board.stations, self._lift
+        exact, drawn = self.comparison.exact_stations, self.comparison.drawn_stations
+        s, v, a, _ = exact.values
+        alpha = np.where(np.isnan(drawn["alpha"]), np.nan, exact.pressure_angle)  # a flat face has none
+        pairs = {
+            "s": (factor * drawn["s"], factor * s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
+        }  # fmt: skip
+        pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
+        return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)

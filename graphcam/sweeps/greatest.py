@@ -1,0 +1,160 @@
+"""The greatest value of a quantity over the rises, or the returns, of many cams.
+
+First the quantity is looked at in fixed places; then every place that is higher than its neighbours, and could belong
+to the greatest value, is refined by secants on the quantity's slope, within the bracket of its neighbours, halved
+where a secant leaves it.  Every operation is done to each cam by itself: what the others are, and how many there are,
+changes no bit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import count
+from typing import ClassVar, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import Floats
+from graphcam.mechanism.kinematics import Values
+from graphcam.sweeps.law_tables import LawTable, Legs, law_table
+
+BLOCK = 16_384
+"""Places that are looked at together: their arrays stay in the cache, and bound the memory."""
+CLOSE = 1e-8
+"""A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
+PATIENCE = 6
+"""After so many steps every other one halves the bracket."""
+
+Numbers = NDArray[np.intp]
+
+
+class Sought(Protocol):
+    """A quantity of many cams whose greatest value is sought, or with ``signed`` the one of greatest magnitude."""
+
+    signed: ClassVar[bool]
+    """Whether a negative value counts as much as a positive one."""
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The same of some of the cams."""
+        ...
+
+    def reading(self, values: Values) -> Floats:
+        """The quantity, from (s, v, a, j)."""
+        ...
+
+    def slope(self, values: Values) -> Floats:
+        """Of the sign of its derivative by phi."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class _Summits:
+    """Places higher than their neighbours: cam, place of the table, and a guess where between these the summit is."""
+
+    cam: Numbers
+    place: Numbers
+    guess: Floats
+
+
+def greatest(sought: Sought, legs: Legs) -> Floats:
+    """(n,) the greatest reading over each cam's rise or return; NaN for what is no cam."""
+    table, n = law_table(legs.law), legs.lift.size
+    step = max(1, BLOCK // table.w.size)
+    out = np.full(n, np.nan)
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        found = [_peaks(sought, legs, table, slice(k, min(k + step, n))) for k in range(0, n, step)]
+        summits = _summits(table, *(np.concatenate(parts, axis=-1) for parts in zip(*found, strict=True)))
+        readings = _refined(sought.part(summits.cam), legs.part(summits.cam), table, summits)
+        heights, top = _heights(sought, readings), np.full(n, -np.inf)
+        np.maximum.at(top, summits.cam, heights)
+        highest = np.flatnonzero(heights == top[summits.cam])[::-1]  # of equal ones the first is written last
+        out[summits.cam[highest]] = readings[highest]
+    return out
+
+
+def _heights(sought: Sought, readings: Floats) -> Floats:
+    return np.abs(readings) if sought.signed else readings
+
+
+def _peaks(sought: Sought, legs: Legs, table: LawTable, here: slice) -> tuple[Numbers, Numbers, Floats]:
+    """Where the places of the table are higher than their neighbours: cams, places, and heights.
+
+    heights : (5, p) of the place itself, of it and its neighbours (at an end of a piece the three nearest it), and of
+        the cam's highest place
+    """
+    values = legs.part(here).values(table.values[:3, :, None])
+    height = _heights(sought, sought.part(here).reading(values))
+    first, last = table.seams
+    rising = np.ones((height.shape[0] + 1, height.shape[1]), dtype=bool)
+    np.greater(height[1:], height[:-1], out=rising[1:-1])
+    rising[-1] = False
+    peak = rising[:-1] & ~rising[1:]
+    # Between pieces there are no neighbours.
+    peak[first], peak[last] = ~rising[first + 1], rising[last]
+    place, cam = np.divmod(np.flatnonzero(peak), height.shape[1])
+    middle = table.inner[place]
+    top = height.max(axis=0)
+    heights = [height[place, cam], height[middle - 1, cam], height[middle, cam], height[middle + 1, cam], top[cam]]
+    return cam + here.start, place, np.array(heights)
+
+
+def _summits(table: LawTable, cam: Numbers, place: Numbers, heights: Floats) -> _Summits:
+    """The peaks that may belong to the greatest value."""
+    own, left, centre, right, top = heights
+    # A summit stands out from the places about it by no more than these differ.
+    spread = np.maximum(np.maximum(left, centre), right) - np.minimum(np.minimum(left, centre), right)
+    may = own + spread >= top
+    place = place[may]
+    return _Summits(cam[may], place, _vertex(table.w, table.inner[place], left[may], centre[may], right[may]))
+
+
+def _vertex(w: Floats, middle: Numbers, left: Floats, centre: Floats, right: Floats) -> Floats:
+    """Where the parabola through three neighbours has its vertex."""
+    before, after = w[middle] - w[middle - 1], w[middle + 1] - w[middle]
+    fall, rise = (left - centre) / before, (right - centre) / after
+    return w[middle] + (rise * before - fall * after) / (2 * -(rise + fall))
+
+
+def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> Floats:
+    """The reading at each summit."""
+    place = summits.place
+    values = legs.values(table.values[:, place])
+    best, slope = sought.reading(values), _uphill(sought, legs, values)
+    w, low, high = table.w[place], table.w[place - 1], table.w[np.minimum(place + 1, table.w.size - 1)]
+    low, high = np.where(place == table.first[place], w, low), np.where(place == table.last[place], w, high)
+    close = CLOSE * (high - low)
+    low, high = np.where(slope > 0, w, low), np.where(slope > 0, high, w)
+    state = np.array([_within(summits.guess, low, high, close), low, high, w, slope, close])
+    active = np.arange(place.size)
+    for step in count():
+        w, low, high, before, slope_before, close = state
+        (going,) = np.nonzero((high - low > close) & (np.abs(w - before) > close) & (slope_before != 0))
+        if not going.size:
+            break
+        active, (w, low, high, before, slope_before, close) = active[going], state.take(going, axis=1)
+        some, part = sought.part(active), legs.part(active)
+        values = part.at(w)
+        reading, slope = some.reading(values), _uphill(some, part, values)
+        higher = _heights(sought, reading) > _heights(sought, best[active])
+        best[active] = np.where(higher, reading, best[active])
+        low, high = np.where(slope > 0, w, low), np.where(slope > 0, high, w)
+        secant = w - slope * (w - before) / (slope - slope_before)
+        halved = step > PATIENCE and step % 2
+        state = np.array([_within(np.nan if halved else secant, low, high, close), low, high, w, slope, close])
+    return best
+
+
+def _uphill(sought: Sought, legs: Legs, values: Values) -> Floats:
+    """Positive where the height grows with w."""
+    slope = legs.direction * sought.slope(values)
+    return slope * np.sign(sought.reading(values)) if sought.signed else slope
+
+
+def _within(w: Floats | float, low: Floats, high: Floats, close: Floats) -> Floats:
+    """The place if it lies between the two, else the one halfway.
+
+    At an end it is drawn off a little: what is found there closes the bracket.
+    """
+    near = close / 2
+    return np.where((w >= low) & (w <= high), np.clip(w, low + near, high - near), (low + high) / 2)

@@ -1,0 +1,214 @@
+"""A space of designs: each size one value, a list or a range, and every combination of them a cam.
+
+It mirrors a file (degrees, mm); a design is made of its number when it is needed, so that millions need no memory.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import DesignError, nearest
+from graphcam.given.laws import LAWS
+from graphcam.given.limits import Limits
+from graphcam.sweeps.designs import Designs, Kind
+from graphcam.sweeps.sweep import computed, usual_limit
+from graphcam.sweeps.sweep_quantities import QUANTITIES
+
+ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
+"""What a file gives and gets in degrees."""
+MOST = 10**12
+"""Designs; nobody waits for more."""
+_RANGE = ("start", "stop", "count")
+_ALLOWED = "a number, a list of numbers, or { start = 40, stop = 60, count = 21 }"
+
+Columns = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class SpaceMotionTable:
+    """``[motion]``: lift [mm], angles [degrees] and laws of rise, high dwell and return; the low dwell is the rest.
+
+    The lift of an arm is in degrees.
+    """
+
+    lift: Any
+    rise_angle: Any
+    return_angle: Any
+    dwell_angle: Any = 0.0
+    rise_law: Any = "3-4-5"
+    return_law: Any = "3-4-5"
+
+    def __post_init__(self) -> None:
+        for name in ("lift", "rise_angle", "return_angle", "dwell_angle"):
+            number_axis(name, getattr(self, name))
+        for name in ("rise_law", "return_law"):
+            word_axis(name, getattr(self, name), LAWS)
+
+
+@dataclass(frozen=True)
+class SpaceCamTable:
+    """``[cam]``: mm; each follower has its own of them."""
+
+    prime_radius: Any
+    offset: Any = 0.0
+    arm: Any = 0.0
+    distance: Any = 0.0
+    roller_radius: Any = 0.0
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            number_axis(each.name, getattr(self, each.name))
+
+
+@dataclass(frozen=True)
+class SpaceLimitsTable:
+    """``[limits]``: permitted pressure angles [degrees]; None is the usual one on the rise, none on the return."""
+
+    pressure_angle_rise: float | None = None
+    pressure_angle_return: float | None = None
+
+    def __post_init__(self) -> None:
+        self("translating")
+
+    def __call__(self, follower: str) -> Limits:
+        """The limits in radians."""
+        rise, back = (
+            None if given is None else math.radians(given)
+            for given in (self.pressure_angle_rise, self.pressure_angle_return)
+        )
+        return Limits(usual_limit(follower) if rise is None else rise, back)
+
+
+@dataclass(frozen=True)
+class Space:
+    """Every combination of the values given; the last axis runs fastest.
+
+    >>> space = Space(SpaceMotionTable(lift=30, rise_angle=[90, 120], return_angle=90),
+    ...               SpaceCamTable(prime_radius={"start": 40, "stop": 60, "count": 3}))
+    >>> len(space), space.varied
+    (6, ('rise_angle', 'prime_radius'))
+    >>> space.columns(1, 4)["prime_radius"].tolist()
+    [50.0, 60.0, 40.0]
+    """
+
+    motion: SpaceMotionTable
+    cam: SpaceCamTable
+    limits: SpaceLimitsTable = field(default_factory=SpaceLimitsTable)
+    follower: Kind = "translating"
+    rotation: Any = "ccw"
+    quantities: tuple[str, ...] = QUANTITIES
+
+    # As for a task: no text for numbers, nothing unknown, nothing infinite.
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
+
+    def __post_init__(self) -> None:
+        word_axis("rotation", self.rotation, ("ccw", "cw"))
+        for name in self.quantities:
+            if name not in QUANTITIES:
+                raise DesignError("quantities", name, "quantities of a sweep", nearest(name, QUANTITIES))
+        if not self.quantities:
+            raise DesignError("quantities", "an empty list", "at least one", "leave it out for all of them")
+        if len(self) > MOST:
+            raise DesignError("number of designs", len(self), f"at most {MOST}", "give fewer values")
+        self.designs(0, 1)
+
+    @cached_property
+    def axes(self) -> Columns:
+        """The values of every parameter, in the order of the fields."""
+        given = {each.name: getattr(part, each.name) for part in (self.motion, self.cam) for each in fields(part)}
+        given["rotation"] = self.rotation
+        return {
+            name: np.asarray(value if isinstance(value, list) else [value])
+            if name in ("rise_law", "return_law", "rotation")
+            else number_axis(name, value)
+            for name, value in given.items()
+        }
+
+    def __len__(self) -> int:
+        return math.prod(axis.size for axis in self.axes.values())
+
+    @property
+    def angles(self) -> tuple[str, ...]:
+        """What is in degrees: an arm's lift too."""
+        return (*ANGLES, "lift") if self.follower == "oscillating" else ANGLES
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """The parameters that have more than one value."""
+        return tuple(name for name, axis in self.axes.items() if axis.size > 1)
+
+    def columns(self, start: int, stop: int) -> Columns:
+        """The varied parameters of the designs from number ``start`` up to ``stop``, as in the file."""
+        shape = tuple(self.axes[name].size for name in self.varied)
+        places = np.unravel_index(np.arange(start, stop), shape) if shape else ()
+        return {name: self.axes[name][place] for name, place in zip(self.varied, places, strict=True)}
+
+    def designs(self, start: int, stop: int) -> Designs:
+        """The designs from number ``start`` up to ``stop``."""
+        values = {name: axis[0] for name, axis in self.axes.items()} | self.columns(start, stop)
+        values |= {name: np.radians(values[name]) for name in values if name in self.angles}
+        return Designs(**values, follower=self.follower)
+
+    def results(self, numbers: tuple[int, int]) -> Columns:
+        """Varied parameters and quantities of the designs between two numbers; a name of degrees ends in ``_deg``."""
+        found = computed(self.designs(*numbers), self.quantities, self.limits(self.follower))
+        found |= {name: np.degrees(column) for name, column in found.items() if name in ANGLES}
+        columns = self.columns(*numbers) | found
+        return {name + "_deg" if name in self.angles else name: column for name, column in columns.items()}
+
+
+def number_axis(name: str, value: Any) -> NDArray[np.float64]:
+    """The numbers that a value, a list or a range stands for.
+
+    >>> number_axis("offset", {"start": 0, "stop": 10, "count": 3}).tolist()
+    [0.0, 5.0, 10.0]
+
+    Raises
+    ------
+    DesignError : it is neither, is empty, or has unknown or missing keys
+    """
+    if isinstance(value, dict):
+        return _range(name, value)
+    values: list[Any] = value if isinstance(value, list) else [value]
+    if not values:
+        raise DesignError(name, "an empty list", _ALLOWED)
+    if not all(isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x) for x in values):
+        raise DesignError(name, value, _ALLOWED)
+    return np.array(values, dtype=np.float64)
+
+
+def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
+    for key in value:
+        if key not in _RANGE:
+            raise DesignError(f"{name}.{key}", "an unknown key", "one that is known", nearest(key, _RANGE))
+    for key in _RANGE:
+        if key not in value:
+            raise DesignError(f"{name}.{key}", "missing", "given", "a range has start, stop and count")
+    count = value["count"]
+    if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= MOST:
+        raise DesignError(f"{name}.count", count, "a whole number of 1 or more")
+    ends = number_axis(f"{name}.start", value["start"]), number_axis(f"{name}.stop", value["stop"])
+    if ends[0].size > 1 or ends[1].size > 1:
+        raise DesignError(name, value, _ALLOWED)
+    return np.linspace(ends[0][0], ends[1][0], count)
+
+
+def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
+    """Check one name or a list of names.
+
+    Raises
+    ------
+    DesignError : one is unknown, or there is none
+    """
+    values: list[Any] = value if isinstance(value, list) else [value]
+    if not values:
+        raise DesignError(name, "an empty list", "a name or a list of names")
+    for word in values:
+        if word not in known:
+            raise DesignError(name, word, "a name or a list of names in quotes", nearest(str(word), known))

@@ -1,0 +1,143 @@
+"""The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future
+from functools import partial
+from itertools import islice
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import DesignError, nearest
+from graphcam.given.limits import Limits
+from graphcam.mechanism.least_radius import USUAL_LIMIT
+from graphcam.sweeps.designs import Designs
+from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
+
+CHUNK_OF_DESIGNS = 4096
+"""Designs that are computed at a time: what they need stays in the processor's cache."""
+CHUNKS_PER_TASK = 8
+"""Chunks that an executor is given at a time: what one costs to hand out does not count then."""
+AHEAD = 32
+"""Tasks that wait for an executor at a time: they bound the memory."""
+
+WORKING_SET = 2**22
+"""Bytes that a chunk needs."""
+# The C library on Linux keeps free memory only up to twice the largest array that it was given back.  What it does not
+# keep it asks the system for again at once, which would cost more than all arithmetic.
+np.empty(WORKING_SET, dtype=np.uint8)
+
+Columns = dict[str, NDArray[Any]]
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+
+
+def sweep(
+    designs: Designs,
+    quantities: Sequence[str] = QUANTITIES,
+    executor: Executor | None = None,
+    *,
+    limits: Limits | None = None,
+    chunk: int = CHUNK_OF_DESIGNS,
+) -> Columns:
+    """Extremes and feasibility of many cams.
+
+    Parameters
+    ----------
+    designs : n cams
+    quantities : what is wanted, of these; nothing else is computed
+
+        - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of greatest magnitude
+        - min_pitch_curvature_radius [mm], the least of the convex parts, inf without any; of a flat face the least rho
+        - max_v [mm/rad] and max_a [mm/rad^2], magnitudes; of an arm [rad/rad] and [rad/rad^2]
+        - feasible: within the limits, and the roller smaller than the least radius of curvature
+
+    executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
+    limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
+        and force closure
+    chunk : designs computed at a time
+
+    Returns
+    -------
+    dict : by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large as the
+        prime radius, an arm that does not reach, phases longer than the turn.  The bits depend neither on ``chunk`` nor
+        on the executor
+
+    Raises
+    ------
+    DesignError : an unknown quantity, or a chunk of none
+
+    >>> import numpy as np
+    >>> designs = Designs(lift=30, rise_angle=np.radians(120), return_angle=np.radians(90), prime_radius=[9, 50, 60],
+    ...                   offset=10, roller_radius=12)
+    >>> found = sweep(designs, ["max_pressure_angle_rise", "feasible"])
+    >>> np.degrees(found["max_pressure_angle_rise"]).round(3).tolist(), found["feasible"].tolist()
+    ([nan, 14.978, 12.949], [False, True, True])
+    """
+    wanted = tuple(quantities)
+    for name in wanted:
+        if name not in QUANTITIES:
+            raise DesignError("quantity", name, "one that a sweep can find", nearest(name, QUANTITIES))
+    if chunk < 1:
+        raise DesignError("chunk", chunk, "at least 1 design")
+    compute = partial(computed, quantities=wanted, limits=limits or Limits(usual_limit(designs.follower)), chunk=chunk)
+    if executor is None:
+        return compute(designs)
+    size = CHUNKS_PER_TASK * chunk
+    tasks = (designs.part(slice(k, k + size)) for k in range(0, len(designs), size))
+    out = _empty(wanted, len(designs))
+    done = 0
+    for columns in in_order(executor, compute, tasks):
+        stop = done + next(iter(columns.values())).size if columns else done
+        for name, column in columns.items():
+            out[name][done:stop] = column
+        done = stop
+    return out
+
+
+def usual_limit(follower: str) -> float:
+    """The permitted pressure angle on the rise [rad] where none is given.
+
+    >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
+    45.0
+    """
+    return USUAL_LIMIT.get(follower, USUAL_LIMIT["translating"])
+
+
+def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:
+    """The quantities of designs, chunk by chunk, without an executor."""
+    n = len(designs)
+    out = _empty(quantities, n)
+    for k in range(0, n, chunk):
+        here = slice(k, min(k + chunk, n))
+        some = Chunk(designs.part(here), limits)
+        for name in quantities:
+            out[name][here] = getattr(some, name)
+    return out
+
+
+def in_order(executor: Executor, function: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
+    """The function's results in the order of the items, which are taken only as they are needed.
+
+    Unlike ``executor.map``, which takes all of them at once.
+    """
+    waiting: deque[Future[_Result]] = deque()
+    remaining = iter(items)
+    try:
+        for item in islice(remaining, AHEAD):
+            waiting.append(executor.submit(function, item))
+        while waiting:
+            yield waiting.popleft().result()
+            for item in islice(remaining, 1):
+                waiting.append(executor.submit(function, item))
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _empty(quantities: tuple[str, ...], n: int) -> Columns:
+    return {name: np.empty(n, dtype=bool if name == "feasible" else np.float64) for name in quantities}

@@ -1,0 +1,96 @@
+"""A sweep into a file: block by block, so that its length does not matter to the memory."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Generator, Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from graphcam.files import OutputError, whole_file
+from graphcam.sweeps.space import Space
+from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_TASK, Columns, in_order
+
+Write = Callable[[Columns], None]
+
+
+def sweep_to_file(
+    space: Space, path: Path | str, executor: Executor | None = None, progress: Callable[[int], None] | None = None
+) -> None:
+    """Compute every design of a space and write it, a row each, into a CSV or Parquet file: whole, or not at all.
+
+    Where a value does not exist the cell is empty.
+
+    path : ends in .csv or .parquet
+    progress : is told how many designs are done
+
+    Raises
+    ------
+    OutputError : the file cannot be written, has another ending, or is Parquet without pyarrow
+    """
+    path = Path(path)
+    if path.suffix not in _WRITERS:
+        raise OutputError(path, "the ending is neither .csv nor .parquet", "give it one of these")
+    with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
+        done = 0
+        for columns in _blocks(space, executor):
+            write(columns)
+            done += next(iter(columns.values())).size
+            if progress:
+                progress(done)
+
+
+def _blocks(space: Space, executor: Executor | None) -> Iterator[Columns]:
+    size, n = CHUNKS_PER_TASK * CHUNK_OF_DESIGNS, len(space)
+    numbers = ((k, min(k + size, n)) for k in range(0, n, size))
+    return map(space.results, numbers) if executor is None else in_order(executor, space.results, numbers)
+
+
+@contextmanager
+def _csv(path: Path, draft: Path) -> Generator[Write]:
+    with draft.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+
+        def write(columns: Columns) -> None:
+            if file.tell() == 0:
+                writer.writerow(columns)
+            writer.writerows(zip(*(map(_cell, column.tolist()) for column in columns.values()), strict=True))
+
+        yield write
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "" if isinstance(value, float) and math.isnan(value) else value
+
+
+@contextmanager
+def _parquet(path: Path, draft: Path) -> Generator[Write]:
+    try:
+        import pyarrow as arrow
+        from pyarrow import parquet
+    except ImportError:
+        raise OutputError(
+            path, "there is no pyarrow", "pip install 'graphcam[parquet]', or write a .csv file"
+        ) from None
+    writer: Any = None
+    try:
+
+        def write(columns: Columns) -> None:
+            nonlocal writer
+            # NaN becomes an empty cell, as in a CSV file.
+            table = arrow.table({name: arrow.array(column, from_pandas=True) for name, column in columns.items()})
+            writer = writer or parquet.ParquetWriter(draft, table.schema)
+            writer.write_table(table)
+
+        yield write
+    finally:
+        if writer:
+            writer.close()
+
+
+_WRITERS = {".csv": _csv, ".parquet": _parquet}

@@ -1,0 +1,135 @@
+"""What a sweep can ask of its cams; every quantity is computed once at most, and only if it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.given.laws import LAWS, Floats, law
+from graphcam.given.limits import Limits
+from graphcam.mechanism.flat_faced import FlatFacedKinematics
+from graphcam.mechanism.oscillating import ManyOscillating
+from graphcam.mechanism.translating import ManyTranslating
+from graphcam.sweeps.designs import Designs
+from graphcam.sweeps.greatest import Numbers, Sought, greatest
+from graphcam.sweeps.law_tables import Legs
+from graphcam.sweeps.sought import FlatSharpness, Many, Sharpness, Steepness
+
+QUANTITIES = (
+    "max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius", "max_v", "max_a", "feasible",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """Some designs and their quantities by the names of :data:`QUANTITIES`; each is (n,), NaN where there is no cam."""
+
+    designs: Designs
+    limits: Limits
+
+    @cached_property
+    def max_pressure_angle_rise(self) -> Floats:
+        """The pressure angle of greatest magnitude on the rise [rad], signed."""
+        return self._pressure_angle(self._rises)
+
+    @cached_property
+    def max_pressure_angle_return(self) -> Floats:
+        """The pressure angle of greatest magnitude on the return [rad], signed."""
+        return self._pressure_angle(self._returns)
+
+    @cached_property
+    def min_pitch_curvature_radius(self) -> Floats:
+        """The least radius of curvature of the convex parts of the pitch curve [mm]; signed under a flat face."""
+        sharpest = self._over_legs(self._sharpness, self._rises)
+        sharpest = np.maximum(sharpest, self._over_legs(self._sharpness, self._returns))
+        for level, angle in ((self._lift, self._angle("dwell_angle")), (0 * self._lift, self.designs.low_dwell)):
+            still = np.zeros_like(level)
+            resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
+            sharpest = np.maximum(sharpest, resting)
+        return self._sharpness.radius(sharpest)
+
+    @cached_property
+    def max_v(self) -> Floats:
+        """The greatest |v| [mm/rad], of an arm [rad/rad]: C_v h/F."""
+        return self._peak(lambda name: law(name).peak_velocity, 1)
+
+    @cached_property
+    def max_a(self) -> Floats:
+        """The greatest |a|, of both sides of a jump [mm/rad^2], of an arm [rad/rad^2]: C_a h/F^2."""
+        return self._peak(lambda name: law(name).peak_acceleration, 2)
+
+    @cached_property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Whether there is such a cam, its pressure angles are permitted and its profile is not undercut."""
+        limits, roller = self.limits, self.designs.column("roller_radius")
+        sound = (roller >= 0) & (roller < self._prime_radius) & (roller < self.min_pitch_curvature_radius)
+        sound &= np.abs(self.max_pressure_angle_rise) <= limits.rise
+        return sound if limits.return_ is None else sound & (np.abs(self.max_pressure_angle_return) <= limits.return_)
+
+    def _angle(self, name: str) -> Floats:
+        return self.designs.column(name)
+
+    @cached_property
+    def _lift(self) -> Floats:
+        return np.where(self.designs.possible, self.designs.column("lift"), np.nan)
+
+    @cached_property
+    def _prime_radius(self) -> Floats:
+        r0 = self.designs.column("prime_radius")
+        return np.where((np.abs(self.designs.column("offset")) < r0) & (r0 < np.inf), r0, np.nan)
+
+    @cached_property
+    def _sharpness(self) -> Sharpness | FlatSharpness:
+        if self.designs.follower == "flat-faced":
+            return FlatSharpness(FlatFacedKinematics(+1, self._prime_radius))  # the sense does not matter to it
+        return Sharpness(self._many)
+
+    @cached_property
+    def _many(self) -> Many:
+        sigma, column = self.designs.sigma, self.designs.column
+        if self.designs.follower == "oscillating":
+            return ManyOscillating(sigma, column("arm"), column("distance"), self._prime_radius, self._lift)
+        return ManyTranslating(sigma, column("offset"), self._prime_radius)
+
+    @property
+    def _rises(self) -> tuple[str, int, Floats]:
+        return "rise_law", +1, self._angle("rise_angle")
+
+    @property
+    def _returns(self) -> tuple[str, int, Floats]:
+        return "return_law", -1, self._angle("return_angle")
+
+    def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
+        if self.designs.follower == "flat-faced":
+            return 0 * self._lift * self._prime_radius  # the face is perpendicular to the motion
+        return np.arctan(self._over_legs(Steepness(self._many), legs))
+
+    def _over_legs(self, sought: Sought, legs: tuple[str, int, Floats]) -> Floats:
+        key, direction, angle = legs
+        out = np.full(len(self.designs), np.nan)
+        for name, which in self._by_law(key):
+            out[which] = greatest(sought.part(which), Legs(name, direction, self._lift[which], angle[which]))
+        return out
+
+    def _by_law(self, key: str) -> Iterator[tuple[str, Numbers | slice]]:
+        """The laws that occur, and whose they are."""
+        laws: NDArray[Any] = getattr(self.designs, key)
+        if laws.ndim == 0:
+            yield str(laws), slice(None)
+            return
+        for name in LAWS:
+            (which,) = np.nonzero(laws == name)
+            if which.size:
+                yield name, which
+
+    def _peak(self, coefficient: Callable[[str], float], power: int) -> Floats:
+        peaks = np.empty((2, len(self.designs)))
+        for row, (key, _, angle) in zip(peaks, (self._rises, self._returns), strict=True):
+            for name, which in self._by_law(key):
+                row[which] = coefficient(name) * self._lift[which] / angle[which] ** power
+        return peaks.max(axis=0)

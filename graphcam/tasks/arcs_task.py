@@ -1,0 +1,105 @@
+"""The assignment of a cam of three circular arcs: a task file with a table ``[arcs]`` in place of a motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+from graphcam.errors import DesignError
+from graphcam.given.follower import Translating
+from graphcam.given.three_arcs import ThreeArcs
+from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain, positive
+
+MOST_PARTS = 200
+"""Parts of an arc; more cannot be drawn apart."""
+
+XY = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ArcsTable:
+    """``[arcs]``: the data of :class:`~graphcam.given.three_arcs.ThreeArcs`, points as [x, y] in mm.
+
+    dwell : degrees for which the outer circle holds the follower up; the return is the rise's mirror image
+    """
+
+    D: XY
+    G: XY
+    rho1: float
+    A: XY | None = None
+    C1: XY | None = None
+    C2: XY | None = None
+    dwell: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
+            raise DesignError("dwell", self.dwell, "at least 0 and less than 360 degrees")
+        self()
+
+    def __call__(self) -> ThreeArcs:
+        """The data."""
+        return ThreeArcs(self.D, self.G, self.rho1, self.A, self.C1, self.C2)
+
+
+@dataclass(frozen=True)
+class RollerTable:
+    """``[follower]``: a central translating follower; roller_radius : mm, 0 for a knife edge."""
+
+    roller_radius: float = 0.0
+    kind: Literal["translating"] = "translating"
+
+    def __post_init__(self) -> None:
+        self()
+
+    def __call__(self) -> Translating:
+        """The follower."""
+        return Translating(0.0, self.roller_radius)
+
+
+@dataclass(frozen=True)
+class ArcsDrawingTable(SheetTable):
+    """``[drawing]``: the sheet, and ``divisions``, the equal parts of each arc at whose ends the roller is drawn."""
+
+    divisions: int = 4
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 2 <= self.divisions <= MOST_PARTS:
+            raise DesignError("divisions", self.divisions, f"from 2 to {MOST_PARTS} parts of each arc")
+
+
+@dataclass(frozen=True)
+class ArcsTask:
+    """A cam of three circular arcs, as its file says it.
+
+    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
+
+    Raises
+    ------
+    DesignError : a value that cannot be, alone or together with another
+
+    >>> ArcsTask(ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))).arcs().design_case
+    4
+    """
+
+    arcs: ArcsTable
+    follower: RollerTable = field(default_factory=RollerTable)
+    speed_rpm: float | None = None
+    title: TitleTable = field(default_factory=TitleTable)
+    drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
+
+    # As for every task: no text for numbers, nothing unknown, nothing infinite.
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
+
+    def __post_init__(self) -> None:
+        positive("speed_rpm", self.speed_rpm, "rpm")
+
+    def to_dict(self) -> dict[str, Any]:
+        """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
+
+        >>> table = ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
+        >>> ArcsTask(table).to_dict()["arcs"]["A"]
+        [0, 40]
+        """
+        return plain(self)

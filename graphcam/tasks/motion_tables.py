@@ -1,0 +1,122 @@
+"""The table ``[motion]`` of a task file: phases in degrees and mm, or a measured motion."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Annotated, Any, ClassVar, Literal
+
+from graphcam.errors import DesignError
+from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+from graphcam.given.table_file import CurveTable
+from graphcam.tasks.sheet_tables import positive
+
+ANGLE_CLOSURE = 1e-9
+"""How far the phase angles of a file may miss 360 degrees."""
+
+
+class ByKind:
+    """Tells pydantic, once a file is read and it is loaded, to choose among classes by the key ``kind``."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic import Discriminator
+
+        return Discriminator("kind").__get_pydantic_core_schema__(source, handler)
+
+
+@dataclass(frozen=True)
+class DwellTable:
+    """A phase of rest over ``angle`` degrees."""
+
+    angle: float
+    kind: Literal["dwell"] = "dwell"
+
+    def __post_init__(self) -> None:
+        positive("angle", self.angle, "degrees")
+
+    def __call__(self, unit: float = 1.0) -> Dwell:
+        """The phase in radians; ``unit`` is there because every phase is called alike."""
+        return Dwell(math.radians(self.angle))
+
+
+@dataclass(frozen=True)
+class _MovingTable:
+    angle: float
+    lift: float
+    law: str
+    ratio: float = 1.0
+
+    moves: ClassVar[type[Rise] | type[Return]]
+
+    def __post_init__(self) -> None:
+        positive("angle", self.angle, "degrees")
+        positive("lift", self.lift, "(mm; degrees for an arm)")
+        self()
+
+    def __call__(self, unit: float = 1.0) -> Rise | Return:
+        """The phase in radians, its lift times ``unit`` (radians per degree for an arm, else 1)."""
+        return self.moves(self.lift * unit, math.radians(self.angle), self.law, self.ratio)
+
+
+@dataclass(frozen=True)
+class RiseTable(_MovingTable):
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
+
+    kind: Literal["rise"] = "rise"
+    moves = Rise
+
+
+@dataclass(frozen=True)
+class ReturnTable(_MovingTable):
+    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
+
+    kind: Literal["return"] = "return"
+    moves = Return
+
+
+PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
+
+
+@dataclass(frozen=True)
+class MotionTable:
+    """``[motion]``: the phases of one revolution, in order, or the table of a measured motion.
+
+    phases : their angles sum to 360 degrees, their lifts to 0
+    table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
+    tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
+
+    ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; the
+    task sets it.
+    """
+
+    phases: tuple[PhaseTable, ...] | None = None
+    table: CurveTable | None = None
+    tolerance: float | None = None
+    lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if self.phases is None and self.table is None:
+            raise DesignError("phases", "missing", "given")
+        if self.phases is not None and self.table is not None:
+            raise DesignError("table", self.table.file, "left out where there are phases", "give one of the two")
+        if self.tolerance is not None and self.table is None:
+            raise DesignError(
+                "tolerance", self.tolerance, "left out where there is no table", "phases are kept exactly"
+            )
+        if self.phases is not None:
+            self._check_angles(self.phases)
+        self()
+
+    def _check_angles(self, phases: tuple[PhaseTable, ...]) -> None:
+        turn = math.fsum(phase.angle for phase in phases)
+        if abs(turn - 360) > ANGLE_CLOSURE:
+            off = f"{abs(360 - turn):.10g} deg"
+            remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
+            raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)
+
+    def __call__(self) -> Motion:
+        """The motion, in radians and mm (an arm's lift in radians too)."""
+        if self.table is not None:
+            return self.table(self.tolerance, self.lift_unit)
+        phases: list[Phase] = [phase(self.lift_unit) for phase in self.phases or ()]
+        return Motion(phases)

@@ -1,0 +1,301 @@
+"""The assignment: what a task file says, as frozen dataclasses with the same keys and units (degrees, mm, rpm).
+
+A table that stands for something of :mod:`graphcam.given` converts when it is called: ``task.motion.phases`` mirrors
+the file, ``task.motion()`` is the :class:`~graphcam.given.motion.Motion` in radians.  So every value is checked where
+it is given a meaning, once, whether it comes from a file or from Python.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from graphcam.errors import DesignError
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.limits import Limits
+from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.given.spring_load import SpringLoad
+from graphcam.tasks.motion_tables import ByKind, MotionTable
+from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain, positive
+
+MOST_DIVISIONS = 1000
+"""Parts of a phase; more cannot be drawn apart."""
+USUAL_PRESSURE_ANGLE = {"translating": 30.0, "oscillating": 45.0}
+"""The limit on the rise [degrees] where the task gives none, by the follower's kind."""
+
+
+@dataclass(frozen=True)
+class TranslatingTable:
+    """``[follower]`` of kind "translating".
+
+    offset : mm, to the right of the cam centre; None is open: the least radius decides
+    roller_radius : mm, 0 for a knife edge; None is open: the rule decides
+    roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
+    """
+
+    offset: float | None = None
+    roller_radius: float | None = None
+    roller_rule: str = DEFAULT_RULE
+    kind: Literal["translating"] = "translating"
+
+    def __post_init__(self) -> None:
+        self()
+        roller_rule(self.roller_rule)
+
+    def __call__(self) -> Translating:
+        """The follower; what is open is 0 in it: a central follower, a knife edge."""
+        return Translating(self.offset or 0.0, self.roller_radius or 0.0)
+
+
+@dataclass(frozen=True)
+class OscillatingTable:
+    """``[follower]`` of kind "oscillating".
+
+    arm : mm, its length
+    distance : mm, of the centres; None is open: the least radius decides
+    roller_radius, roller_rule : as for a translating follower
+    lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
+    """
+
+    arm: float
+    distance: float | None = None
+    roller_radius: float | None = None
+    roller_rule: str = DEFAULT_RULE
+    lift: Literal["angle", "arc"] = "angle"
+    kind: Literal["oscillating"] = "oscillating"
+
+    def __post_init__(self) -> None:
+        self()
+        roller_rule(self.roller_rule)
+        one_of("lift", self.lift, ("angle", "arc"))
+
+    @property
+    def lift_unit(self) -> float:
+        """One unit of the phases' lift [rad]."""
+        return math.radians(1) if self.lift == "angle" else 1 / self.arm
+
+    def __call__(self) -> Oscillating:
+        """The follower; an open roller radius is 0 in it: a knife edge."""
+        return Oscillating(self.arm, self.distance, self.roller_radius or 0.0)
+
+
+@dataclass(frozen=True)
+class FlatFacedTable:
+    """``[follower]`` of kind "flat-faced", which has no sizes."""
+
+    kind: Literal["flat-faced"] = "flat-faced"
+
+    def __call__(self) -> FlatFaced:
+        """The follower."""
+        return FlatFaced()
+
+
+FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable, ByKind()]
+
+
+@dataclass(frozen=True)
+class CamTable:
+    """``[cam]``: the prime radius in mm; None is open: the least one is found, and rounded up."""
+
+    prime_radius: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("prime radius", self.prime_radius, "mm")
+
+
+@dataclass(frozen=True)
+class LimitsTable:
+    """``[limits]``: what the cam must keep to.
+
+    pressure_angle_rise : degrees; None takes the usual one of the follower's kind
+    pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
+    min_curvature_radius : mm, of a flat-faced follower's profile
+    rest : whether the angle at the low rest must keep the rise's limit too
+    """
+
+    pressure_angle_rise: float | None = None
+    pressure_angle_return: float | None = None
+    min_curvature_radius: float | None = None
+    rest: bool = True
+
+    def __post_init__(self) -> None:
+        positive("least radius of curvature", self.min_curvature_radius, "mm")
+        self()
+
+    def __call__(self) -> Limits:
+        """The permitted pressure angles in radians."""
+        rise, back = self.pressure_angle_rise, self.pressure_angle_return
+        return Limits(
+            rise=math.radians(USUAL_PRESSURE_ANGLE["translating"] if rise is None else rise),
+            return_=None if back is None else math.radians(back),
+            rest=self.rest,
+        )
+
+
+@dataclass(frozen=True)
+class SpringTable:
+    """``[spring]``: what presses a translating or flat-faced follower on its cam; it needs ``speed_rpm``.
+
+    mass : kg, of the follower and all that moves with it
+    stiffness : N/mm
+    preload : N, of the spring at the lowest place; None is the least one that keeps contact
+    """
+
+    mass: float
+    stiffness: float
+    preload: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("mass", self.mass, "kg")
+        positive("stiffness", self.stiffness, "N/mm")
+        if self.preload is not None and not (math.isfinite(self.preload) and self.preload >= 0):
+            raise DesignError("preload", self.preload, "a finite number of 0 N or more")
+
+    def __call__(self, speed_rpm: float) -> SpringLoad:
+        """The load at a speed; an open preload is 0 in it."""
+        return SpringLoad(self.mass, speed_rpm, self.stiffness, self.preload or 0.0)
+
+
+@dataclass(frozen=True)
+class DrawingTable(SheetTable):
+    """``[drawing]``: how it is drawn.
+
+    divisions : equal parts per phase
+    ordinate : mm on paper, the greatest ordinate of the first rise's acceleration; None is the longest of a round
+        series at which the whole diagram keeps to its room on the sheet
+    poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
+        in proportion to the axis, or what makes the diagrams neither too high nor too low
+    rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
+    """
+
+    divisions: int = 12
+    ordinate: float | None = None
+    poles: tuple[float, float] | None = None
+    rounding: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 1 <= self.divisions <= MOST_DIVISIONS:
+            raise DesignError("divisions", self.divisions, f"from 1 to {MOST_DIVISIONS} parts per phase")
+        positive("ordinate", self.ordinate, "mm on paper")
+        for k, pole in enumerate(self.poles or ()):
+            positive(f"poles[{k}]", pole, "mm on paper")
+        positive("rounding", self.rounding, "mm")
+
+    def on(self, format_: Format) -> Self:
+        """The same on another format, with the ordinate and poles that suit it: those given were chosen for this one.
+
+        >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
+        True
+        """
+        return replace(super().on(format_), ordinate=None, poles=None)
+
+
+@dataclass(frozen=True)
+class Task:
+    """A design task, as its file says it.
+
+    rotation : "ccw" or "cw"
+    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
+
+    Raises
+    ------
+    DesignError : a value that cannot be, alone or together with another
+
+    >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable
+    >>> phases = (RiseTable(120, 30, "3-4-5"), ReturnTable(240, 30, "cosine"))
+    >>> task = Task("ccw", MotionTable(phases), TranslatingTable(offset=10))
+    >>> task.motion().lift, task.follower().offset, round(task.limits().rise, 6)
+    (30.0, 10, 0.523599)
+    """
+
+    rotation: Rotation
+    motion: MotionTable
+    follower: FollowerTable
+    speed_rpm: float | None = None
+    title: TitleTable = field(default_factory=TitleTable)
+    cam: CamTable = field(default_factory=CamTable)
+    limits: LimitsTable = field(default_factory=LimitsTable)
+    spring: SpringTable | None = None
+    drawing: DrawingTable = field(default_factory=DrawingTable)
+
+    # How pydantic reads a file: no text for numbers, nothing unknown, nothing infinite; it holds for the tables too.
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
+
+    def __post_init__(self) -> None:
+        sense(self.rotation)
+        positive("speed_rpm", self.speed_rpm, "rpm")
+        self._tell_the_tables()
+        self._check_limits()
+        _check_sizes(self.follower(), self.cam.prime_radius)
+        self._check_spring()
+
+    def _check_spring(self) -> None:
+        if self.spring is None:
+            return
+        if self.speed_rpm is None:
+            raise DesignError("speed_rpm", "missing", "given where there is a spring", "inertia grows with the speed")
+        if self.follower.kind == "oscillating":
+            raise DesignError("spring", "a table", "left out for an arm", "it holds a translating follower on its cam")
+
+    def _check_limits(self) -> None:
+        """Limits that the follower does not have are refused: they would be given, and not kept."""
+        if self.follower.kind != "flat-faced":
+            without = {"min_curvature_radius": "only a flat face is limited by it; a roller has its roller_rule"}
+        else:
+            reason = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
+            without = {"pressure_angle_rise": reason, "pressure_angle_return": reason}
+        for key, reason in without.items():
+            value = getattr(self.limits, key)
+            if value is not None:
+                raise DesignError(
+                    f"limits.{key}", value, f"left out for a follower of kind {self.follower.kind}", reason
+                )
+
+    def _tell_the_tables(self) -> None:
+        """What a table means depends on the follower: an arm's lift is an angle, each kind has its usual limit."""
+        kind = self.follower.kind
+        motion = dataclasses.replace(self.motion)
+        unit = self.follower.lift_unit if isinstance(self.follower, OscillatingTable) else 1.0
+        object.__setattr__(motion, "lift_unit", unit)
+        column = "s_deg" if isinstance(self.follower, OscillatingTable) and self.follower.lift == "angle" else "s_mm"
+        if motion.table is not None and motion.table.column not in (column, "a"):
+            raise DesignError(
+                "motion.table (column)", motion.table.column, f"{column} for this follower",
+                "measure what the follower does, and name the column so",
+            )  # fmt: skip
+        object.__setattr__(self, "motion", motion)
+        if self.limits.pressure_angle_rise is None and kind in USUAL_PRESSURE_ANGLE:
+            limits = dataclasses.replace(self.limits, pressure_angle_rise=USUAL_PRESSURE_ANGLE[kind])
+            object.__setattr__(self, "limits", limits)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
+
+        >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable
+        >>> phases = (RiseTable(120, 30, "2-3"), ReturnTable(240, 30, "2-3"))
+        >>> Task("cw", MotionTable(phases), FlatFacedTable()).to_dict()["motion"]["phases"][0]
+        {'kind': 'rise', 'angle': 120, 'lift': 30, 'law': '2-3', 'ratio': 1.0}
+        """
+        said = plain(self)
+        if self.motion.table is not None:
+            said["motion"]["table"] = self.motion.table.file
+        return said
+
+
+def _check_sizes(follower: Follower, prime_radius: float | None) -> None:
+    """Sizes that exclude each other whatever the motion; what depends on it shows when the cam is made."""
+    if prime_radius is None or isinstance(follower, FlatFaced):
+        return
+    if isinstance(follower, Translating) and abs(follower.offset) >= prime_radius:
+        raise DesignError(
+            "follower.offset", follower.offset, f"less than the prime radius of {prime_radius:g} mm in magnitude",
+            "take a smaller offset or a larger cam.prime_radius",
+        )  # fmt: skip
+    if follower.roller_radius >= prime_radius:
+        raise DesignError(
+            "follower.roller_radius", follower.roller_radius, f"less than the prime radius of {prime_radius:g} mm",
+            "take a smaller roller or a larger cam.prime_radius",
+        )  # fmt: skip

@@ -1,0 +1,341 @@
+"""Task files: TOML in, a task out, or one error that says which field is wrong and why."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import json
+import re
+import tomllib
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from graphcam.errors import DesignError, TaskError, nearest
+from graphcam.given.table_file import read_table
+from graphcam.tasks import arcs_task as arcs
+from graphcam.tasks import motion_tables
+from graphcam.tasks import task as tables
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
+    from pydantic_core import ErrorDetails
+
+BUILT_IN = ("coursework", "arm", "flat", "measured")
+"""Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
+
+EXAMPLE = "'graphcam init FILE' writes a commented example"
+
+_DECIMAL_COMMA = re.compile(rb"=\s*[-+]?(\d+),(\d+)")
+
+Classes = dict[tuple[str, ...], type]
+_Checked = TypeVar("_Checked")
+
+_CLASSES: Classes = {
+    (): Task,
+    ("title",): tables.TitleTable,
+    ("motion",): motion_tables.MotionTable,
+    ("motion", "phases", "rise"): motion_tables.RiseTable,
+    ("motion", "phases", "dwell"): motion_tables.DwellTable,
+    ("motion", "phases", "return"): motion_tables.ReturnTable,
+    ("follower", "translating"): tables.TranslatingTable,
+    ("follower", "oscillating"): tables.OscillatingTable,
+    ("follower", "flat-faced"): tables.FlatFacedTable,
+    ("cam",): tables.CamTable,
+    ("limits",): tables.LimitsTable,
+    ("spring",): tables.SpringTable,
+    ("drawing",): tables.DrawingTable,
+}
+"""The class of each table of a file, by its place without numbers."""
+_CLASSES_OF_ARCS: Classes = {
+    (): ArcsTask,
+    ("title",): tables.TitleTable,
+    ("arcs",): arcs.ArcsTable,
+    ("follower",): arcs.RollerTable,
+    ("drawing",): arcs.ArcsDrawingTable,
+}
+"""The same for a cam of three circular arcs."""
+
+_KEYS = {
+    "sum of the phase angles": "phases (sum of the angles)",
+    "sum of rises less returns": "phases (sum of rises less returns)",
+    "motion": "phases",
+    "roller radius": "roller_radius",
+    "roller rule": "roller_rule",
+    "centre distance": "distance",
+    "prime radius": "prime_radius",
+    "permitted pressure angle on the rise": "pressure_angle_rise",
+    "permitted pressure angle on the return": "pressure_angle_return",
+    "least radius of curvature": "min_curvature_radius",
+    "the table's lift": "table (lift)",
+}
+"""What a quantity of a design error is called in the file, where that differs."""
+
+_EXPECTED = {
+    "float_type": "a number (without quotes)",
+    "int_type": "a whole number (without quotes)",
+    "string_type": "text in quotes",
+    "bool_type": "true or false",
+    "finite_number": "a finite number",
+    "dataclass_type": "a table",
+    "dict_type": "a table",
+    "tuple_type": "a list",
+}
+"""What a file must give, by the type of pydantic's error."""
+
+
+Place = tuple[int | str, ...]
+"""Where in a file: keys, numbers of list entries, and pydantic's choices among classes."""
+
+
+_LONGEST = 60
+"""Characters of a value that a message shows."""
+
+
+class _Words(str):
+    """Words about a value, shown without the quotes of a value."""
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
+def load_task(path: str | Path) -> Task | ArcsTask:
+    """The task in a TOML file; with a table ``[arcs]`` it is a cam of three circular arcs.
+
+    Raises
+    ------
+    TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong; of several faults the
+        first is named, unknown keys before all others
+    """
+    return _parse(str(path), read_content(path), Path(path).parent)
+
+
+def read_content(path: str | Path) -> bytes:
+    """What stands in a file.
+
+    Raises
+    ------
+    TaskError : there is no such file, or it cannot be read
+    """
+    try:
+        return Path(path).read_bytes()
+    except FileNotFoundError:
+        raise _not_a_file(path, "not there", "check the name; " + EXAMPLE) from None
+    except IsADirectoryError:
+        raise _not_a_file(path, "a folder", "name the task file in it") from None
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise _not_a_file(path, f"not readable ({why})", "check the name and the permissions") from None
+
+
+def task_of(path: str, data: dict[str, Any]) -> Task:
+    """The task that a table of a TOML file says, ``path`` for the messages.
+
+    Raises
+    ------
+    TaskError : a field is missing, unknown or wrong
+    """
+    task = _task(path, data, data)
+    if not isinstance(task, Task):
+        raise TaskError(path, "arcs", "a table", "left out", "this takes a task with phases of motion")
+    return task
+
+
+def builtin_task(name: str = "coursework") -> Task:
+    """A task that comes with graphcam, by its name in :data:`BUILT_IN`.
+
+    >>> builtin_task().follower().offset
+    -10.0
+    """
+    if name not in BUILT_IN:
+        raise DesignError("built-in task", name, "one of " + ", ".join(BUILT_IN), nearest(name, BUILT_IN))
+    task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
+    assert isinstance(task, Task)
+    return task
+
+
+def builtin_arcs_task() -> ArcsTask:
+    """The task of a cam of three circular arcs that comes with graphcam.
+
+    >>> builtin_arcs_task().arcs.rho1
+    17.0
+    """
+    task = _parse("arcs.toml", builtin_text("arcs").encode(), _built_in_folder())
+    assert isinstance(task, ArcsTask)
+    return task
+
+
+def builtin_text(name: str) -> str:
+    """The file of a built-in task.
+
+    >>> 'rotation = "cw"' in builtin_text("coursework")
+    True
+    """
+    known = (*BUILT_IN, "arcs")
+    if name not in known:
+        raise DesignError("built-in task", name, "one of " + ", ".join(known), nearest(name, known))
+    return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def _built_in_folder() -> Path:
+    return Path(str(resources.files("graphcam").joinpath("data", "tasks")))
+
+
+def _not_a_file(path: str | Path, what: str, remedy: str) -> TaskError:
+    return TaskError(str(path), "the task file", _Words(what), "a TOML file", remedy)
+
+
+def _parse(path: str, content: bytes, folder: Path) -> Task | ArcsTask:
+    data = parse_toml(path, content)
+    return _task(path, data, _with_table(path, data, folder))
+
+
+def parse_toml(path: str, content: bytes) -> dict[str, Any]:
+    """The tables of a TOML file.
+
+    Raises
+    ------
+    TaskError : it is not TOML, or empty
+    """
+    try:
+        data = tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise TaskError(
+            path, f"line {line}", content[error.start : error.start + 1], "text in UTF-8", "save the file as UTF-8"
+        ) from None
+    except (ValueError, RecursionError) as error:
+        line = re.search(r"at line (\d+)", str(error))
+        comma = line and _DECIMAL_COMMA.search(content.splitlines()[int(line[1]) - 1])
+        remedy = f"numbers have a decimal point, {comma[1].decode()}.{comma[2].decode()}" if comma else EXAMPLE
+        raise TaskError(path, "the text", _Words(f"not TOML ({error})"), "a TOML file", remedy) from None
+    if not data:
+        raise _not_a_file(path, "empty", EXAMPLE)
+    return data
+
+
+def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The data with what the file of a measured motion says in place of its name."""
+    motion = data.get("motion")
+    if not isinstance(motion, dict) or "table" not in motion:
+        return data
+    name, tolerance = motion["table"], motion.get("tolerance")
+    if not isinstance(name, str):
+        raise TaskError(path, "motion.table", _shown(name), "text in quotes", "name the CSV file of the table")
+    table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
+    return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
+
+
+def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
+    """The task in ``whole``; its errors are told in the words of the file's ``data``."""
+    if "arcs" in data:
+        return checked(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
+    return checked(Task, _CLASSES, path, data, whole)
+
+
+def checked(kind: type[_Checked], classes: Classes, path: str, data: dict[str, Any], whole: dict[str, Any]) -> _Checked:
+    """The dataclass that ``whole`` describes; its errors are told in the words of the file's ``data``.
+
+    classes : the class of each table of the file, by its place without numbers
+
+    Raises
+    ------
+    TaskError : a field is missing, unknown or wrong
+    """
+    # Only reading files needs pydantic, and it takes long to load.
+    from pydantic import ValidationError
+
+    # Strict JSON takes tables for dataclasses and lists for tuples, but no text for numbers: what a file should be.
+    # A TOML date is none of JSON's types; as a table it is as wrong there as it was here.
+    text = json.dumps(whole, default=lambda date: {"date": str(date)})
+    try:
+        return _reader(kind).validate_json(text)
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+    details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")
+    raise _task_error(path, data, classes, details[0])
+
+
+@functools.cache
+def _reader(kind: type[_Checked]) -> TypeAdapter[_Checked]:
+    """What reads tables as a dataclass; making it takes longer than a thousand readings."""
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(kind)
+
+
+def _task_error(path: str, data: dict[str, Any], classes: Classes, detail: ErrorDetails) -> TaskError:
+    """The error of a file in the words of its writer."""
+    kind, context = detail["type"], detail.get("ctx", {})
+    place, value = _look_up(data, detail["loc"])
+    if isinstance(error := context.get("error"), DesignError):
+        return _misfit(path, data, detail["loc"], error)
+    if kind == "missing":
+        return TaskError(path, place, _Words("missing"), "given", EXAMPLE)
+    if kind == "unexpected_keyword_argument":
+        return _unknown_key(path, place, value, classes, _table(detail["loc"][:-1]))
+    if kind.startswith("union_tag"):
+        tags = [table[-1] for table in classes if table[:-1] == _table(detail["loc"])]
+        found = value.get("kind", _Words("missing"))
+        return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
+    expected = context.get("expected") or _EXPECTED.get(kind) or detail["msg"]
+    if kind == "too_long":
+        expected = f"a list of {context['max_length']}"
+    return TaskError(path, place, _shown(value), str(expected), EXAMPLE)
+
+
+def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...]) -> TaskError:
+    """A key that its table does not have, or that only a table of another kind has."""
+    key, known = place.split(".")[-1], _keys(classes[table])
+    alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
+    kinds = [other[-1] for other in alike if key in _keys(classes[other])]
+    if kinds:
+        return TaskError(
+            path, place, _shown(value), f"left out where the kind is {table[-1]}", f"it is for {' and '.join(kinds)}"
+        )
+    return TaskError(path, place, _Words("an unknown key"), "one that is known", nearest(key, known))
+
+
+def _keys(table: type) -> list[str]:
+    """The keys of a table in a file; what the loader sets itself is none."""
+    return [field.name for field in dataclasses.fields(table) if field.init]
+
+
+def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -> TaskError:
+    """A value that fits its type but no design, named and shown as it stands in the file where it does."""
+    key = _KEYS.get(error.quantity, error.quantity)
+    field, value = _look_up(data, (*place, *key.split(".")))
+    if not isinstance(value, int | float | str):
+        value = _Words(error.value) if isinstance(error.value, str) else error.value
+    return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
+
+
+def _look_up(data: Any, place: Place) -> tuple[str, Any]:
+    """How a place is written, such as ``motion.phases[2].angle``, and the value there (None if there is none)."""
+    name = ""
+    for step in place:
+        if isinstance(step, int):
+            name += f"[{step}]"
+            data = data[step] if isinstance(data, list) and step < len(data) else None
+        elif isinstance(data, dict) and step not in data and data.get("kind") == step:
+            continue  # the choice among classes, which is no step in the file
+        else:
+            name += f".{step}"
+            data = data.get(step) if isinstance(data, dict) else None
+    return name.lstrip("."), data
+
+
+def _table(place: Place) -> tuple[str, ...]:
+    return tuple(step for step in place if isinstance(step, str))
+
+
+def _shown(value: Any) -> Any:
+    """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
+    if isinstance(value, bool):
+        return _Words(str(value).lower())
+    if isinstance(value, dict | list):
+        return _Words("a table" if isinstance(value, dict) else f"a list of {len(value)}")
+    text = repr(value)
+    return _Words(text[:_LONGEST] + "...") if len(text) > _LONGEST else value

@@ -1,0 +1,218 @@
+"""The report of speed against error: what it says, never how long it took."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from graphcam.bench import measuring as reports
+from graphcam.bench import peers as other_packages
+from graphcam.bench.bench_folder import FILES
+from graphcam.bench.convergence import (
+    FITTED,
+    convergence,
+    distance_from_profile,
+    fitted_order,
+    nearest_angles,
+)
+from graphcam.bench.hand_errors import by_hand
+from graphcam.bench.rivals import (
+    INTEGRATORS,
+    arm_lines,
+    by_half_planes,
+    by_optimiser,
+    by_pressure_angles,
+    integrated_error,
+    translating_lines,
+)
+from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
+from graphcam.bench.timing import Timer
+from graphcam.bench.tradeoff import (
+    INSIDE,
+    Sizes,
+    exact_displacement_error,
+    exact_least_radius_error,
+    exact_profile_error,
+)
+from graphcam.cli import app
+from graphcam.cli.shared import WRONG_INPUT
+
+SMOOTH = ("cycloidal", "3-4-5")
+SECOND_ORDER = ("displacement", "velocity", "greatest acceleration", "pitch curve", "working profile")
+TINY = reports.Effort(
+    (12, 24, 48), ("cycloidal", "rectangular"), 20, (6, 12, 24),
+    Sizes((12, 24), (12, 24), (12, 24), (12, 36), (12, 36), (24, 96)), 1000, 1000, 0.0,
+)  # fmt: skip
+FOUR_EPS = 4 * 2.0**-52
+
+
+@pytest.fixture(scope="module")
+def series():
+    return convergence(FITTED)
+
+
+def test_smooth_laws_are_drawn_with_the_second_order(series):
+    seen = [s for s in series if s.law in SMOOTH and s.quantity in SECOND_ORDER]
+    assert len(seen) == 2 * (5 + 5 + 4)
+    for s in seen:
+        if (s.law, s.quantity) == ("cycloidal", "velocity"):  # a cosine keeps its shape under the pole method
+            assert s.exact
+        else:
+            assert s.order == pytest.approx(2.0, abs=0.1), s
+            assert all(after < before for before, after in zip(s.errors, s.errors[1:], strict=False)), s
+
+
+def test_constant_acceleration_is_drawn_exactly(series):
+    for s in series:
+        if s.law == "rectangular" and s.quantity in {"displacement", "velocity", "pitch curve", "pressure angle"}:
+            assert s.exact, s
+
+
+def test_every_error_is_bounded_and_falls_in_the_end(series):
+    for s in series:
+        assert all(math.isfinite(error) and error >= 0 for error in s.errors), s
+        if not s.exact:
+            assert s.errors[-1] < 0.5 * s.errors[0], s
+
+
+def test_errors_are_the_same_in_every_run():
+    assert convergence((6, 12), ("3-4-5",)) == convergence((6, 12), ("3-4-5",))
+    assert by_hand("3-4-5", 10, (6, 12)) == by_hand("3-4-5", 10, (6, 12))
+
+
+def test_the_order_is_fitted_to_a_power_exactly():
+    n = np.array([6, 12, 24, 48, 96])
+    errors = 3.0 / n**1.5
+    errors[0] = 1e3  # not among the parts that are fitted
+    assert fitted_order(n.tolist(), errors.tolist()) == pytest.approx(1.5, abs=1e-12)
+    assert fitted_order((12, 24), (1.0, 0.0)) is None
+
+
+def test_the_hand_has_a_best_number_of_parts():
+    hands = by_hand("cycloidal", 400, (4, 12, 96))
+    assert hands.best == 12
+    assert 100 * hands.floor == pytest.approx(0.85, rel=0.15)  # percent, in 12 parts
+    assert hands.low[1] < hands.mean[1] < hands.high[1]
+
+
+def test_the_exact_side_is_right_to_four_eps():
+    fixed, free = scene("translating", "cycloidal"), free_scene("cycloidal")
+    for error in (exact_displacement_error(fixed), exact_least_radius_error(free), exact_profile_error(fixed)):
+        assert error is not None
+        assert error <= FOUR_EPS
+
+
+@pytest.mark.parametrize(
+    ("name", "order"), [("cumulative_trapezoid", 2), ("cumulative_simpson", 4), ("CubicSpline", 4)]
+)
+def test_sampled_integration_has_its_textbook_order(name, order):
+    parts = (48, 96, 192)
+    motion = scene("translating", "cycloidal").board.motion
+    errors = [integrated_error(motion, n, INTEGRATORS[name]) for n in parts]
+    assert -np.polyfit(np.log(parts), np.log(errors), 1)[0] == pytest.approx(order, abs=0.25)
+
+
+@pytest.mark.parametrize("law", SMOOTH)
+def test_a_sampled_least_radius_is_too_small_and_comes_near_with_the_second_order(law):
+    free = free_scene(law)
+    exact, motion = free.least().prime_radius, free.board.motion
+    for solve in (
+        lambda n: by_half_planes(translating_lines(motion, LIMIT, n), INSIDE),
+        lambda n: by_optimiser(translating_lines(motion, LIMIT, n), INSIDE),
+        lambda n: by_pressure_angles(motion, LIMIT, n, (INSIDE[1], 0.0)),
+    ):
+        few, many = (solve(n) / exact - 1 for n in (60, 600))
+        assert few < many < 0
+        assert abs(many) < 1e-5
+
+
+def test_a_sampled_least_radius_of_an_arm_is_too_small():
+    arm = scene("arm", "3-4-5")
+    lines = arm_lines(arm.board.motion, arm.board.limits.rise, ARM, 360)
+    assert -1e-4 < by_optimiser(lines, (20.0, 90.0)) / arm.least().prime_radius - 1 < 0
+
+
+def test_the_distance_from_the_profile_is_that_along_its_normal():
+    cam = scene("translating", "3-4-5").cam
+    phi = np.linspace(0.1, 6.0, 40)
+    profile, pitch = (points @ [1, 1j] for points in (cam.profile(phi), cam.pitch_curve(phi)))
+    moved = profile + 0.25 / cam.roller_radius * (pitch - profile)
+    assert distance_from_profile(cam, moved, phi + 0.01) == pytest.approx(np.full(40, 0.25), abs=1e-12)
+    near = nearest_angles(cam, profile)
+    assert distance_from_profile(cam, profile, near) == pytest.approx(np.zeros(40), abs=1e-11)
+
+
+def test_a_package_that_is_not_there_is_left_out_with_the_reason(monkeypatch):
+    for name in ("mechanism", "pylinkage", "pylinkage.cam"):
+        monkeypatch.setitem(sys.modules, name, None)
+    found = other_packages.peers(Timer(0.0))
+    assert [(p.package, p.error) for p in found] == [("mechanism", None), ("pylinkage", None)]
+    assert all("not installed" in p.reason for p in found)
+
+
+def test_the_faults_of_another_package_are_found_again():
+    found = {p.quantity: p for p in other_packages.peers(Timer(0.0)) if p.package.startswith("mechanism")}
+    assert found["working profile"].error == pytest.approx(4.76, abs=0.005)
+    assert found["displacement"].error < 1e-12
+
+
+@pytest.mark.slow
+def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
+    monkeypatch.setattr(reports, "QUICK", TINY)
+    result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "report")])
+    assert result.exit_code == 0, result.output
+    assert "Error against the number of parts" in result.output
+    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == sorted(FILES)
+
+    def no_constant(name: str) -> None:
+        raise AssertionError(name)
+
+    document = json.loads((tmp_path / "report" / "bench.json").read_text(), parse_constant=no_constant)
+    _check(document)
+    with (tmp_path / "report" / "bench.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {row["section"] for row in rows} == {
+        "convergence", "pencil", "time", "exact", "peers", "readings", "steps", "rendering"
+    }  # fmt: skip
+    markdown = (tmp_path / "report" / "bench.md").read_text()
+    tables = [line for line in markdown.splitlines() if line.startswith("|")]
+    assert len(tables) > 60
+    assert markdown.count("\n## ") == 6
+
+
+def _check(document) -> None:
+    assert "seconds" not in json.dumps(document)
+    for row in document["exact"]:
+        assert row["ratio"] > 0
+    for method in document["error_against_time"]:
+        assert len(method["n"]) == len(method["pairs"]) == len(method["errors"])
+        assert min(method["pairs"]) > 0
+    graphical = [m for m in document["error_against_time"] if m["kind"] == "graphical"]
+    assert (
+        {m["question"] for m in graphical}
+        == {"displacement", "least radius", "profile"}
+        == set(document["pencil_bands"])
+    )
+    for m in graphical:
+        assert m["errors"][-1] < m["errors"][0]
+    for entry in document["drawing"]:
+        assert entry["readings"] > 0
+        assert entry["steps"] > 0
+    assert set(document["rendering"]) == {"layout", "PDF", "PNG"}
+
+
+def test_a_folder_that_cannot_be_written_is_told_before_anything_is_measured(tmp_path, monkeypatch):
+    def measured(*_):
+        raise AssertionError
+
+    monkeypatch.setattr("graphcam.bench.bench_folder.measure", measured)
+    (tmp_path / "file").write_text("in the way")
+    result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "file")])
+    assert result.exit_code == WRONG_INPUT
+    assert "cannot be written" in result.output

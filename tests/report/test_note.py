@@ -1,0 +1,234 @@
+"""The coursework note: what a student hands in must be complete, and agree with the drawing."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from math import degrees, hypot, radians, tan
+
+import pytest
+
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.laws import LAWS
+from graphcam.report.note import against_exact, note
+from graphcam.solving.solve import solve
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.task import CamTable, LimitsTable, SpringTable, Task, TitleTable, TranslatingTable
+from graphcam.tasks.task_file import builtin_task
+
+NOT_NUMBERS = re.compile(r"\b(nan|inf|None)\b|-0\.0+\b")
+
+
+def four_phases(lift: float, angles: tuple[float, ...], laws: tuple[str, str]) -> MotionTable:
+    up, high, down, low = angles
+    rise, back = RiseTable(up, lift, laws[0]), ReturnTable(down, lift, laws[1])
+    return MotionTable((rise, DwellTable(high), back, DwellTable(low)))
+
+
+def task_of(law: str, **changes) -> Task:
+    motion = four_phases(30, (80, 45, 60, 175), (law, law))
+    return replace(builtin_task(), motion=motion, **changes)
+
+
+SEVERAL_RISES = MotionTable((
+    RiseTable(60, 10, "cycloidal"), DwellTable(30), RiseTable(60, 15, "cosine"), ReturnTable(90, 25, "3-4-5"),
+    DwellTable(120),
+))  # fmt: skip
+TASKS = {
+    **{law: (task_of(law), None) for law in LAWS},
+    "given radius": (task_of("3-4-5", cam=CamTable(70.0)), None),
+    "free offset, form closure": (
+        task_of("cycloidal", follower=TranslatingTable(), limits=LimitsTable(30, 40)), None
+    ),
+    "no speed": (task_of("2-3", speed_rpm=None), None),
+    "knife edge": (task_of("3-4-5", follower=TranslatingTable(10.0, 0.0)), None),
+    "several rises": (replace(builtin_task(), motion=SEVERAL_RISES), None),
+    "unreadable": (task_of("2-3", cam=CamTable(60.0), limits=LimitsTable(0.5)), None),
+    "a hand": (task_of("3-4-5"), Pencil(line=0.2, dividers=0.2)),
+    "many hands": (task_of("3-4-5"), Pencil(line=0.2, dividers=0.2, division=0.5, protractor=0.01, samples=5)),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def builtin():
+    return solve(builtin_task())
+
+
+@pytest.fixture(scope="module")
+def builtin_note(builtin):
+    return note(builtin)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_note_is_well_formed(name):
+    text = note(solve(*TASKS[name]))
+    assert not NOT_NUMBERS.search(text)
+    assert text.count("$") % 2 == 0
+    headings = re.findall(r"^## (\d+)\. ", text, re.MULTILINE)
+    assert headings == [str(k + 1) for k in range(len(headings))]
+    # The rows of a table are as wide as its head, cell for cell.
+    for block in text.split("\n\n"):
+        if block.startswith("| "):
+            assert len({tuple(m.start() for m in re.finditer(r"\|", line)) for line in block.splitlines()}) == 1
+    assert text.endswith("\n")
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        # closure: 4 h/60^2 over 4 h/80^2 times 50 mm
+        "= 88.89\\ \\text{mm}$$",
+        "$\\mu_\\varphi = 2\\pi/360.00 = 0.017453$ rad/mm",
+        # v = 2h/F = 42.97 at half the lift: 42.97 - 15 tan 30 = 34.31
+        "= 42.97 - 15.00 \\tan 30^\\circ = 34.31$ mm",
+        "It lies on the limit of: rise.",
+        "r_0 = \\sqrt{s_0^2 + e^2} = \\sqrt{42.11^2 + (-10.00)^2} = 43.28",
+        "the prime radius is adopted as $r_0 = 44$ mm",
+        "A spring drives the return (force closure)",
+        "0.4 r₀ = 17.60 mm",
+        "the roller is adopted as $r = 17$ mm",
+        "the impact is soft",
+        "| rise φ₁   | 0.1111 |  0.540 |   9.720 |",
+        "Every drawn value lies within its bound.",
+        "## Appendix: how it was drawn",
+    ],
+)
+def test_the_builtin_note_tells(builtin_note, told):
+    assert told in builtin_note
+
+
+def test_the_builtin_note_warns_of_nothing(builtin_note):
+    assert "**" not in builtin_note
+
+
+def test_one_more_degree_is_worth_two_millimetres(builtin_note):
+    """The rise's tangent touches at half the lift, so s0 = (2h/F - e)/tan(A) - h/2."""
+    radii = [hypot((60 / radians(80) - 10) / tan(radians(angle)) - 15, 10) for angle in (30, 31)]
+    told = f"gives {radii[1]:.2f} mm: the least radius changes by {radii[1] - radii[0]:.2f} mm per degree"
+    assert told in builtin_note
+
+
+def test_every_step_of_the_drawing_is_told(builtin_note, builtin):
+    steps = [step for construction in builtin.drawn.values() for step in construction.steps()]
+    appendix = builtin_note.split("## Appendix")[1]
+    assert len(re.findall(r"^\d+\. \*", appendix, re.MULTILINE)) == len(steps)
+    assert all(str(step.caption) in appendix for step in steps)
+
+
+def test_of_a_hand_the_note_says_what_was_adopted_instead():
+    """Sizes are those of a hand without error, so the note must not round this hand's readings to them."""
+    text = note(solve(*TASKS["a hand"]))
+    assert re.search(r"A hand without error reads 39\.\d\d mm\. Rounded up", text)
+    assert re.search(r"A hand without error reads 16\.00 mm\. Rounded down", text)
+
+
+def test_a_least_radius_that_cannot_be_read_is_said_to_be_so():
+    text = note(solve(*TASKS["unreadable"]))
+    assert "**No cam centre can be read" in text
+    assert "the least radius changes by" not in text
+
+
+def test_too_small_a_given_radius_is_warned_of():
+    limits = LimitsTable(30, 30)
+    text = note(solve(task_of("cycloidal", cam=CamTable(50.0), limits=limits)))
+    assert "**The task gives $r_0 = 50$ mm, which is smaller" in text
+    assert "**On the return only 30° are permitted, so the limit is exceeded: the given prime radius of 50 mm" in text
+
+
+def test_an_angle_at_rest_that_is_not_limited_is_told_of():
+    limits = LimitsTable(30, rest=False)
+    text = note(solve(task_of("cosine", follower=TranslatingTable(-39.0), limits=limits)))
+    assert "so the limit is exceeded: it is the angle at the low rest, which this task does not limit.**" in text
+
+
+def test_a_limit_that_only_the_drawing_keeps_is_told_of():
+    """The radius is rounded up to so little more that the exact rise, which peaks between stations, exceeds 30°."""
+    task = task_of("cycloidal", limits=LimitsTable(30))
+    solution = solve(replace(task, drawing=replace(task.drawing, divisions=6, rounding=0.01)))
+    exact = degrees(solution.cam.extremes().pressure_angle_rise[0])
+    assert exact > 30.05
+    told = f"On the rise 30° are permitted, which is kept as drawn; exactly it is {exact:.2f}°, {exact - 30:.2f}° over."
+    assert told in note(solution)
+
+
+def test_too_large_a_roller_is_warned_of():
+    """The pitch curve's least radius of curvature at r0 = 30 is far under 20: cusps, a known case."""
+    motion = four_phases(30, (60, 30, 60, 210), ("3-4-5", "3-4-5"))
+    task = replace(
+        builtin_task(), rotation="ccw", motion=motion, cam=CamTable(30.0), follower=TranslatingTable(5.0, 20.0)
+    )
+    text = note(solve(task))
+    assert "the touch point lies inside another roller circle: the profile is undercut" in text
+    covered = text.split("Polar coordinates")[1].split("##")[0]
+    assert re.search(r"\|\s+– \|\s+– \|$", covered, re.MULTILINE)  # no point of the profile is left there
+
+
+SOLVED = {
+    # Solved problem, roller follower, harmonic, lift 50, 120/30/60, 100 rpm: 0.39 and 0.785 m/s, 6.17 and 24.67 m/s^2
+    "valve": (
+        four_phases(50, (120, 30, 60, 150), ("cosine", "cosine")), 100.0,
+        "| rise φ₁   | 0.2000 |  0.393 |   6.169 |", "| return φ₃ | 0.1000 |  0.785 |  24.674 |",
+    ),
+    # Lift 30, constant acceleration 120, dwell 30, harmonic 90, 800 rpm: 2.400 and 2.513 m/s, 192.0 and 421.1 m/s^2
+    "knife": (
+        four_phases(30, (120, 30, 90, 120), ("rectangular", "cosine")), 800.0,
+        "| rise φ₁   | 0.0250 |  2.400 | 192.000 |", "| return φ₃ | 0.0187 |  2.513 | 421.103 |",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_speeds_of_solved_problems(name):
+    motion, speed, *rows = SOLVED[name]
+    text = note(solve(replace(builtin_task(), motion=motion, speed_rpm=speed)))
+    assert all(row in text for row in rows)
+
+
+def test_without_a_speed_there_are_no_times():
+    assert "Times, velocities" not in note(solve(task_of("cosine", speed_rpm=None)))
+
+
+def sprung(preload: float | None) -> str:
+    """The chapter on the spring of Voloder, Cohodar and Karic: it needs 69.2296 N just before 45 degrees."""
+    motion = four_phases(30, (45, 45, 45, 225), ("cosine", "cosine"))
+    follower, spring = TranslatingTable(0.0), SpringTable(0.2, 3.0, preload)
+    text = note(solve(replace(builtin_task(), motion=motion, speed_rpm=550, follower=follower, spring=spring)))
+    chapter = re.split(r"^## \d+\. ", text.split(". Spring\n")[1], flags=re.MULTILINE)[0]
+    assert not NOT_NUMBERS.search(chapter)
+    return chapter
+
+
+def test_an_open_preload_is_told_to_be_the_least_one():
+    text = sprung(None)
+    assert "A preload of at least 69.23 N keeps contact over the whole turn; it is needed at φ = 45°." in text
+    assert "The preload is adopted as $F_0 = 69.23$ N. The least contact force is 0.00 N, just before 45°." in text
+    assert "**" not in text
+
+
+def test_a_loss_of_contact_is_warned_of():
+    text = sprung(60.0)
+    assert "The preload is given as $F_0 = 60.00$ N. The least contact force is -9.23 N, just before 45°." in text
+    assert re.search(r"\*\*Contact is lost, φ = 39\.20\d*° to 45° and 90° to 95\.79\d*°: the", text)
+
+
+@pytest.mark.parametrize(
+    ("pencil", "advice"),
+    [
+        (Pencil(), "such a value is to be drawn with more parts."),
+        (Pencil(line=0.2), "this is the hand's scatter, which seldom exceeds 3 standard deviations."),
+    ],
+)
+def test_what_lies_outside_its_bound_is_blamed_on_the_parts_or_on_the_hand(pencil, advice):
+    solution = solve(task_of("3-4-5"), pencil)
+    smaller = replace(solution, cam=replace(solution.cam, prime_radius=solution.cam.prime_radius - 5))
+    assert re.search(rf"Outside the bound: .*pressure angle, rise.*; {advice}", against_exact(smaller))
+
+
+def test_without_a_spring_there_is_no_chapter_on_it(builtin_note):
+    assert ". Spring\n" not in builtin_note
+
+
+def test_titles_are_not_taken_for_markup():
+    title = TitleTable(name="Cam *A* | $2", author="N. _N_")
+    text = note(solve(replace(builtin_task(), title=title)))
+    assert text.startswith("# Cam \\*A\\* \\| \\$2: calculation note\n\nAuthor: N. \\_N\\_\n")

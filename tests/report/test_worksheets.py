@@ -1,0 +1,135 @@
+"""Worksheets agree with the finished sheet line for line, show what is given, and hold no answers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import graphcam as gc
+from graphcam.cli import app
+from graphcam.report.documents import sheet_of, worksheet
+from graphcam.sheets.model import Drawing, Entity, Group, Text
+from graphcam.sheets.overlaps import overlaps
+from graphcam.sheets.panels import BLANK
+from graphcam.sheets.sampling import outline
+from graphcam.solving.solution import Solution
+from graphcam.tasks.task import SpringTable
+from graphcam.tasks.task_file import builtin_task
+
+
+@cache
+def solution(paper: str = "A3") -> Solution:
+    task = builtin_task()
+    return gc.solve(replace(task, drawing=replace(task.drawing, format=paper)))
+
+
+@cache
+def finished() -> Drawing:
+    return sheet_of(solution())
+
+
+def place(entity: Entity) -> tuple[object, ...]:
+    starts, ends = outline(entity)
+    text = entity.text if isinstance(entity, Text) else ""
+    return entity.role, text, tuple(np.round(starts, 6).tolist()), tuple(np.round(ends, 6).tolist())
+
+
+def groups(drawing: Drawing) -> dict[tuple[int, str], Group]:
+    return {(number, group.name): group for number, page in enumerate(drawing.pages) for group in page.groups}
+
+
+def texts(drawing: Drawing) -> list[str]:
+    return [e.text for g in groups(drawing).values() for e in g.entities if isinstance(e, Text)]
+
+
+def test_a_worksheet_can_be_laid_over_the_finished_sheet() -> None:
+    whole = groups(finished())
+    for key, group in groups(worksheet(solution())).items():
+        # A blank stands in the place of a number.
+        blank = [e for e in group.entities if isinstance(e, Text) and BLANK in e.text]
+        assert {place(e) for e in group.entities if e not in blank} <= {place(e) for e in whole[key].entities}
+        assert {e.at for e in blank} <= {e.at for e in whole[key].entities if isinstance(e, Text)}
+
+
+def test_scales_are_left_blank_until_they_are_found() -> None:
+    """Whoever reads mu_s off the sheet need not integrate."""
+    scales = [text for text in texts(finished()) if text.startswith("μ") and "mm/mm" in text]
+    assert len(scales) == 2  # of the displacement and of the least radius
+    for upto, known in ((0, False), ("acceleration", False), ("integration", True), ("minimum_radius", True)):
+        said = texts(sheet_of(solution(), upto))
+        assert [text for text in said if text in scales] == scales * known
+        assert f"μₛ = {BLANK} mm/mm" in said or known
+    assert any(text.startswith("μ = 2") for text in texts(worksheet(solution()))), (
+        "the axis is laid off at a given scale"
+    )
+
+
+def test_the_diagrams_of_a_measured_motion_do_not_tell_the_scales_either() -> None:
+    """They are drawn at the scales that the integrations find."""
+    said = [text for text in texts(worksheet(gc.solve(builtin_task("measured")))) if text.startswith("μ")]
+    assert [BLANK in text for text in said if "°" not in text] == [True] * 7
+
+
+def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
+    said, whole = texts(worksheet(solution())), texts(finished())
+    quantities = solution().comparison.quantities
+    read = {f"{quantities[name].drawn:.3f}" for name in ("max_v", "minimum_prime_radius", "roller_radius")}
+    assert read <= set(whole)
+    assert not read & set(said)
+    assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "-10 mm", "greatest v, mm/rad"} <= set(said)
+    names = {group.name.split(" ")[1] for _, group in groups(worksheet(solution())).items() if "step" in group.name}
+    assert {"acceleration", "integration", "minimum_radius", "inversion"} <= names
+    assert not names & {"pressure_angle", "curvature", "working_profile"}, "what is only found leaves no line"
+
+
+@pytest.mark.parametrize("upto", [3, "integration"])
+def test_a_half_done_sheet_is_the_finished_one_up_to_its_step(upto: int | str) -> None:
+    whole, half = groups(finished()), groups(sheet_of(solution(), upto))
+    last = 11 if upto == "integration" else upto
+    done = {key for key in whole if key[1].startswith("step") and int(key[1][5:7]) <= last}
+    assert done <= set(half)
+    assert all(len(half[key].entities) == len(whole[key].entities) for key in done)
+    later = [len(half[key].entities) < len(whole[key].entities) for key in half if key[1][5:7] > f"{last:02d}"]
+    assert any(later)
+
+
+@pytest.mark.parametrize("upto", [-1, 99, "integral"])
+def test_a_step_that_is_not_there_is_refused_with_those_that_are(upto: int | str) -> None:
+    with pytest.raises(gc.DesignError, match=r"from 0 to \d+, or one of acceleration, integration, minimum_radius"):
+        sheet_of(solution(), upto)
+
+
+@pytest.mark.parametrize(("choice", "known"), [("--upto=integral", "integration"), ("--dxf=cda", "cad")])
+def test_a_wrong_choice_is_refused_where_only_json_is_asked_for(choice: str, known: str) -> None:
+    result = CliRunner().invoke(app, ["solve", "--json", choice])
+    assert result.exit_code == 2
+    assert choice.split("=")[1] in result.stderr
+    assert known in result.stderr
+    assert result.stdout == ""
+
+
+def test_every_construction_that_draws_has_its_sheets() -> None:
+    drawing = sheet_of(solution(), per_construction=True)
+    assert overlaps(drawing) == []
+    lasts = [max(g.name for g in page.groups if g.key.startswith("step")).split(" ")[1] for page in drawing.pages]
+    # The roller's radius is calculated, which draws nothing.
+    assert list(dict.fromkeys(lasts)) == [name for name in solution().drawn if name != "roller"]
+    count = len(drawing.pages)
+    assert [f"Sheet {k}" in texts(Drawing("", (page,))) for k, page in enumerate(drawing.pages, 1)] == [True] * count
+    assert texts(drawing).count(f"Sheets {count}") == count
+
+
+def test_a_worksheet_and_a_half_done_sheet_exclude_each_other() -> None:
+    result = CliRunner().invoke(app, ["solve", "--worksheet", "--upto", "3"])
+    assert result.exit_code == 2
+
+
+def test_a_spring_leaves_everything_on_one_sheet_of_a1() -> None:
+    task = replace(builtin_task(), spring=SpringTable(mass=0.2, stiffness=3.0))
+    drawing = sheet_of(gc.solve(task))
+    assert len(drawing.pages) == 1
+    assert overlaps(drawing) == []

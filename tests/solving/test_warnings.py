@@ -1,0 +1,128 @@
+"""What a solution warns of, and where the warnings can be read."""
+
+from __future__ import annotations
+
+import pytest
+from typer.testing import CliRunner
+
+from graphcam.cli import app
+from graphcam.report.note import note
+from graphcam.report.sheet_contents import sheet
+from graphcam.sheets.model import Text
+from graphcam.solving.solve import solve
+from graphcam.tasks.task_file import builtin_task, load_task
+
+# The case "undercut" of tests/data/cases.toml.
+UNDERCUT = """
+rotation = "ccw"
+[motion]
+phases = [
+  { kind = "rise", angle = 60, lift = 30, law = "3-4-5" },
+  { kind = "dwell", angle = 30 },
+  { kind = "return", angle = 60, lift = 30, law = "3-4-5" },
+  { kind = "dwell", angle = 210 },
+]
+[follower]
+kind = "translating"
+offset = 5
+roller_radius = 20
+[cam]
+prime_radius = 30
+"""
+
+
+@pytest.fixture
+def solved(tmp_path):
+    """The solution of the task, with a text in it replaced by another."""
+
+    def solved(old: str = "", new: str = ""):
+        path = tmp_path / "cam.toml"
+        path.write_text(UNDERCUT.replace(old, new) if old else UNDERCUT)
+        return solve(load_task(path))
+
+    return solved
+
+
+def test_the_builtin_cam_is_sound():
+    assert solve(builtin_task()).warnings == []
+
+
+def test_undercut_limits_and_prime_radius_are_warned_of_in_this_order(solved):
+    first, second, third = solved().warnings
+    for said in (
+        "with a roller of 20 mm", "between the cusps at 42.22° and 54.12°, and is lost from 36.66° to 58.62°",
+        "96.54° and 104.01°", "Every roller smaller than 16.645 mm avoids the cusps.",
+    ):  # fmt: skip
+        assert said in first
+    assert second.startswith("The pressure angle reaches ")
+    assert "° on the rise, at " in second
+    assert third.startswith("The given prime radius of 30 mm is smaller than the least permitted one, ")
+
+
+def test_the_remedy_is_one(solved):
+    """The angles stay as they are, but the profile can be cut."""
+    warned = solved("= 20", "= 16.645").warnings
+    assert len(warned) == 2
+    assert not any("cut" in sentence for sentence in warned)
+    assert "cut" in solved("= 20", "= 16.646").warnings[0]
+
+
+def test_a_return_under_force_closure_is_not_limited(solved):
+    assert not any("return" in sentence for sentence in solved().warnings)
+    warned = solved("[cam]", "[limits]\npressure_angle_return = 30\n[cam]").warnings
+    assert any("° on the return, at " in sentence for sentence in warned)
+
+
+def test_a_flat_face_on_too_small_a_cam(solved):
+    translating = UNDERCUT[UNDERCUT.index('kind = "translating"') :]
+    first, *_ = solved(translating, 'kind = "flat-faced"\n[cam]\nprime_radius = 10\n').warnings
+    assert "by the flat face on a prime radius of 10 mm" in first
+    assert first.endswith("Enlarge the prime radius.")
+
+
+def test_sheet_and_note_tell_the_warnings(solved):
+    solution = solved()
+    written = note(solution)
+    assert all(f"**{sentence}**" in written for sentence in solution.warnings)
+    entities = [entity for page in sheet(solution).pages for group in page.groups for entity in group.entities]
+    texts = " ".join(entity.text for entity in entities if isinstance(entity, Text))
+    assert all(sentence in texts for sentence in solution.warnings)
+
+
+def test_the_command_line_prints_them_on_standard_error(tmp_path):
+    path = tmp_path / "cam.toml"
+    path.write_text(UNDERCUT)
+    result = CliRunner().invoke(app, ["solve", str(path), "--json"])
+    assert result.exit_code == 0
+    assert result.stderr.count("warning: ") == 3
+    assert "warning" not in result.stdout
+
+
+ARM = """
+rotation = "ccw"
+[motion]
+phases = [
+  { kind = "rise", angle = 58, lift = 35, law = "2-3" },
+  { kind = "dwell", angle = 24 },
+  { kind = "return", angle = 58, lift = 35, law = "2-3" },
+  { kind = "dwell", angle = 220 },
+]
+[follower]
+kind = "oscillating"
+arm = 47
+distance = 144
+[limits]
+pressure_angle_rise = 48
+pressure_angle_return = 21
+"""
+
+
+def test_sizes_that_could_not_be_round_are_told(tmp_path):
+    """At this centre distance no whole millimetre lies on the arc that the limits leave; five further out one does."""
+    path = tmp_path / "arm.toml"
+    for distance, told in ((144, True), (149, False)):
+        path.write_text(ARM.replace("144", f"{distance}"))
+        solution = solve(load_task(path))
+        said = [text for text in solution.warnings if text.startswith("No multiples of 1 mm go with one another")]
+        assert bool(said) == told
+        assert not told or f"{solution.cam.prime_radius:g} mm with the centre distance 144 mm is adopted" in said[0]

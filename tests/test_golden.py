@@ -1,0 +1,54 @@
+"""What the built-in tasks read and draw is what they read and drew before: readings, marks, captions, sheets.
+
+A change that is meant is made with ``python tests/golden.py``, and the difference is read before it is committed.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+
+import pytest
+from golden import FILE, TASKS, differences, solved
+
+READINGS, MARKS = 1e-12, 1e-9
+"""Permitted differences, of a value or of 1: the sums over marks gather the rounding of many points."""
+BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module", params=sorted(path.stem for path in TASKS.glob("*.toml")))
+def task(request):
+    return request.param, json.loads(json.dumps(solved(request.param)))
+
+
+def readings(found):
+    return {name: (drawn["readings"], drawn["points"]) for name, drawn in found["constructions"].items()}
+
+
+def test_every_reading_is_the_one_that_was_read_before(task):
+    name, now = task
+    assert differences(readings(BEFORE[name]), readings(now), READINGS) == []
+    assert differences(BEFORE[name]["quantities"], now["quantities"], READINGS) == []
+
+
+def test_every_mark_and_every_sheet_is_the_one_that_was_drawn_before(task):
+    name, now = task
+    assert differences(BEFORE[name], now, MARKS) == []
+
+
+def test_a_reading_that_moves_by_more_than_rounding_is_found():
+    now = copy.deepcopy(BEFORE["arm"])
+    paper = now["constructions"]["pressure_angle"]["readings"]["alpha"][0]
+    paper[3] *= 1 + 1e-11
+    assert len(differences(BEFORE["arm"], now, READINGS)) == 1
+
+
+def test_a_mark_that_moves_or_bears_another_word_is_found():
+    now = copy.deepcopy(BEFORE["flat"])
+    step = now["constructions"]["inversion"]["steps"][0]
+    step[0] += "."
+    line = next(mark for mark in step[3] if mark[0] == "Line")
+    line[1][2] += 1e-6
+    found = differences(BEFORE["flat"], now, MARKS)
+    assert len(found) == 2
+    assert all("/inversion/steps/0/" in line for line in found)
