@@ -54,7 +54,7 @@ def asked(monkeypatch):
         progress("PDF")
         return {"pdf": "cam.pdf", "player": None}
 
-    solving.solve, report.write, report.check_papers = solve, write, lambda solution, upto, dxf: None
+    solving.solve, report.write, report.check_choices = solve, write, lambda solution, upto, dxf: None
     for module in (solving, report):
         monkeypatch.setitem(sys.modules, module.__name__, module)
     return calls

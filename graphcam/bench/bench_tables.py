@@ -13,7 +13,7 @@ Cell = str | int | float | None
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Texts in rows; the first ``words`` columns hold words, the others numbers; ``brief`` ones go to the terminal."""
 
     title: str
@@ -24,7 +24,7 @@ class Table:
     brief: bool = True
 
 
-def tables(report: Report) -> list[Table]:
+def tables(report: Report) -> list[TextTable]:
     """All tables of a report, in order."""
     return [_convergence(report), _pencil(report), _methods(report), _exact(report), _peers(report), _drawing(report)]
 
@@ -65,7 +65,7 @@ def numbers(report: Report) -> Iterator[list[Cell]]:
         yield ["rendering", "sheet", "", name, None, None, "", pairs, "sine-cosine pairs", ""]
 
 
-def _convergence(report: Report) -> Table:
+def _convergence(report: Report) -> TextTable:
     laws = list(dict.fromkeys(s.law for s in report.series))
     cells: dict[tuple[str, str], dict[str, str]] = {}
     for s in report.series:
@@ -77,10 +77,10 @@ def _convergence(report: Report) -> Table:
         "brackets the greatest n² times the relative error. A greatest value is read off a faired curve between the "
         "stations: its error stays below the bracket over n² but goes up and down, so its order is no whole number."
     )
-    return Table("Error against the number of parts", note, ("follower", "quantity", *laws), rows, 2)
+    return TextTable("Error against the number of parts", note, ("follower", "quantity", *laws), rows, 2)
 
 
-def _pencil(report: Report) -> Table:
+def _pencil(report: Report) -> TextTable:
     rows = [
         [h.law, str(h.best), f"{100 * h.floor:.2f} %", f"{100 * h.band[0]:.2f} to {100 * h.band[1]:.2f} %"]
         for h in report.hands
@@ -90,10 +90,10 @@ def _pencil(report: Report) -> Table:
         "projection and every chord: the number of parts at which its mean is least, that floor, and the range of nine "
         "hands in ten. Under a law that the method draws exactly the fewest parts are the best."
     )
-    return Table("Error of the hand", note, ("law", "best number of parts", "floor", "nine in ten hands"), rows)
+    return TextTable("Error of the hand", note, ("law", "best number of parts", "floor", "nine in ten hands"), rows)
 
 
-def _methods(report: Report) -> Table:
+def _methods(report: Report) -> TextTable:
     rows = [
         [m.question, m.name, str(n), f"{pairs:.3g}", f"{error:.1e}"]
         for m in report.methods
@@ -103,12 +103,12 @@ def _methods(report: Report) -> Table:
         "From the task to the result, everything in between included. Time is in sines and cosines: one pair of them "
         f"took {1e9 * report.pair:.1f} ns here."
     )
-    return Table(
+    return TextTable(
         "Error against time", note, ("question", "method", "n", "time, pairs", "relative error"), rows, 2, False
     )
 
 
-def _exact(report: Report) -> Table:
+def _exact(report: Report) -> TextTable:
     rows = [
         [r.name, r.what, f"{r.ratio:.3g} {r.unit}", r.goal or NONE, f"{1e6 * r.seconds:.3g}",
          NONE if r.error_eps is None else f"{r.error_eps:.1f}"]
@@ -119,10 +119,10 @@ def _exact(report: Report) -> Table:
         "of 2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
         "processors badly: where other work runs, set OPENBLAS_NUM_THREADS=1."
     )
-    return Table("The exact side", note, ("what", "of what", "ratio", "goal", "µs here", "rounding, eps"), rows, 2)
+    return TextTable("The exact side", note, ("what", "of what", "ratio", "goal", "µs here", "rounding, eps"), rows, 2)
 
 
-def _peers(report: Report) -> Table:
+def _peers(report: Report) -> TextTable:
     rows = [
         [p.package, p.quantity, p.reason, NONE if p.error is None else f"{p.error:.2g} {p.unit}",
          NONE if p.slower is None else f"{p.slower:.1f}"]
@@ -132,13 +132,13 @@ def _peers(report: Report) -> Table:
         "On a cam of prime radius 60, offset 10, roller 12, lift 30, phases of 120, 30, 90 and 120 degrees, cycloidal "
         "rise, harmonic return. Time is a multiple of graphcam's for 360 stations."
     )
-    return Table("Other packages", note, ("package", "quantity", "remark", "greatest error", "time ratio"), rows, 3)
+    return TextTable("Other packages", note, ("package", "quantity", "remark", "greatest error", "time ratio"), rows, 3)
 
 
-def _drawing(report: Report) -> Table:
+def _drawing(report: Report) -> TextTable:
     rows = [[d.follower, d.construction, f"{d.readings:.0f}", f"{d.steps:.0f}"] for d in report.drawing]
     rows += [["sheet", name, NONE, f"{pairs:.0f}"] for name, pairs in report.rendering.items()]
     note = (
         "In sine-cosine pairs, 12 parts a phase: what is read, then what is drawn of it, then the sheet of all of it."
     )
-    return Table("Readings, steps and rendering", note, ("follower", "construction", "readings", "steps"), rows, 2)
+    return TextTable("Readings, steps and rendering", note, ("follower", "construction", "readings", "steps"), rows, 2)

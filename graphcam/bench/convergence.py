@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.bench.scenes import FOLLOWERS, LAWS, Scene, scene
+from graphcam.bench.scenes import FOLLOWERS, LAWS, TestScene, scene
 from graphcam.constructions.chain import Chain
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
@@ -26,7 +26,7 @@ EXACT = 1e-12
 ROUNDS, SAMPLES, NARROWED = 6, 41, 10.0
 """Of the nested search for the nearest place of the profile: it ends within 1e-7 rad, which moves a distance across the
 profile by 1e-14 of a radius."""
-Measure = Callable[[Scene, Chain], float]
+Measure = Callable[[TestScene, Chain], float]
 
 
 @dataclass(frozen=True)
@@ -88,18 +88,18 @@ def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = LAWS) -> lis
 # --- the measures ----------------------------------------------------------------------------------------------------
 
 
-def displacement_error(where: Scene, chain: Chain) -> float:
+def displacement_error(where: TestScene, chain: Chain) -> float:
     """The greatest error of s at the stations."""
     return _at_stations(where, chain, "s")
 
 
-def least_radius_error(where: Scene, chain: Chain) -> float:
+def least_radius_error(where: TestScene, chain: Chain) -> float:
     """The error of the least prime radius."""
     exact = where.least().prime_radius
     return abs(float(chain["minimum_radius"].value("prime_radius")) / exact - 1)
 
 
-def profile_error(where: Scene, chain: Chain) -> float:
+def profile_error(where: TestScene, chain: Chain) -> float:
     """The greatest distance of the touch points from the exact profile."""
     profile = chain["working_profile"]
     touch = profile.points["touch"] * profile.givens["inverted"].givens["mu_l"].per_mm
@@ -135,30 +135,30 @@ def as_complex(points: Floats) -> Complexes:
     return points[..., 0] + 1j * points[..., 1]
 
 
-def _at_stations(where: Scene, chain: Chain, name: str) -> float:
+def _at_stations(where: TestScene, chain: Chain, name: str) -> float:
     stations = chain.board.stations
     exact = where.board.motion.at(stations.phase, stations.u)["sva".index(name)]
     return float(np.abs(chain["integration"].value(name) - exact).max() / np.abs(exact).max())
 
 
-def _pressure_angle_error(where: Scene, chain: Chain) -> float:
+def _pressure_angle_error(where: TestScene, chain: Chain) -> float:
     stations = chain.board.stations
     exact = where.cam.at(stations.phase, stations.u).pressure_angle
     return float(np.nanmax(np.abs(chain["pressure_angle"].value("alpha") - exact)) / np.abs(exact).max())
 
 
-def _greatest_angle_error(where: Scene, chain: Chain) -> float:
+def _greatest_angle_error(where: TestScene, chain: Chain) -> float:
     exact = where.cam.extremes().pressure_angle_rise[0]
     return abs(float(chain["angle_diagram"].value("max_rise")) / exact - 1)
 
 
-def _pitch_error(where: Scene, chain: Chain) -> float:
+def _pitch_error(where: TestScene, chain: Chain) -> float:
     inverted, exact = chain["inversion"], where.cam.pitch_curve(chain.board.stations.phi)
     distance = np.hypot(inverted.value("x") - exact[:, 0], inverted.value("y") - exact[:, 1])
     return float(distance.max()) / where.sizes.prime_radius
 
 
-def _curvature_error(where: Scene, chain: Chain) -> float:
+def _curvature_error(where: TestScene, chain: Chain) -> float:
     extremes, readings = where.cam.extremes(), chain["curvature"].readings
     name = "rho_candidates" if "rho_candidates" in readings else "rho"
     drawn = float(np.atleast_1d(chain["curvature"].value(name))[0])

@@ -46,7 +46,7 @@ HALVINGS = 8
 
 
 @dataclass(frozen=True)
-class Row:
+class ExactRow:
     """One figure of the exact side.
 
     ratio : in ``unit``, or how many times faster;  goal : what the ratio should keep to
@@ -63,7 +63,7 @@ class Row:
     seconds: float
 
 
-def exact_rows(stations: int, points: int, timer: Timer) -> list[Row]:
+def exact_rows(stations: int, points: int, timer: Timer) -> list[ExactRow]:
     """Laws at ``stations``, cam points at ``points`` stations, extremes, and least radii beside their rivals."""
     return [
         *_laws(stations, timer),
@@ -76,9 +76,9 @@ def exact_rows(stations: int, points: int, timer: Timer) -> list[Row]:
     ]
 
 
-def _laws(n: int, timer: Timer) -> list[Row]:
+def _laws(n: int, timer: Timer) -> list[ExactRow]:
     unit, u, checked = timer.pairs(n), np.linspace(0, 1, n), inner_places()
-    rows: list[Row] = []
+    rows: list[ExactRow] = []
     for name, goal in GOALS.items():
         the_law = law(name)
         seconds = timer.seconds(lambda the_law=the_law: the_law(u))
@@ -88,19 +88,19 @@ def _laws(n: int, timer: Timer) -> list[Row]:
             greatest = np.abs(np.array(the_law(np.linspace(0, 1, 1001)))).max(axis=1)
             off = np.abs(np.array(the_law(checked)) - exact).max(axis=1)
             error = float((off[greatest > 0] / greatest[greatest > 0]).max()) / reference.EPS
-        rows.append(Row(f"law {name}", f"f, f', f'', f''' at {n} places", seconds / unit, f"SC({n})", goal, error,
+        rows.append(ExactRow(f"law {name}", f"f, f', f'', f''' at {n} places", seconds / unit, f"SC({n})", goal, error,
                         seconds))  # fmt: skip
     return rows
 
 
-def _cam_points(n: int, timer: Timer) -> list[Row]:
+def _cam_points(n: int, timer: Timer) -> list[ExactRow]:
     unit, phi, where = timer.pairs(n), turn(n), scene("translating", "3-4-5")
     cam, motion = where.cam, where.board.motion
 
-    def row(name: str, what: str, work: Callable[[], object], goal: str = "", error: float | None = None) -> Row:
+    def row(name: str, what: str, work: Callable[[], object], goal: str = "", error: float | None = None) -> ExactRow:
         """The time of work at all stations, in their sines and cosines."""
         seconds = timer.seconds(work)
-        return Row(name, f"{what} at {n} stations", seconds / unit, f"SC({n})", goal, error, seconds)
+        return ExactRow(name, f"{what} at {n} stations", seconds / unit, f"SC({n})", goal, error, seconds)
 
     off = exact_profile_error(where)
     return [
@@ -112,29 +112,29 @@ def _cam_points(n: int, timer: Timer) -> list[Row]:
     ]  # fmt: skip
 
 
-def _extremes(timer: Timer) -> list[Row]:
+def _extremes(timer: Timer) -> list[ExactRow]:
     unit = timer.pairs(RIVAL_STATIONS)
-    rows: list[Row] = []
+    rows: list[ExactRow] = []
     for follower in FOLLOWERS:
         cam = scene(follower, "3-4-5").cam
         seconds = timer.seconds(cam.extremes)
-        rows.append(Row(f"extremes, {follower}", "pressure angles and least convex radius", seconds / unit,
+        rows.append(ExactRow(f"extremes, {follower}", "pressure angles and least convex radius", seconds / unit,
                         f"SC({RIVAL_STATIONS})", "", None, seconds))  # fmt: skip
     return rows
 
 
-def _sweeps(timer: Timer) -> list[Row]:
-    rows: list[Row] = []
+def _sweeps(timer: Timer) -> list[ExactRow]:
+    rows: list[ExactRow] = []
     for t in sweep_times(timer):
         eps, ratio = t.error / reference.EPS, t.seconds / t.pairs
-        rows.append(Row(f"sweep, {t.name}", "all quantities of a design", ratio, f"SC({STATIONS})", "<= 1.6", eps,
+        rows.append(ExactRow(f"sweep, {t.name}", "all quantities of a design", ratio, f"SC({STATIONS})", "<= 1.6", eps,
                         t.seconds))  # fmt: skip
-        rows.append(Row(f"sweep, {t.name}", "beside a loop over the extremes of one cam", t.looped / t.seconds,
+        rows.append(ExactRow(f"sweep, {t.name}", "beside a loop over the extremes of one cam", t.looped / t.seconds,
                         "times faster", ">= 8", None, t.looped))  # fmt: skip
     return rows
 
 
-def _least_radii(timer: Timer) -> list[Row]:
+def _least_radii(timer: Timer) -> list[ExactRow]:
     free, arm, n = free_scene("3-4-5"), scene("arm", "3-4-5"), RIVAL_STATIONS
     unit = timer.pairs(n)
     closed, exchange = timer.seconds(free.least), timer.seconds(arm.least)
@@ -158,8 +158,10 @@ def _least_radii(timer: Timer) -> list[Row]:
         ("arm", LINES, exchange, lambda: by_optimiser(arms, start), arm_least),
     ]
     rows = [
-        Row("least radius, translating", "closed form", closed / unit, f"SC({n})", "<= 5 µs", error, closed),
-        Row("least radius, arm", "exchange of half-planes", exchange / unit, f"SC({n})", "<= 3000 µs", None, exchange),
+        ExactRow("least radius, translating", "closed form", closed / unit, f"SC({n})", "<= 5 µs", error, closed),
+        ExactRow(
+            "least radius, arm", "exchange of half-planes", exchange / unit, f"SC({n})", "<= 3000 µs", None, exchange
+        ),
     ]
     # A matrix routine that meets other work on its processors takes many times as long: only the best of many runs is
     # the rival's own time.
@@ -168,35 +170,35 @@ def _least_radii(timer: Timer) -> list[Row]:
         seconds, off = patient.seconds(work), work() / exact - 1
         what = f"beside {rival}, {n} stations: off by {off:+.1e}"
         goal = ">= 100" if rival in (ANGLES, LINES) else ""
-        rows.append(Row(f"least radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds))
+        rows.append(ExactRow(f"least radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds))
     return rows
 
 
-def _few_stations(timer: Timer) -> Row:
+def _few_stations(timer: Timer) -> ExactRow:
     motion, phi = scene("translating", "3-4-5").board.motion, turn(FEW)
     seconds, what = timer.seconds(lambda: motion(phi)), f"s, v, a, j at {FEW} stations"
-    return Row("motion", what, seconds / timer.pairs(FEW), f"SC({FEW})", "<= 100 µs", None, seconds)
+    return ExactRow("motion", what, seconds / timer.pairs(FEW), f"SC({FEW})", "<= 100 µs", None, seconds)
 
 
-def _sums(timer: Timer) -> list[Row]:
+def _sums(timer: Timer) -> list[ExactRow]:
     """Running sums of values of one sign, beside numpy's own, against the correctly rounded sum."""
     values = np.random.default_rng(0).uniform(0.0, 1.0, SUMMED)
     copied = np.empty_like(values)
     copy, exact = timer.seconds(lambda: np.copyto(copied, values)), math.fsum(values)
-    rows: list[Row] = []
+    rows: list[ExactRow] = []
     for name, goal, work in (("accurate", "<= 4", accurate_cumsum), ("plain", "", np.cumsum)):
         seconds, error = timer.seconds(lambda work=work: work(values)), abs(float(work(values)[-1]) - exact) / exact
-        rows.append(Row(f"running sum, {name}", f"{SUMMED} values", seconds / copy, "memory copies", goal,
+        rows.append(ExactRow(f"running sum, {name}", f"{SUMMED} values", seconds / copy, "memory copies", goal,
                         error / reference.EPS, seconds))  # fmt: skip
     return rows
 
 
-def _three_points(timer: Timer) -> list[Row]:
+def _three_points(timer: Timer) -> list[ExactRow]:
     """The order of the curvature through three points of the pitch curve, at equal and at unequal chords."""
     cam = scene("translating", "3-4-5").cam
     at, steps = 0.6, 0.1 / 2 ** np.arange(HALVINGS)
     exact = float(cam.pitch_curvature(at))
-    rows: list[Row] = []
+    rows: list[ExactRow] = []
     for name, goal, share in (("equal", "2.00 ± 0.05", 1.0), ("unequal", "1.00 ± 0.05", 2.0)):
         chords = share * steps, steps
 
@@ -206,6 +208,6 @@ def _three_points(timer: Timer) -> list[Row]:
 
         errors = np.abs(curvature() - exact)
         order = float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
-        rows.append(Row("three points", f"curvature, {name} chords", order, "order", goal, None,
+        rows.append(ExactRow("three points", f"curvature, {name} chords", order, "order", goal, None,
                         timer.seconds(curvature)))  # fmt: skip
     return rows

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.bench.convergence import distance_from_profile
-from graphcam.bench.scenes import LIFT, Scene, free_scene, motion_of, scene
+from graphcam.bench.scenes import LIFT, TestScene, free_scene, motion_of, scene
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 
@@ -65,7 +65,7 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
     return Hands(law, tuple(parts), tuple(errors.mean(axis=1).tolist()), tuple(low), tuple(high), tuple(method))
 
 
-def shape_errors(where: Scene, parts: int, pencil: Pencil) -> Floats:
+def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     """The greatest error of s on the rise of every hand, relative to the lift."""
     chain = where.chain(parts, pencil)
     stations = chain.board.stations
@@ -87,7 +87,7 @@ def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, fl
     return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}
 
 
-def _profile_errors(where: Scene, parts: int, pencil: Pencil) -> Floats:
+def _profile_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     """The greatest distance of every hand's touch points from the exact profile, relative to the prime radius."""
     chain = where.chain(parts, pencil)
     profile = chain["working_profile"]

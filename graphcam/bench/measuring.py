@@ -9,13 +9,13 @@ from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.drawing_time import DrawingTime, drawing_times
-from graphcam.bench.exact_rows import Row, exact_rows
+from graphcam.bench.exact_rows import ExactRow, exact_rows
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS
 from graphcam.bench.hand_errors import SIGMA, Hands, bands, by_hand
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.scenes import LAWS
 from graphcam.bench.timing import Timer
-from graphcam.bench.tradeoff import LAW, Method, Sizes, tradeoff
+from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
 PAIR_STATIONS = 100_000
 """Sines and cosines over which the unit of time is measured."""
@@ -29,25 +29,34 @@ class Effort:
     laws: tuple[str, ...]
     hands: int
     pencil_parts: tuple[int, ...]
-    sizes: Sizes
+    sizes: TimedSizes
     law_stations: int
     cam_stations: int
     budget: float
 
 
+STEP_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
+"""Parts, each time twice and then four times as many."""
+STEP_BY_THREE = (12, 36, 120, 360, 1080, 3240, 9720, 29160)
 QUICK = Effort(
-    PARTS, LAWS, 1000, PENCIL_PARTS,
-    Sizes((6, 12, 24, 48, 96, 384, 1536, 6144), (6, 12, 24, 48, 96, 384), (6, 12, 24, 48, 96, 384, 1536, 6144, 24576),
-          (12, 36, 120, 360, 1080, 3240), (12, 36, 120, 360), (24, 96, 360, 1440, 5760)),
-    100_000, 1_000_000, 0.02,
-)  # fmt: skip
+    *(PARTS, LAWS, 1000, PENCIL_PARTS),
+    TimedSizes(
+        STEP_BY_FOUR[:8],
+        STEP_BY_FOUR[:6],
+        STEP_BY_FOUR[:9],
+        STEP_BY_THREE[:6],
+        STEP_BY_THREE[:4],
+        (24, 96, 360, 1440, 5760),
+    ),
+    *(100_000, 1_000_000, 0.02),
+)
 FULL = Effort(
-    PARTS, LAWS, 2000, PENCIL_PARTS,
-    Sizes((6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304), (6, 12, 24, 48, 96, 384, 1536),
-          (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304), (12, 36, 120, 360, 1080, 3240, 9720, 29160),
-          (12, 36, 120, 360), (24, 96, 360, 1440, 5760, 23040)),
-    100_000, 1_000_000, 0.2,
-)  # fmt: skip
+    *(PARTS, LAWS, 2000, PENCIL_PARTS),
+    TimedSizes(
+        STEP_BY_FOUR, STEP_BY_FOUR[:7], STEP_BY_FOUR, STEP_BY_THREE, STEP_BY_THREE[:4], (24, 96, 360, 1440, 5760, 23040)
+    ),
+    *(100_000, 1_000_000, 0.2),
+)
 
 
 @dataclass(frozen=True)
@@ -64,7 +73,7 @@ class Report:
     hands: tuple[Hands, ...]
     bands: Mapping[str, tuple[float, float]]
     methods: tuple[Method, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[ExactRow, ...]
     peers: tuple[Peer, ...]
     drawing: tuple[DrawingTime, ...]
     rendering: Mapping[str, float]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.bench.rivals import optional
-from graphcam.bench.scenes import LIFT, LIMIT, Scene
+from graphcam.bench.scenes import LIFT, LIMIT, TestScene
 from graphcam.given.laws import Floats
 
 EPS = float(np.finfo(float).eps)
@@ -49,7 +49,7 @@ def law_values(law: str, u: Floats) -> Floats:
     return np.array(rows)
 
 
-def profile_points(where: Scene, u: Floats) -> Floats:
+def profile_points(where: TestScene, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
     mp: Any = optional("mpmath")
     motion, sizes = where.board.motion, where.sizes
@@ -69,7 +69,7 @@ def profile_points(where: Scene, u: Floats) -> Floats:
     return np.array(points)
 
 
-def least_radius(where: Scene) -> float:
+def least_radius(where: TestScene) -> float:
     """The least radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
     mp: Any = optional("mpmath")
     with mp.workdps(DIGITS):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from math import radians
 
 from graphcam.constructions.board import Board, DrawnFollower
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.drawn_arm import DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
@@ -30,13 +30,13 @@ LIMIT = radians(30)
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class TestScene:
     """One follower under one law, with sizes that do not depend on the drawing: what converges is one cam's drawing."""
 
     follower: str
     law: str
     board: Board
-    sizes: Sizes
+    sizes: AdoptedSizes
 
     def chain(self, parts: int, pencil: Pencil | None = None) -> Chain:
         """The drawing in so many parts a phase; nothing of it is drawn yet."""
@@ -71,24 +71,24 @@ def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> 
     )
 
 
-def scene(follower: str, law: str) -> Scene:
+def scene(follower: str, law: str) -> TestScene:
     """The translating follower is that of the built-in coursework task.
 
     >>> scene("arm", "3-4-5").cam.follower
     Oscillating(arm=100.0, distance=120.0, roller_radius=10.0)
     """
     if follower == "translating":
-        motion, sizes = motion_of(law, LIFT, 80, 45, 60), Sizes(46.0, -10.0, 12.0)
-        return Scene(follower, law, _board(motion, DrawnTranslating(-10.0), Limits(LIMIT, None, True), "cw"), sizes)
+        motion, sizes = motion_of(law, LIFT, 80, 45, 60), AdoptedSizes(46.0, -10.0, 12.0)
+        return TestScene(follower, law, _board(motion, DrawnTranslating(-10.0), Limits(LIMIT, None, True), "cw"), sizes)
     if follower == "arm":
-        motion, sizes = motion_of(law, radians(20), 90, 40, 80), Sizes(50.0, 120.0, 10.0)
+        motion, sizes = motion_of(law, radians(20), 90, 40, 80), AdoptedSizes(50.0, 120.0, 10.0)
         limits = Limits(radians(45), None, True)
-        return Scene(follower, law, _board(motion, DrawnOscillating(ARM, None), limits, "ccw"), sizes)
-    motion, sizes = motion_of(law, LIFT, 120, 30, 100), Sizes(60.0, 0.0, 0.0)
-    return Scene(follower, law, _board(motion, DrawnFlatFaced(8.0), Limits(LIMIT, None, True), "ccw"), sizes)
+        return TestScene(follower, law, _board(motion, DrawnOscillating(ARM, None), limits, "ccw"), sizes)
+    motion, sizes = motion_of(law, LIFT, 120, 30, 100), AdoptedSizes(60.0, 0.0, 0.0)
+    return TestScene(follower, law, _board(motion, DrawnFlatFaced(8.0), Limits(LIMIT, None, True), "ccw"), sizes)
 
 
-def free_scene(law: str) -> Scene:
+def free_scene(law: str) -> TestScene:
     """The translating follower with its offset left open and both pressure angles limited: the least radius alone."""
     fixed = scene("translating", law)
     board = replace(fixed.board, follower=DrawnTranslating(None), limits=Limits(LIMIT, LIMIT, True))

@@ -27,7 +27,7 @@ from graphcam.bench.rivals import (
     samples,
     translating_lines,
 )
-from graphcam.bench.scenes import LIFT, LIMIT, Scene, free_scene, scene
+from graphcam.bench.scenes import LIFT, LIMIT, TestScene, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -60,7 +60,7 @@ class Method:
 
 
 @dataclass(frozen=True)
-class Sizes:
+class TimedSizes:
     """The numbers of parts or stations up to which the methods are taken."""
 
     graphical: tuple[int, ...]
@@ -71,7 +71,7 @@ class Sizes:
     buffer: tuple[int, ...]
 
 
-def tradeoff(sizes: Sizes, timer: Timer, pair: float) -> list[Method]:
+def tradeoff(sizes: TimedSizes, timer: Timer, pair: float) -> list[Method]:
     """All methods of all questions; ``pair`` is the time of one sine and one cosine [s]."""
     fixed, free = scene("translating", LAW), free_scene(LAW)
 
@@ -129,7 +129,7 @@ def turn(n: int) -> Floats:
     return np.linspace(0, FULL_TURN, n, endpoint=False)
 
 
-def exact_displacement_error(where: Scene) -> float | None:
+def exact_displacement_error(where: TestScene) -> float | None:
     """The greatest error of the exact s on the rise, relative to the lift; None without mpmath."""
     if not reference.available():
         return None
@@ -137,12 +137,12 @@ def exact_displacement_error(where: Scene) -> float | None:
     return float(np.abs(where.board.motion.at(0, u)[0] / LIFT - reference.law_values(where.law, u)[0]).max())
 
 
-def exact_least_radius_error(where: Scene) -> float | None:
+def exact_least_radius_error(where: TestScene) -> float | None:
     """The relative error of the exact least radius; None without mpmath."""
     return abs(where.least().prime_radius / reference.least_radius(where) - 1) if reference.available() else None
 
 
-def exact_profile_error(where: Scene) -> float | None:
+def exact_profile_error(where: TestScene) -> float | None:
     """The greatest error of an exact coordinate on the rise, relative to the prime radius; None without mpmath."""
     if not reference.available():
         return None
@@ -156,15 +156,15 @@ def inner_places() -> Floats:
     return np.random.default_rng(0).uniform(0.01, 0.99, CHECKED)
 
 
-def _half_planes_off(where: Scene, n: int) -> float:
+def _half_planes_off(where: TestScene, n: int) -> float:
     return abs(by_half_planes(translating_lines(where.board.motion, LIMIT, n), INSIDE) / where.least().prime_radius - 1)
 
 
-def _optimiser_off(where: Scene, n: int) -> float:
+def _optimiser_off(where: TestScene, n: int) -> float:
     return abs(by_optimiser(translating_lines(where.board.motion, LIMIT, n), INSIDE) / where.least().prime_radius - 1)
 
 
-def _buffer_off(where: Scene, n: int) -> float:
+def _buffer_off(where: TestScene, n: int) -> float:
     corners = as_complex(buffered(where.cam.pitch_curve(turn(n)), where.sizes.roller_radius))
     some = corners[:: max(1, corners.size // 2000)]
     return (

@@ -10,7 +10,7 @@ import typer
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
 
 if TYPE_CHECKING:
-    from graphcam.bench.bench_tables import Table as Texts
+    from graphcam.bench.bench_tables import TextTable
 
 DEFAULT_BENCH = DEFAULT_FOLDER / "bench"
 
@@ -42,7 +42,7 @@ def bench(
     typer.echo(f"{out}: " + ", ".join(FILES))
 
 
-def _print_texts(texts: Texts) -> None:
+def _print_texts(texts: TextTable) -> None:
     from rich.console import Console
     from rich.table import Table
 

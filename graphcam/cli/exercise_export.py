@@ -8,14 +8,14 @@ from typing import Annotated
 import typer
 
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_bar
-from graphcam.exercises.exports.systems import Format
+from graphcam.exercises.exports.systems import LearningSystem
 
 DEFAULT_EXPORT = DEFAULT_FOLDER / "export"
 
 
 def export(
     name: Annotated[str, typer.Argument(metavar="NAME", help="An exercise, or the path of its file.")],
-    target: Annotated[Format, typer.Option("--format", help="The system that it is for.")],
+    target: Annotated[LearningSystem, typer.Option("--format", help="The system that it is for.")],
     count: Annotated[int, typer.Option("--count", min=1, max=1000, metavar="N", help="How many variants.")] = 1,
     roster: Annotated[
         Path | None, typer.Option("--roster", metavar="CSV", help="A variant for each of these students instead.")

@@ -34,7 +34,7 @@ FINER = (1.0, 0.1, 0.01, 0.001)
 
 
 @dataclass(frozen=True)
-class Sizes:
+class AdoptedSizes:
     """The sizes that are built [mm]; ``place`` is the follower's offset or centre distance."""
 
     prime_radius: float
@@ -57,7 +57,7 @@ class Chain(Mapping[str, Construction]):
 
     board: Board
     pencil: Pencil = field(default_factory=Pencil)
-    decided: Sizes | None = None
+    decided: AdoptedSizes | None = None
     done: Mapping[str, Construction] = field(default_factory=dict[str, Construction])
 
     def __post_init__(self) -> None:
@@ -282,9 +282,9 @@ class Chain(Mapping[str, Construction]):
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
     @property
-    def sizes(self) -> Sizes:
+    def sizes(self) -> AdoptedSizes:
         """All adopted sizes."""
-        return Sizes(self.prime_radius, self.place, self.roller_radius)
+        return AdoptedSizes(self.prime_radius, self.place, self.roller_radius)
 
     @cached_property
     def profile_scale(self) -> Scale:

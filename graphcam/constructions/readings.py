@@ -76,7 +76,7 @@ TITLES: Mapping[str, Caption] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Row:
+class ReadingRow:
     """One reading of a step in the first sample, as it is written down: angles in degrees.
 
     paper : what was measured, () or (m,) [mm, or degrees of an angle that was measured itself]
@@ -111,7 +111,7 @@ class Row:
         return replace(said, values={"paper": paper, "mu": self.mu, "value": value, "unit": unit(self.unit)})
 
 
-def rows(construction: Construction, step: Step) -> list[Row]:
+def rows(construction: Construction, step: Step) -> list[ReadingRow]:
     """The readings that a step of a construction takes; one that could not be read anywhere is left out.
 
     >>> from graphcam.solving.solve import solve
@@ -127,7 +127,7 @@ def rows(construction: Construction, step: Step) -> list[Row]:
     return [row for row in found if not np.isnan(row.paper).all()]
 
 
-def _row(construction: Construction, name: str) -> Row:
+def _row(construction: Construction, name: str) -> ReadingRow:
     reading = construction.readings[name]
     # Not Construction.first: a place of the same name would come before the reading.
     paper = reading.paper[0] if construction.givens["pencil"].samples is not None else reading.paper
@@ -136,14 +136,21 @@ def _row(construction: Construction, name: str) -> Row:
     places = _places(construction, paper.size) if paper.ndim else ()
     mu = float(np.ravel(reading.scale)[0])
     if reading.unit == PAPER:
-        return Row(name, title, paper, None, paper, "mm", places)
+        return ReadingRow(name, title, paper, None, paper, "mm", places)
     if reading.unit == "rad":
         # An angle that was measured as such has the scale 1 on every sheet.
         measured = mu == 1
         degrees = np.degrees(paper * mu)
-        return Row(name, title, degrees if measured else paper, None if measured else float(np.degrees(mu)), degrees,
-                   "°", places)  # fmt: skip
-    return Row(name, title, paper, mu, paper * mu, reading.unit, places)
+        return ReadingRow(
+            name,
+            title,
+            degrees if measured else paper,
+            None if measured else float(np.degrees(mu)),
+            degrees,
+            "°",
+            places,
+        )
+    return ReadingRow(name, title, paper, mu, paper * mu, reading.unit, places)
 
 
 def _places(construction: Construction, size: int) -> tuple[str, ...]:

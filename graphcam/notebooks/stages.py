@@ -10,7 +10,7 @@ from html import escape
 
 import numpy as np
 
-from graphcam.constructions.readings import Row, rows
+from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.notebooks.picture import Picture
@@ -45,7 +45,7 @@ class Stage:
     number: int
     step: Step
     page: Page | None
-    reads: tuple[Row, ...]
+    reads: tuple[ReadingRow, ...]
     tell: Tell
 
     @property
@@ -80,7 +80,7 @@ class Stage:
         }
 
 
-def _reading(row: Row, tell: Tell) -> str:
+def _reading(row: ReadingRow, tell: Tell) -> str:
     """A reading as mm x mu = value; of one at many stations the greatest, and all of them to be unfolded."""
     if not row.paper.ndim:
         return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
@@ -92,7 +92,7 @@ def _reading(row: Row, tell: Tell) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Board:
+class StepBoard:
     """One view of a construction with all that is drawn in it, so that nothing moves from one step to the next.
 
     former : steps of the constructions that this one starts from, drawn in the same view before it
@@ -150,7 +150,7 @@ def ancestors(construction: Construction) -> list[Construction]:
     return list(found.values())
 
 
-def boards(construction: Construction, tell: Tell = str, on: Construction | None = None) -> dict[str, Board]:
+def boards(construction: Construction, tell: Tell = str, on: Construction | None = None) -> dict[str, StepBoard]:
     """The views that a construction draws in, by name, each with what stood in it before.
 
     on : a construction that it does not start from, but is drawn over
@@ -158,7 +158,7 @@ def boards(construction: Construction, tell: Tell = str, on: Construction | None
     steps = [step.told(tell) for step in construction.steps()]
     before = [step.told(tell) for c in (*ancestors(construction), *([on] if on else ())) for step in c.steps()]
     names = dict.fromkeys(step.view.name for step in steps if step.marks)
-    return {name: Board(_in_view(before, name), _in_view(steps, name)) for name in names}
+    return {name: StepBoard(_in_view(before, name), _in_view(steps, name)) for name in names}
 
 
 def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:

@@ -27,7 +27,7 @@ POSITIONS = 720
 
 
 @dataclass(frozen=True)
-class Phase:
+class TurnPhase:
     """A phase of the turn: its name in full and in short, and the cam angles [rad] where it begins and ends."""
 
     name: str | Caption
@@ -37,7 +37,7 @@ class Phase:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class MechanismScene:
     """A mechanism at n + 1 cam angles, the last position the first again.
 
     kind : what follows: a stem with a roller or a knife edge, an arm, a flat face
@@ -55,7 +55,7 @@ class Scene:
     sigma: int
     roller: float
     profile: Points
-    phases: tuple[Phase, ...]
+    phases: tuple[TurnPhase, ...]
     phi: Floats
     trace: Points
     contact: Points
@@ -68,7 +68,7 @@ class Scene:
     face: tuple[float, float] = (0.0, 0.0)
 
 
-def scene(solution: AnySolution) -> Scene:
+def scene(solution: AnySolution) -> MechanismScene:
     """The mechanism of a solution.
 
     >>> from graphcam.solving.solve import solve
@@ -81,7 +81,7 @@ def scene(solution: AnySolution) -> Scene:
     return _of_arcs(solution, phi) if isinstance(solution, ArcsSolution) else _of_cam(solution.cam, phi)
 
 
-def _of_cam(cam: Cam, phi: Floats) -> Scene:
+def _of_cam(cam: Cam, phi: Floats) -> MechanismScene:
     follower, values = cam.follower, cam.motion(phi)
     exact = kinematics(follower, cam.prime_radius, cam.sigma, cam.motion.lift)
     trace, normal = exact.point(values), exact.normal(values)
@@ -96,11 +96,26 @@ def _of_cam(cam: Cam, phi: Floats) -> Scene:
         motion = -1j * (trace - pivot) / follower.arm
     starts = [*cam.motion.starts.tolist(), 2 * math.pi]
     phases = tuple(
-        Phase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
+        TurnPhase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
         for k, (start, end) in enumerate(pairwise(starts))
     )
-    return Scene(kind, cam.sigma, cam.roller_radius, _outline(cam, contact, phi), phases, phi, trace, contact, motion,
-                 normal, cam.pressure_angle(phi), values[0], values[1], pivot, face)  # fmt: skip
+    return MechanismScene(
+        kind,
+        cam.sigma,
+        cam.roller_radius,
+        _outline(cam, contact, phi),
+        phases,
+        phi,
+        trace,
+        contact,
+        motion,
+        normal,
+        cam.pressure_angle(phi),
+        values[0],
+        values[1],
+        pivot,
+        face,
+    )
 
 
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
@@ -112,7 +127,7 @@ def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
     return points[:, 0] + 1j * points[:, 1]
 
 
-def _of_arcs(solution: ArcsSolution, phi: Floats) -> Scene:
+def _of_arcs(solution: ArcsSolution, phi: Floats) -> MechanismScene:
     """Seen so that the follower stands upright."""
     moved = solution.motion
     s, v, _, _ = moved(phi)
@@ -122,7 +137,7 @@ def _of_arcs(solution: ArcsSolution, phi: Floats) -> Scene:
     contact = trace - moved.roller_radius * normal
     edges = [0.0, moved.rise, moved.rise + moved.dwell, 2 * moved.rise + moved.dwell, 2 * math.pi]
     names = (say("rise"), say("dwell"), say("return"), say("rest"))
-    phases = [Phase(n, n, a, b) for n, a, b in zip(names, edges, edges[1:], strict=False) if b > a]
+    phases = [TurnPhase(n, n, a, b) for n, a, b in zip(names, edges, edges[1:], strict=False) if b > a]
     profile = (contact * np.exp(-1j * moved.sigma * phi))[:-1]
-    return Scene("stem", moved.sigma, moved.roller_radius, profile, tuple(phases), phi, trace, contact,
+    return MechanismScene("stem", moved.sigma, moved.roller_radius, profile, tuple(phases), phi, trace, contact,
                  np.full(phi.shape, 1j), normal, alpha, s, v)  # fmt: skip

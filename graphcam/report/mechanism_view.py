@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.drafting.ink import Caption, Points, say
 from graphcam.given.laws import Floats
-from graphcam.report.mechanism_scene import Scene
+from graphcam.report.mechanism_scene import MechanismScene
 from graphcam.solving.json_values import plain_number
 
 DECIMALS = 3
@@ -24,7 +24,7 @@ LIVE = ("pressure_angle", "displacement", "velocity")
 """What is read off while the cam turns."""
 
 
-def mechanism_view(scene: Scene, tell: Callable[[str | Caption], str], decimal: str = ".") -> dict[str, Any]:
+def mechanism_view(scene: MechanismScene, tell: Callable[[str | Caption], str], decimal: str = ".") -> dict[str, Any]:
     """The data of ``mechanism.js``: lengths in mm, angles in degrees.
 
     tell : says a caption in the language of the page, whose decimals stand behind ``decimal``
@@ -67,7 +67,7 @@ def mechanism_view(scene: Scene, tell: Callable[[str | Caption], str], decimal: 
     return data | {"box": _box(scene, data, unit)}
 
 
-def _guide(scene: Scene, unit: float) -> tuple[list[dict[str, Any]], float]:
+def _guide(scene: MechanismScene, unit: float) -> tuple[list[dict[str, Any]], float]:
     """The guide of a stem above its highest place, and how high it reaches [mm]."""
     x, low = float(scene.trace[0].real), float(scene.trace.imag.max()) + scene.roller + 1.5 * unit
     high = low + 4 * unit
@@ -80,7 +80,7 @@ def _guide(scene: Scene, unit: float) -> tuple[list[dict[str, Any]], float]:
     return marks, high
 
 
-def _pivot(scene: Scene, unit: float) -> list[dict[str, Any]]:
+def _pivot(scene: MechanismScene, unit: float) -> list[dict[str, Any]]:
     """The bearing of an arm."""
     at, foot = scene.pivot, np.array([-1.6 - 3.4j, 1.6 - 3.4j]) * unit
     ticks = at + np.arange(-2.2, 2.3, 1.1) * unit - 3.4j * unit
@@ -91,7 +91,7 @@ def _pivot(scene: Scene, unit: float) -> list[dict[str, Any]]:
     ]
 
 
-def _box(scene: Scene, data: dict[str, Any], unit: float) -> list[float]:
+def _box(scene: MechanismScene, data: dict[str, Any], unit: float) -> list[float]:
     """The box of all that ever shows, y downwards: left, top, width, height [mm]."""
     # The cam sweeps a whole circle.
     swept = float(np.abs(scene.profile).max())

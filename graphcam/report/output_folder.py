@@ -24,7 +24,7 @@ DXF = "plain", "cad"
 """Kinds of DXF."""
 
 
-def check_papers(solution: AnySolution, upto: int | str | None = None, *, dxf: str = "plain") -> None:
+def check_choices(solution: AnySolution, upto: int | str | None = None, *, dxf: str = "plain") -> None:
     """Refuse what :func:`write` would refuse of its choices, without drawing anything.
 
     Raises
@@ -57,7 +57,7 @@ def write(
     DesignError : there is no such step, construction or kind of DXF
     OutputError : the folder cannot be written
     """
-    check_papers(solution, upto, dxf=dxf)
+    check_choices(solution, upto, dxf=dxf)
 
     def report(line: str) -> None:
         if progress:

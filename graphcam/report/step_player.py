@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphcam.constructions.readings import Row, rows
+from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.language import language
 from graphcam.report.arcs_report import TITLES as ARCS_TITLES
@@ -58,7 +58,7 @@ def _slide(name: str, step: Step, construction: Construction | None, tell: Tell)
     )  # fmt: skip
 
 
-def _reading(row: Row, tell: Tell) -> ReadingText:
+def _reading(row: ReadingRow, tell: Tell) -> ReadingText:
     taken, _, value = tell(row.said()).rpartition(" = ")
     title = tell(row.title)
     if not row.places:
@@ -67,7 +67,7 @@ def _reading(row: Row, tell: Tell) -> ReadingText:
     return ReadingText(tell(at), taken, value, tuple(_line(row, k, tell) for k in range(len(row.places))))
 
 
-def _line(row: Row, place: int, tell: Tell) -> tuple[str, str, str]:
+def _line(row: ReadingRow, place: int, tell: Tell) -> tuple[str, str, str]:
     """One value of many: where, on paper, value."""
     if row.paper[place] != row.paper[place]:
         return row.places[place], "–", "–"

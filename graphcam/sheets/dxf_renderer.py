@@ -20,7 +20,7 @@ from ezdxf.enums import TextEntityAlignment
 from numpy.typing import NDArray
 
 from graphcam.drafting.ink import Points
-from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES, Style
 
@@ -191,7 +191,7 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float) -> None:
         case Circles(centres=centres, radius=radius):
             for centre in _xy(centres, left):
                 space.add_circle(centre, radius, dxfattribs=on)
-        case Arc(centre=centre, radius=radius, start=start, end=end):
+        case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             space.add_arc(
                 (centre.real + left, centre.imag), radius, math.degrees(start), math.degrees(end), dxfattribs=on
             )

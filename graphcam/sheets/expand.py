@@ -14,7 +14,7 @@ from graphcam.drafting.ink import Points, Role
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.hatching import hatch
-from graphcam.sheets.model import Angle, Arc, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
+from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
 from graphcam.sheets.styles import STYLES
 from graphcam.sheets.writing import Writing, along, around, outside, over
 
@@ -120,7 +120,7 @@ def arrow(start: complex, end: complex, role: str) -> list[Entity]:
 
 def _arc(mark: ink.Arc, place: Placement) -> list[Entity]:
     centre, radius = place.point(mark.centre), mark.radius * place.factor
-    drawn: list[Entity] = [Arc(centre, radius, mark.start, mark.end, mark.role)]
+    drawn: list[Entity] = [ArcEntity(centre, radius, mark.start, mark.end, mark.role)]
     if mark.arrow:
         drawn.append(_arc_head(centre, radius, mark.end if mark.arrow == "end" else mark.start, mark.arrow, mark.role))
     return drawn
@@ -169,7 +169,7 @@ def _angle(mark: ink.AngleMark, place: Placement, height: float) -> tuple[list[E
         _arc_head(centre, radius, start, "start" if wide else "end", Role.DIMENSION),
         _arc_head(centre, radius, end, "end" if wide else "start", Role.DIMENSION),
     ]
-    arcs: list[Entity] = [Arc(centre, radius, start - tails, end + tails, Role.DIMENSION)]
+    arcs: list[Entity] = [ArcEntity(centre, radius, start - tails, end + tails, Role.DIMENSION)]
     drawn = [*arcs, *heads]
     writing = outside(centre, radius, start, end, str(mark.text), height)
     return drawn, replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))

@@ -29,7 +29,7 @@ from matplotlib.transforms import Affine2D
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.fonts import FAMILY, points_size, width
-from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 
@@ -172,7 +172,7 @@ def _path(entity: Entity) -> Path:
             return Path(_xy(control), [Path.MOVETO] + [Path.CURVE4] * (len(control) - 1))
         case Circles(centres=centres, radius=radius):
             return Path.make_compound_path(*(Path.circle((c.real, c.imag), radius) for c in centres.tolist()))
-        case Arc(centre=centre, radius=radius, start=start, end=end):
+        case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             arc = Path.arc(math.degrees(start), math.degrees(end))
             return Path(np.asarray(arc.vertices) * radius + (centre.real, centre.imag), arc.codes)
         case Heads(corners=corners):

@@ -50,7 +50,7 @@ class Circles:
 
 
 @dataclass(frozen=True)
-class Arc:
+class ArcEntity:
     """The part of a circle counter-clockwise from ``start`` to ``end`` [rad]."""
 
     centre: complex
@@ -112,7 +112,7 @@ class Text:
     view: str = ""
 
 
-Entity = Stroke | Strokes | Curve | Circles | Arc | Heads | Text
+Entity = Stroke | Strokes | Curve | Circles | ArcEntity | Heads | Text
 
 
 def count(entity: Entity) -> int:
@@ -181,7 +181,7 @@ def moved(entity: Entity, by: complex) -> Entity:
             return replace(entity, points=entity.points + by)
         case Circles():
             return replace(entity, centres=entity.centres + by)
-        case Arc():
+        case ArcEntity():
             return replace(entity, centre=entity.centre + by)
         case Heads():
             return replace(entity, corners=entity.corners + by)

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.fonts import points_size
-from graphcam.sheets.model import Arc, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 
@@ -83,7 +83,7 @@ def _path(entity: Entity, height: float) -> str:
             return f"M{start}C{' '.join(control)}Z"
         case Circles(centres=centres, radius=radius):
             return "".join(_circle(centre, radius, height) for centre in centres.tolist())
-        case Arc():
+        case ArcEntity():
             return _arc(entity, height)
         case Heads(corners=corners):
             return "".join("M" + "L".join(_xy(triangle, height)) + "Z" for triangle in corners)
@@ -98,7 +98,7 @@ def _circle(centre: complex, radius: float, height: float) -> str:
     return f"M{start}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z"
 
 
-def _arc(arc: Arc, height: float) -> str:
+def _arc(arc: ArcEntity, height: float) -> str:
     # In two halves, so that the angle that each turns is never in doubt.
     turns = (arc.start, (arc.start + arc.end) / 2, arc.end)
     start, middle, end = (

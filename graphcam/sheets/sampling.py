@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from graphcam.drafting.ink import Points
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent
-from graphcam.sheets.model import Arc, Circles, Curve, Entity, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Heads, Stroke, Strokes, Text
 
 Floats = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ def pieces(entity: Entity) -> tuple[Points, Points]:
         case Circles(centres=centres, radius=radius):
             ring = _bow(radius, 0.0, 2 * math.pi)
             return (centres[:, None] + ring[:-1]).ravel(), (centres[:, None] + ring[1:]).ravel()
-        case Arc(centre=centre, radius=radius, start=start, end=end):
+        case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             bow = centre + _bow(radius, start, end)
             return bow[:-1], bow[1:]
         case Heads(corners=corners):

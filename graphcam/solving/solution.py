@@ -20,7 +20,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.solving.json_values import plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.task_board import board_of
-from graphcam.solving.warnings import cautions, less_round
+from graphcam.solving.warnings import less_round, warnings_of
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
 
@@ -74,7 +74,7 @@ class Solution:
     @cached_property
     def warnings(self) -> list[str]:
         """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
-        said = cautions(self.cam, self.chain.board, self.comparison.least[0])
+        said = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         return [self.tell(caution) for caution in (*said, *less_round(self.chain))]
 
     @property

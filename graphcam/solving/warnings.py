@@ -18,7 +18,7 @@ LAST_DIGIT = 0.005
 """mm or degrees: what differs by less does not differ in print."""
 
 
-def cautions(cam: Cam, board: Board, least_prime_radius: float) -> list[Caption]:
+def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Caption]:
     """Sentences, the gravest first; none for a sound cam.
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]

@@ -35,7 +35,7 @@ from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import (
     INSIDE,
-    Sizes,
+    TimedSizes,
     exact_displacement_error,
     exact_least_radius_error,
     exact_profile_error,
@@ -47,7 +47,7 @@ SMOOTH = ("cycloidal", "3-4-5")
 SECOND_ORDER = ("displacement", "velocity", "greatest acceleration", "pitch curve", "working profile")
 TINY = reports.Effort(
     (12, 24, 48), ("cycloidal", "rectangular"), 20, (6, 12, 24),
-    Sizes((12, 24), (12, 24), (12, 24), (12, 36), (12, 36), (24, 96)), 1000, 1000, 0.0,
+    TimedSizes((12, 24), (12, 24), (12, 24), (12, 36), (12, 36), (24, 96)), 1000, 1000, 0.0,
 )  # fmt: skip
 FOUR_EPS = 4 * 2.0**-52
 

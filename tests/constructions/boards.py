@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.constructions.board import Board
-from graphcam.constructions.chain import Sizes
+from graphcam.constructions.chain import AdoptedSizes
 from graphcam.constructions.drawn_arm import DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
@@ -18,7 +18,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 
-SIZES = Sizes(prime_radius=46.0, place=-10.0, roller_radius=12.0)
+SIZES = AdoptedSizes(prime_radius=46.0, place=-10.0, roller_radius=12.0)
 """A cam for every division, so that what converges is one cam's drawing."""
 
 

@@ -13,7 +13,7 @@ from test_convergence import distance_from_profile
 
 import graphcam as gc
 from graphcam.constructions.arm_minimum_radius import arm_least_radius
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.region import nearest_of_many
 from graphcam.drafting.euclid import UP, dot, unit
 from graphcam.drafting.ink import Arrow, Line, Role
@@ -26,7 +26,7 @@ from graphcam.given.laws import LAWS
 PARTS = (12, 24, 48, 96)
 FINER = (12, 19, 26, 40, 54, 75, 96)
 EXACT = 1e-12
-SIZES = Sizes(prime_radius=45.0, place=120.0, roller_radius=12.0)
+SIZES = AdoptedSizes(prime_radius=45.0, place=120.0, roller_radius=12.0)
 """A cam for every division, so that what converges is one cam's drawing."""
 each_rotation = pytest.mark.parametrize("rotation", ["ccw", "cw"])
 

@@ -14,7 +14,7 @@ from numpy.testing import assert_array_equal
 
 from graphcam.constructions import chain as chain_module
 from graphcam.constructions import drawn_translating as translating
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 
@@ -207,4 +207,4 @@ def test_of_other_followers_only_a_flat_face_draws_its_region_for_the_curvature(
         assert ("minimum_radius" in vars(chain)) == (name == "flat")
 
 
-ARM_SIZES = Sizes(50.0, 120.0, 10.0)
+ARM_SIZES = AdoptedSizes(50.0, 120.0, 10.0)

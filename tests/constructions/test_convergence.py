@@ -15,7 +15,7 @@ import pytest
 from boards import SIZES, coursework, coursework_motion, limits, order
 
 import graphcam as gc
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 
 PARTS = (12, 24, 48, 96)
 FINER = range(12, 97)
@@ -25,12 +25,12 @@ SMOOTH = ("cycloidal", "3-4-5")
 
 
 @cache
-def drawn(law: str, n: int, sizes: Sizes = SIZES, **changes) -> Chain:
+def drawn(law: str, n: int, sizes: AdoptedSizes = SIZES, **changes) -> Chain:
     return Chain(coursework(law, divisions=n, **changes), decided=sizes)
 
 
 @cache
-def cam_of(law: str, sizes: Sizes = SIZES) -> gc.Cam:
+def cam_of(law: str, sizes: AdoptedSizes = SIZES) -> gc.Cam:
     follower = gc.Translating(sizes.place, sizes.roller_radius)
     return gc.Cam(coursework_motion(law), follower, sizes.prime_radius, "cw")
 
@@ -168,7 +168,7 @@ def test_the_least_radius_of_curvature_inside_a_smooth_part_is_within_its_consta
 
 def test_the_least_radius_of_curvature_at_a_jump_is_approached_with_the_first_order():
     """The built-in task at its least radius: the extreme is the one-sided limit at the start of the return."""
-    sizes = Sizes(43.2800052376212, -10.0, 12.0)
+    sizes = AdoptedSizes(43.2800052376212, -10.0, 12.0)
     exact, place = cam_of("rectangular", sizes).extremes().min_convex_radius_moving
     assert exact == pytest.approx(29.25, abs=0.005)
     assert math.degrees(place) == pytest.approx(125)

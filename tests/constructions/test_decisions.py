@@ -10,7 +10,7 @@ import pytest
 from boards import SIZES, board_of, coursework, coursework_motion, limits, motion_of
 
 import graphcam as gc
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.minimum_radius import active
 from graphcam.errors import DesignError
 from graphcam.given.roller_rule import roller_rule
@@ -108,7 +108,7 @@ def test_force_closure_has_no_line_of_the_return():
 def test_the_built_in_task():
     """Least radius 43.28 mm, adopted 44; 0.4 r0 = 17.6 mm binds the rule, adopted 17."""
     chain = Chain(coursework())
-    assert chain.sizes == Sizes(44.0, -10.0, 17.0)
+    assert chain.sizes == AdoptedSizes(44.0, -10.0, 17.0)
     assert chain["roller"].readings["roller_radius"].value == pytest.approx(17.6, rel=1e-12)
 
 
@@ -126,7 +126,7 @@ def test_a_free_offset_is_rounded_and_the_radius_read_again_at_it(law):
 
 def test_given_sizes_are_kept_and_the_least_radius_is_drawn_all_the_same():
     chain = Chain(coursework(prime_radius=61.5, roller_radius=13.25, offset=-7.125))
-    assert chain.sizes == Sizes(61.5, -7.125, 13.25)
+    assert chain.sizes == AdoptedSizes(61.5, -7.125, 13.25)
     exact = gc.minimum_radius(coursework_motion("rectangular"), gc.Translating(), "cw", offset=-7.125)
     assert chain["minimum_radius"].readings["prime_radius"].value == pytest.approx(exact.prime_radius, rel=1e-12)
     assert chain["inversion"].readings["radius"].value.min() == pytest.approx(61.5, rel=1e-12)
@@ -148,7 +148,7 @@ def test_sizes_decided_before_take_the_place_of_the_proposals():
 )  # fmt: skip
 def test_radius_up_and_roller_down_to_a_multiple_of_the_rounding(rounding, sizes):
     """A given offset is not rounded; tenths are the nearest doubles to the printed decimals."""
-    assert Chain(coursework(rounding=rounding)).sizes == Sizes(*sizes)
+    assert Chain(coursework(rounding=rounding)).sizes == AdoptedSizes(*sizes)
 
 
 @pytest.mark.parametrize(("lift", "rounding"), [(0.3, 0.01), (3, 0.1), (9, 0.1), (30, 1.0), (3000, 1.0)])

@@ -14,7 +14,7 @@ from test_convergence import distance_from_profile
 
 import graphcam as gc
 from graphcam.comparison.bounds import Bounds
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.drafting.euclid import UP, dot
 from graphcam.drafting.ink import AngleMark, Line, Role
@@ -26,7 +26,7 @@ from graphcam.mechanism.flat_faced import face_width
 
 PARTS = (12, 24, 48, 96)
 EXACT = 1e-12
-SIZES = Sizes(prime_radius=60.0, place=0.0, roller_radius=0.0)
+SIZES = AdoptedSizes(prime_radius=60.0, place=0.0, roller_radius=0.0)
 LEAST_CURVATURE = 8.0
 FACES = ("face_left", "face_right")
 each_rotation = pytest.mark.parametrize("rotation", ["ccw", "cw"])

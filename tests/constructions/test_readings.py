@@ -14,7 +14,7 @@ from boards import coursework
 import graphcam as gc
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import force_plan
-from graphcam.constructions.readings import TITLES, Row, rows
+from graphcam.constructions.readings import TITLES, ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step, View, reading, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.spring_load import SpringLoad
@@ -110,6 +110,6 @@ def test_what_could_not_be_read_is_left_out():
 
 def test_a_wrong_scale_would_be_seen():
     """The first test multiplies what is printed: a value of another scale fails it."""
-    row = Row("s0", say("s₀"), np.array(50.0), 0.5, np.array(25.1), "mm", ())
+    row = ReadingRow("s0", say("s₀"), np.array(50.0), 0.5, np.array(25.1), "mm", ())
     paper, mu, _, value, _ = WRITTEN.fullmatch(str(row.said())).groups()
     assert float(paper) * float(mu) != pytest.approx(float(value), abs=0.006 * 0.5 + 1e-4 * 25)

@@ -11,7 +11,7 @@ from boards import SIZES, board_of, coursework, coursework_motion, motion_of
 from numpy.testing import assert_allclose
 
 import graphcam as gc
-from graphcam.constructions.chain import Chain, Sizes
+from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.profile_view import closed_curve
 from graphcam.drafting.ink import Arrow, Line, Role
 from graphcam.drafting.scale import Scale
@@ -23,7 +23,7 @@ every_side = pytest.mark.parametrize(("rotation", "offset"), SIDES)
 
 def chain_of(rotation: str, offset: float, law: str = "3-4-5", n: int = 12, **changes) -> Chain:
     board = coursework(law, rotation=rotation, offset=offset, divisions=n, **changes)
-    return Chain(board, decided=Sizes(46.0, offset, 12.0))
+    return Chain(board, decided=AdoptedSizes(46.0, offset, 12.0))
 
 
 # --- acceleration and integration ------------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def test_the_angle_at_rest_is_that_of_the_cam_centre(rotation, offset):
 def test_the_angle_at_rest_of_a_published_cam():
     """Tran Minh Quang, Nguyen Quang Hung 2015: prime radius 95, offset 20: 12.15 degrees."""
     board = board_of(motion_of((12, 120, "cosine"), (0, 60), (-12, 120, "cosine")), rotation="ccw", offset=20.0)
-    alpha = Chain(board, decided=Sizes(95.0, 20.0, 15.0))["pressure_angle"].readings["alpha"].value
+    alpha = Chain(board, decided=AdoptedSizes(95.0, 20.0, 15.0))["pressure_angle"].readings["alpha"].value
     assert math.degrees(alpha[0]) == pytest.approx(-12.153197469007869, rel=1e-12)
 
 
@@ -146,7 +146,9 @@ def test_the_angle_at_rest_of_a_published_cam():
 def test_the_greatest_angles_of_a_lecture_script(offset, greatest):
     """The case offset-roller: cosine rise, constant-acceleration return; the second is the offset on the wrong side."""
     motion = motion_of((50, 120, "cosine"), (0, 90), (-50, 90, "rectangular"))
-    chain = Chain(board_of(motion, rotation="ccw", offset=offset, divisions=96), decided=Sizes(45.0, offset, 6.0))
+    chain = Chain(
+        board_of(motion, rotation="ccw", offset=offset, divisions=96), decided=AdoptedSizes(45.0, offset, 6.0)
+    )
     diagram = chain["angle_diagram"]
     assert np.degrees(diagram.readings["max_rise"].value) == pytest.approx(greatest, abs=0.01)
     if offset > 0:
@@ -258,7 +260,7 @@ def test_the_circle_of_curvature_passes_through_its_three_points():
 def test_where_the_cam_rests_the_circle_of_curvature_is_about_its_centre():
     """A dwell's arc may be sharper than every bend of the moving phases."""
     board = board_of(motion_of((2, 120, "3-4-5"), (0, 60), (-2, 120, "3-4-5")), offset=0.0)
-    curved = Chain(board, decided=Sizes(46.0, 0.0, 12.0))["curvature"]
+    curved = Chain(board, decided=AdoptedSizes(46.0, 0.0, 12.0))["curvature"]
     moving, resting = curved.readings["rho_candidates"].value
     assert resting == pytest.approx(46.0, rel=1e-12)
     assert curved.readings["rho"].value == min(moving, resting)

@@ -6,11 +6,11 @@ import os
 import signal
 
 from graphcam.exercises.grading import grade_one as work
-from graphcam.exercises.grading.submission import HandIn
+from graphcam.exercises.grading.submission import Submission
 
 
-def grade(assignment: work.Assignment, hand_in: HandIn) -> work.Graded:
+def grade(assignment: work.Assignment, submission: Submission) -> work.Graded:
     """Grade, but for a hand-in that takes its worker with it."""
-    if hand_in.student.startswith("deadly"):
+    if submission.student.startswith("deadly"):
         os.kill(os.getpid(), signal.SIGKILL)
-    return work.grade(assignment, hand_in)
+    return work.grade(assignment, submission)

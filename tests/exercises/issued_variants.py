@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.issuing import issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
@@ -18,19 +18,19 @@ SECRET = b"the secret of the tests"
 
 
 @cache
-def issued(name: str, student: str = "Anna") -> tuple[Exercise, Certificate]:
+def issued(name: str, student: str = "Anna") -> tuple[Exercise, AnswerKey]:
     exercise = find_exercise(name)
     return exercise, issue(exercise, student, SECRET)[1]
 
 
-def key(certificate: Certificate) -> dict[str, float | np.ndarray]:
-    return {name: key.expected.value for name, key in certificate.keys.items()}
+def key(answer_key: AnswerKey) -> dict[str, float | np.ndarray]:
+    return {name: key.expected.value for name, key in answer_key.keys.items()}
 
 
 def marked(name: str, student: str = "Anna", **changes: object) -> Record:
     """The key handed in, with some answers changed."""
-    exercise, certificate = issued(name, student)
-    return mark(exercise, certificate, Answers(key(certificate) | changes))
+    exercise, answer_key = issued(name, student)
+    return mark(exercise, answer_key, Answers(key(answer_key) | changes))
 
 
 def outcomes(record: Record) -> dict[str, str]:

@@ -17,7 +17,7 @@ from ezdxf.document import Drawing
 from issued_variants import SECRET, issued, key
 
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import HandIn, read_hand_in
+from graphcam.exercises.grading.submission import Submission, read_submission
 from graphcam.exercises.marking.record import Marked, Record
 
 NAME, LAYER = "inversion-translating", "PITCH"
@@ -214,8 +214,8 @@ def again(document: Drawing, form: str) -> Drawing:
 
 
 def handed_in(files: dict[str, bytes]) -> Record:
-    exercise, certificate = issued(NAME)
-    return grade(Assignment(exercise, SECRET), HandIn("Anna", "Anna", files, (), certificate.to_json())).record
+    exercise, answer_key = issued(NAME)
+    return grade(Assignment(exercise, SECRET), Submission("Anna", "Anna", files, (), answer_key.to_json())).record
 
 
 def numbers(values: dict[str, Any]) -> bytes:
@@ -228,11 +228,11 @@ def pitch_of(record: Record) -> Marked:
 
 def hands() -> dict[str, dict[str, Any]]:
     """All answers of a student with a careful hand, and of one who took the offset to the other side."""
-    exercise, certificate = issued(NAME)
-    right = key(certificate)
+    exercise, answer_key = issued(NAME)
+    right = key(answer_key)
     names = [asked.name for asked in exercise.answers]
     wrong = {name: expected.value for name, expected in
-             zip(names, certificate.hypotheses["offset-sign"], strict=True)}  # fmt: skip
+             zip(names, answer_key.hypotheses["offset-sign"], strict=True)}  # fmt: skip
     return {"careful": right | {"pitch": right["pitch"] + (0.25 - 0.2j)}, "offset-sign": wrong}
 
 
@@ -288,7 +288,7 @@ def test_a_curve_displaced_by_less_is_wrong_where_it_is_farthest_off():
 
 
 def test_the_folder_is_read_as_the_command_reads_it(tmp_path: Path):
-    exercise, certificate = issued(NAME)
-    (tmp_path / "answers.dxf").write_bytes(data_of(UNDERSTOOD["inches"](key(certificate)["pitch"]), "bin"))
-    record = grade(Assignment(exercise, SECRET), read_hand_in("Anna", tmp_path, certificate.to_json())).record
+    exercise, answer_key = issued(NAME)
+    (tmp_path / "answers.dxf").write_bytes(data_of(UNDERSTOOD["inches"](key(answer_key)["pitch"]), "bin"))
+    record = grade(Assignment(exercise, SECRET), read_submission("Anna", tmp_path, answer_key.to_json())).record
     assert pitch_of(record).marks == pitch_of(record).of

@@ -52,8 +52,8 @@ FORMS = {"toml": as_toml, "csv": as_csv, "points": as_points, "circles": as_roll
 
 
 def handed_in(files: dict[str, bytes]) -> Record:
-    exercise, certificate = issued(NAME)
-    return mark(exercise, certificate, from_files(exercise.answers, files))
+    exercise, answer_key = issued(NAME)
+    return mark(exercise, answer_key, from_files(exercise.answers, files))
 
 
 def rollers_of(record: Record):
@@ -99,11 +99,11 @@ def test_a_set_of_points_passes_only_once_for_each_place():
 
 
 def test_points_of_a_usual_mistake_are_named_and_follow():
-    exercise, certificate = issued(NAME)
-    for name, wrong in certificate.hypotheses.items():
+    exercise, answer_key = issued(NAME)
+    for name, wrong in answer_key.hypotheses.items():
         given = {asked.name: value.value for asked, value in zip(exercise.answers, wrong, strict=True)}
         given[ASKED] = shuffled(np.asarray(given[ASKED]))
-        record = mark(exercise, certificate, Answers(given))
+        record = mark(exercise, answer_key, Answers(given))
         assert record.diagnosis is not None
         assert record.diagnosis.misconception == name
         assert rollers_of(record).outcome in ("follow-through", "wrong")

@@ -15,7 +15,7 @@ import pytest
 from issued_variants import SECRET, issued, key, marked
 from russian import english_words
 
-from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
@@ -23,9 +23,9 @@ from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.exports.systems import Format
+from graphcam.exercises.exports.systems import LearningSystem
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 
 NAME = "acceleration-and-scales"
@@ -33,8 +33,8 @@ IDS = ("Anna", "=cmd", "Иван")
 
 
 def questions(name: str) -> list[ElementTree.Element]:
-    exercise, certificate = issued(name)
-    return list(ElementTree.fromstring(moodle_xml(exercise, [certificate]).encode()))
+    exercise, answer_key = issued(name)
+    return list(ElementTree.fromstring(moodle_xml(exercise, [answer_key]).encode()))
 
 
 def text(element: ElementTree.Element | None) -> str:
@@ -53,7 +53,7 @@ def moodle_says(question: ElementTree.Element, value: float) -> tuple[float, str
 
 @pytest.mark.parametrize("name", [NAME, "inversion-translating"])
 def test_moodle_has_the_key_its_tolerance_and_the_marks(name: str):
-    exercise, certificate = issued(name)
+    exercise, answer_key = issued(name)
     kinds = [question.get("type") for question in questions(name)]
     assert kinds == ["category", "description", *("numerical" if asked.kind == "number" else "essay"
                                                   for asked in exercise.answers)]  # fmt: skip
@@ -61,7 +61,7 @@ def test_moodle_has_the_key_its_tolerance_and_the_marks(name: str):
         assert float(question.findtext("defaultgrade") or "nan") == asked.marks
         if asked.kind == "number":
             first = question.findall("answer")[0]
-            expected = certificate.keys[asked.name]
+            expected = answer_key.keys[asked.name]
             assert float(text(first)) == pytest.approx(expected.expected.value, rel=1e-9)
             assert float(first.findtext("tolerance") or "nan") == pytest.approx(expected.tolerance, rel=1e-9)
             assert first.get("fraction") == "100"
@@ -80,8 +80,8 @@ def russian_texts(folder: Path) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("target", [Format.MOODLE, Format.NBGRADER])
-def test_an_export_is_in_the_language_of_the_course(target: Format, tmp_path: Path):
+@pytest.mark.parametrize("target", [LearningSystem.MOODLE, LearningSystem.NBGRADER])
+def test_an_export_is_in_the_language_of_the_course(target: LearningSystem, tmp_path: Path):
     export("inversion-translating", target, ["Анна"], tmp_path / "out", SECRET, language="ru")
     exercise = find_exercise("inversion-translating", "ru")
     names = [asked.name for asked in exercise.answers]
@@ -89,7 +89,7 @@ def test_an_export_is_in_the_language_of_the_course(target: Format, tmp_path: Pa
     assert len(texts) > len(names)
     for text in texts:
         assert english_words(text, [*names, "course", "None", "DXF", "PITCH"]) == set()
-    assert Certificates(tmp_path / "out" / TEACHER).language() == "ru"
+    assert AnswerKeys(tmp_path / "out" / TEACHER).language() == "ru"
 
 
 def test_gradescope_tells_the_result_in_the_language_of_the_course():
@@ -101,16 +101,16 @@ def test_gradescope_tells_the_result_in_the_language_of_the_course():
 
 
 def test_moodle_keeps_a_student_of_any_name_in_one_category():
-    exercise, certificate = issued(NAME)
-    xml = moodle_xml(exercise, [replace(certificate, student="a/b\x07")])
+    exercise, answer_key = issued(NAME)
+    xml = moodle_xml(exercise, [replace(answer_key, student="a/b\x07")])
     category = ElementTree.fromstring(xml.encode()).findtext("question/category/text")
     assert category == f"$course$/{exercise.title}/a%2Fb%07"
 
 
 def test_moodle_marks_one_answer_as_graphcam_does():
-    exercise, certificate = issued(NAME)
+    exercise, answer_key = issued(NAME)
     for asked, question in zip(exercise.answers, questions(NAME)[2:], strict=True):
-        expected = certificate.keys[asked.name]
+        expected = answer_key.keys[asked.name]
         for part in (-30.0, -1 - 1e-6, -1 + 1e-6, -0.3, 0.0, 0.999, 1.001, 4.0):
             value = float(str(expected.expected.value)) + part * expected.tolerance
             ours = next(one for one in marked(NAME, **{asked.name: value}).answers if one.name == asked.name)
@@ -118,11 +118,11 @@ def test_moodle_marks_one_answer_as_graphcam_does():
 
 
 def test_moodle_says_which_mistake_it_was():
-    exercise, certificate = issued(NAME)
+    exercise, answer_key = issued(NAME)
     said = 0
     for k, (asked, question) in enumerate(zip(exercise.answers, questions(NAME)[2:], strict=True)):
-        keyed = certificate.keys[asked.name]
-        for name, values in certificate.hypotheses.items():
+        keyed = answer_key.keys[asked.name]
+        for name, values in answer_key.hypotheses.items():
             wrong = float(str(values[k].value))
             fraction, feedback = moodle_says(question, wrong)
             if abs(wrong - float(str(keyed.expected.value))) <= keyed.tolerance:
@@ -131,7 +131,7 @@ def test_moodle_says_which_mistake_it_was():
                 assert fraction == 0.0
                 said += feedback == str(misconception(name).said)
         assert "careful hand" in moodle_says(question, 1e7)[1]
-    assert said >= len(certificate.hypotheses)
+    assert said >= len(answer_key.hypotheses)
 
 
 RESULTS = {"score", "execution_time", "output", "output_format", "test_output_format", "test_name_format",
@@ -146,13 +146,13 @@ def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it
     mine.parent.mkdir()
     mine.write_bytes(exercise_path(NAME).read_bytes())
     source = tmp_path / "autograder" / "source"
-    export(str(mine), Format.GRADESCOPE, ["anna@example.org"], source)
+    export(str(mine), LearningSystem.GRADESCOPE, ["anna@example.org"], source)
     mine.unlink()
-    certificate = Certificate.from_json(Certificates(source / TEACHER).find("anna@example.org"))
+    answer_key = AnswerKey.from_json(AnswerKeys(source / TEACHER).find("anna@example.org"))
     root = source.parent
     (root / "submission").mkdir()
     (root / "submission_metadata.json").write_text(json.dumps({"users": [{"email": "anna@example.org"}]}))
-    values = {name: float(str(value)) for name, value in key(certificate).items()}
+    values = {name: float(str(value)) for name, value in key(answer_key).items()}
     first = next(iter(values))
     values[first] += 100.0
     (root / "submission" / "answers.toml").write_text(
@@ -179,7 +179,7 @@ def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it
 
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
-    export(NAME, Format.NBGRADER, list(IDS), tmp_path / "course", SECRET)
+    export(NAME, LearningSystem.NBGRADER, list(IDS), tmp_path / "course", SECRET)
     (tmp_path / "secret").write_bytes(SECRET)
     return tmp_path / "course"
 
@@ -194,7 +194,7 @@ def test_an_nbgrader_assignment_has_a_cell_for_every_answer(course: Path):
     assert {path.stem for path in (course / "sheets").iterdir()} == {folder_name(student) for student in IDS}
 
 
-def hand_in(course: Path, notebook: Path) -> None:
+def submission(course: Path, notebook: Path) -> None:
     """Every student hands the notebook in, filled in: the first all right, the second one off, the third one open."""
     for k, student in enumerate(IDS):
         values = dict(key(issued(NAME, student)[1]))
@@ -211,7 +211,7 @@ def hand_in(course: Path, notebook: Path) -> None:
 
 
 def test_what_nbgrader_collects_is_graded(course: Path):
-    hand_in(course, course / "source" / NAME / "answers.ipynb")
+    submission(course, course / "source" / NAME / "answers.ipynb")
     grade_course(Course(course, course.parent / "secret", course / "grades.csv"))
     records = {record["student"]: record for record in json.loads((course / "grades.json").read_text())}
     exercise = issued(NAME)[0]
@@ -229,7 +229,7 @@ def test_nbgrader_takes_the_course_and_its_grade_book_the_scores(course: Path):
 
     nbgrader(course, "generate_assignment", NAME)
     release = course / "release" / NAME / "answers.ipynb"
-    hand_in(course, release)
+    submission(course, release)
     assert "Success" in nbgrader(course, "validate", str(course / "submitted" / "Anna" / NAME / "answers.ipynb"))
     database = f"sqlite:///{course / 'gradebook.db'}"
     grade_course(Course(course, course.parent / "secret", course / "grades.csv", gradebook=database))

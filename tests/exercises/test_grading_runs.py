@@ -22,15 +22,15 @@ import pytest
 from issued_variants import SECRET, issued, key
 
 from graphcam.errors import GraphcamError
-from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.grading import course_grading as grading_course
 from graphcam.exercises.grading import grading_run as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.grading.submission import read_hand_in
-from graphcam.exercises.grading.worker_pool import Crew, processes, results
+from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.grading.worker_pool import WorkerPool, processes, results
 from graphcam.files import OutputError
 
 NAME = "acceleration-and-scales"
@@ -43,15 +43,15 @@ IDS = (
 
 def course_at(place: Path, ids: tuple[str, ...]) -> Path:
     """A course: the first half have all right, the others have the first answer off by a tenth."""
-    kept = Certificates(place / TEACHER)
+    kept = AnswerKeys(place / TEACHER)
     kept.keep_course(exercise_path(NAME), SECRET, language="en")
     (place / "secret").write_bytes(SECRET)
     for k, student in enumerate(ids):
-        certificate = issued(NAME, student)[1]
-        kept.keep(student, certificate.to_json())
+        answer_key = issued(NAME, student)[1]
+        kept.keep(student, answer_key.to_json())
         folder = place / "students" / folder_name(student)
         folder.mkdir(parents=True)
-        values = key(certificate)
+        values = key(answer_key)
         if k >= len(ids) / 2:
             first = next(iter(values))
             values[first] *= 1.1
@@ -65,14 +65,14 @@ def ours(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], Crew]:
+def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], WorkerPool]:
     """Threads in place of processes, which take seconds to start."""
 
-    def crew(workers: int) -> Crew:
-        return Crew(partial(ThreadPoolExecutor, workers), workers)
+    def pool(workers: int) -> WorkerPool:
+        return WorkerPool(partial(ThreadPoolExecutor, workers), workers)
 
-    monkeypatch.setattr(grading_course, "processes", crew)
-    return crew
+    monkeypatch.setattr(grading_course, "processes", pool)
+    return pool
 
 
 def graded(place: Path, out: Path, **more: object) -> dict[str, bytes]:
@@ -189,12 +189,12 @@ def test_a_folder_that_may_not_be_looked_into_is_one_hand_in(tmp_path: Path):
     if user == 0:
         os.seteuid(65534)  # root may look into everything
     try:
-        hand_in = read_hand_in("Anna", tmp_path / "Anna", assignment="week-5")
+        submission = read_submission("Anna", tmp_path / "Anna", assignment="week-5")
     finally:
         os.seteuid(user)
         (tmp_path / "Anna").chmod(0o700)
-    assert hand_in.files == {}
-    assert [str(error) for error in hand_in.errors] == ["the hand-in is not a folder"]
+    assert submission.files == {}
+    assert [str(error) for error in submission.errors] == ["the hand-in is not a folder"]
 
 
 @pytest.mark.usefixtures("threads")
@@ -340,7 +340,7 @@ def test_a_worker_that_dies_costs_one_record_only(tmp_path: Path, monkeypatch: p
         (place / student / "answers.toml").write_text("")
     monkeypatch.setattr(run, "grade", deadly.grade)
     store = grading_course.Store.beside(tmp_path / "grades.csv", assignment())
-    records = run.grade_folder(place, assignment(), processes(2), store, Certificates(tmp_path))
+    records = run.grade_folder(place, assignment(), processes(2), store, AnswerKeys(tmp_path))
     assert [record["student"] for record in records] == sorted(ids)
     broken = [record["student"] for record in records if any("broke down" in note for note in record["notes"])]
     assert broken == [student for student in sorted(ids) if student.startswith("deadly")]
@@ -374,10 +374,10 @@ class Fragile(ThreadPoolExecutor):
 
 
 def test_an_executor_that_breaks_between_two_jobs_costs_no_record():
-    crew = Crew(partial(Fragile, 1), 1)
-    assert sorted(results(crew, abs, range(-40, 0))) == [(k, -k) for k in range(-40, 0)]
+    pool = WorkerPool(partial(Fragile, 1), 1)
+    assert sorted(results(pool, abs, range(-40, 0))) == [(k, -k) for k in range(-40, 0)]
 
 
 def test_jobs_are_shared_out_and_come_back_each_once():
-    crew = Crew(partial(ThreadPoolExecutor, 3), 3)
-    assert sorted(results(crew, abs, range(-100, 0))) == [(k, -k) for k in range(-100, 0)]
+    pool = WorkerPool(partial(ThreadPoolExecutor, 3), 3)
+    assert sorted(results(pool, abs, range(-100, 0))) == [(k, -k) for k in range(-100, 0)]

@@ -22,12 +22,12 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading import grade_one as work
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import read_hand_in
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.probe import missing
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells
 
 SECONDS = 2.0
@@ -43,18 +43,18 @@ PIPE = f"next(iter({FOUND}))"
 
 @pytest.fixture(scope="module")
 def assignment(exercise: Exercise) -> Assignment:
-    return Assignment(exercise, SECRET, limits=Limits(seconds=SECONDS))
+    return Assignment(exercise, SECRET, limits=ResourceLimits(seconds=SECONDS))
 
 
 @pytest.fixture(scope="module")
-def certificate(assignment: Assignment) -> str:
+def answer_key(assignment: Assignment) -> str:
     from graphcam.exercises.key.issuing import issue
 
     return issue(assignment.exercise, STUDENT, SECRET)[1].to_json()
 
 
-def graded(assignment: Assignment, certificate: str, folder: Path) -> Record:
-    return grade(assignment, read_hand_in(STUDENT, folder, certificate)).record
+def graded(assignment: Assignment, answer_key: str, folder: Path) -> Record:
+    return grade(assignment, read_submission(STUDENT, folder, answer_key)).record
 
 
 def filled(folder: Path, name: str) -> None:
@@ -66,16 +66,16 @@ def filled(folder: Path, name: str) -> None:
 
 
 @pytest.mark.parametrize("case", hostile.DATA)
-def test_data_gives_one_record_and_no_point(case: str, tmp_path: Path, assignment: Assignment, certificate: str):
+def test_data_gives_one_record_and_no_point(case: str, tmp_path: Path, assignment: Assignment, answer_key: str):
     name = assignment.exercise.answers[0].name
-    key = Certificate.from_json(certificate).keys[name].expected.value
+    key = AnswerKey.from_json(answer_key).keys[name].expected.value
     (tmp_path / "key.toml").write_text(f"{name} = {key!r}")
     folder = tmp_path / STUDENT
     folder.mkdir()
     hostile.DATA[case](folder)
     filled(folder, name)
     start = time.process_time()
-    record = graded(assignment, certificate, folder)
+    record = graded(assignment, answer_key, folder)
     assert time.process_time() - start < SECONDS + A_MOMENT
     assert (record.student, record.total, record.level) == (STUDENT, 0.0, "L0")
     assert len(record.answers) == len(assignment.exercise.answers)
@@ -104,7 +104,7 @@ FORMATS = {
 
 @pytest.mark.parametrize("case", hostile.DATA)
 def test_what_cannot_be_read_is_told_in_the_language_of_the_course(
-    case: str, tmp_path: Path, assignment: Assignment, certificate: str
+    case: str, tmp_path: Path, assignment: Assignment, answer_key: str
 ):
     exercise = find_exercise(assignment.exercise.name, "ru")
     names = [asked.name for asked in exercise.answers]
@@ -112,21 +112,21 @@ def test_what_cannot_be_read_is_told_in_the_language_of_the_course(
     folder.mkdir()
     hostile.DATA[case](folder)
     filled(folder, names[0])
-    record = graded(replace(assignment, exercise=exercise), certificate, folder)
+    record = graded(replace(assignment, exercise=exercise), answer_key, folder)
     said = " ".join([*record.notes, *record.feedback])
     assert english_words(said, [*names, "True"]) <= FORMATS
     assert re.search("[а-я]", said)
 
 
-def test_the_key_itself_earns_its_marks(tmp_path: Path, assignment: Assignment, certificate: str):
+def test_the_key_itself_earns_its_marks(tmp_path: Path, assignment: Assignment, answer_key: str):
     """That the cases above earn nothing is their own fault, not the reader's."""
-    keys = Certificate.from_json(certificate).keys
+    keys = AnswerKey.from_json(answer_key).keys
     (tmp_path / "answers.toml").write_text("\n".join(f"{name} = {key.expected.value!r}" for name, key in keys.items()))
-    assert graded(assignment, certificate, tmp_path).total == assignment.exercise.marks
+    assert graded(assignment, answer_key, tmp_path).total == assignment.exercise.marks
 
 
 def test_what_never_ends_is_ended_even_where_a_library_catches_all(
-    tmp_path: Path, assignment: Assignment, certificate: str, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, assignment: Assignment, answer_key: str, monkeypatch: pytest.MonkeyPatch
 ):
     def read(*_: object) -> None:
         while True:
@@ -135,7 +135,7 @@ def test_what_never_ends_is_ended_even_where_a_library_catches_all(
 
     monkeypatch.setattr(work, "READING", 0.2)
     monkeypatch.setattr(work, "from_files", read)
-    record = graded(assignment, certificate, tmp_path)
+    record = graded(assignment, answer_key, tmp_path)
     assert record.total == 0
     assert "took more than 0.2 s" in record.notes[0]
 
@@ -175,7 +175,7 @@ def running(mark: str) -> list[str]:
 @pytest.mark.slow
 @pytest.mark.parametrize("case", hostile.CODE)
 def test_code_gives_one_record_in_time(
-    case: str, level: Level, tmp_path: Path, assignment: Assignment, certificate: str
+    case: str, level: Level, tmp_path: Path, assignment: Assignment, answer_key: str
 ):
     name = assignment.exercise.answers[0].name
     places = {"key": tmp_path / "key.json", "secret": tmp_path / "secret", "grades": tmp_path / "grades.csv",
@@ -191,7 +191,7 @@ def test_code_gives_one_record_in_time(
                                            **{key: str(path) for key, path in places.items()})  # fmt: skip
         hostile.notebook(source)(folder)
         start = time.monotonic()
-        record = graded(replace(assignment, level=level), certificate, folder)
+        record = graded(replace(assignment, level=level), answer_key, folder)
         assert time.monotonic() - start < SECONDS + A_MOMENT
         assert (record.student, record.total, record.level) == (STUDENT, 0.0, level)
         if level is Level.L2:
@@ -242,12 +242,12 @@ def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level, tmp_path:
     assert os.environ.get("HOME", "x") not in run_cells(level, ["import os\nhome = os.environ['HOME']"], ["home"]).text
 
 
-def test_code_that_plots_earns_its_marks(level: Level, tmp_path: Path, assignment: Assignment, certificate: str):
+def test_code_that_plots_earns_its_marks(level: Level, tmp_path: Path, assignment: Assignment, answer_key: str):
     """Libraries that look for the notebook program find as much of it as they need."""
-    keys = Certificate.from_json(certificate).keys
+    keys = AnswerKey.from_json(answer_key).keys
     answers = "\n".join(f"{name} = np.float64({key.expected.value!r})" for name, key in keys.items())
     shown = "plt.plot([1, 2])\nplt.show()\nfrom IPython.display import Image, display\ndisplay(Image())"
     hostile.notebook(f"import numpy as np\nimport matplotlib.pyplot as plt\n{shown}\n{answers}")(tmp_path)
-    patient = replace(assignment, level=level, limits=Limits(seconds=60.0))
-    record = graded(patient, certificate, tmp_path)
+    patient = replace(assignment, level=level, limits=ResourceLimits(seconds=60.0))
+    record = graded(patient, answer_key, tmp_path)
     assert (record.total, record.notes) == (assignment.exercise.marks, ())

@@ -18,7 +18,7 @@ from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.definition.variant import drawn
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.curve_distance import distance_from_drawn
 from graphcam.exercises.key.issuing import issue
 from graphcam.exercises.key.scatter import answers_of
@@ -37,20 +37,20 @@ def test_the_key_is_right_and_too_exact_to_be_drawn(name):
 
 
 def test_a_careful_hand_is_not_too_exact():
-    exercise, certificate = issued("pressure-angle")
-    answers = {name: k.expected.value + 0.8 * k.expected.scatter for name, k in certificate.keys.items()}
-    record = mark(exercise, certificate, Answers(answers))
+    exercise, answer_key = issued("pressure-angle")
+    answers = {name: k.expected.value + 0.8 * k.expected.scatter for name, k in answer_key.keys.items()}
+    record = mark(exercise, answer_key, Answers(answers))
     assert record.total == record.of
     assert not record.too_exact
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_tolerance_is_the_edge(name):
-    exercise, certificate = issued(name)
+    exercise, answer_key = issued(name)
     for asked in exercise.answers:
         if asked.kind != "number":
             continue
-        value, tolerance = certificate.keys[asked.name].expected.value, certificate.keys[asked.name].tolerance
+        value, tolerance = answer_key.keys[asked.name].expected.value, answer_key.keys[asked.name].tolerance
         for side in (-1, 1):
             inside = marked(name, **{asked.name: value + side * 0.99 * tolerance})
             outside = marked(name, **{asked.name: value + side * 1.01 * tolerance})
@@ -60,27 +60,27 @@ def test_the_tolerance_is_the_edge(name):
 
 def test_the_scatter_is_that_of_the_pencil():
     # The certificate's own random numbers are not those of a plain pencil; the scatter of two thousand hands is.
-    exercise, certificate = issued("acceleration-and-scales")
-    task = drawn(exercise, "Anna", SECRET, certificate.draw).task
+    exercise, answer_key = issued("acceleration-and-scales")
+    task = drawn(exercise, "Anna", SECRET, answer_key.draw).task
     hand = exercise.hand
     pencil = Pencil(hand.line, hand.dividers, hand.division, math.radians(hand.protractor_deg), samples=2000, seed=9)
     s = board_chain(task, pencil).integration.readings["s"].paper[:, 12]
-    key = certificate.keys["s_max"]
+    key = answer_key.keys["s_max"]
     assert key.expected.scatter == pytest.approx(np.std(s), rel=0.1)
-    assert key.tolerance == pytest.approx(certificate.bound * np.std(s), rel=0.1)
+    assert key.tolerance == pytest.approx(answer_key.bound * np.std(s), rel=0.1)
     assert key.tolerance_paper == key.tolerance
 
 
 def test_one_slip_costs_its_own_step_only():
     # The lift divided by a wrong ordinate, and everything after that done right with it: independent of how the
     # construction is drawn again, mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1).
-    _, certificate = issued("acceleration-and-scales")
-    task = drawn(issued("acceleration-and-scales")[0], "Anna", SECRET, certificate.draw).task
-    own = 1.3 * certificate.keys["mu_s"].expected.value
+    _, answer_key = issued("acceleration-and-scales")
+    task = drawn(issued("acceleration-and-scales")[0], "Anna", SECRET, answer_key.draw).task
+    own = 1.3 * answer_key.keys["mu_s"].expected.value
     mu_phi, (first, second) = math.radians(1), task.drawing.poles
     mu_v = own / (mu_phi * second)
     mu_a = mu_v / (mu_phi * first)
-    v_max = certificate.keys["v_max"].expected.value * 1.3
+    v_max = answer_key.keys["v_max"].expected.value * 1.3
     record = marked("acceleration-and-scales", mu_s=own, mu_v=mu_v, mu_a=mu_a, v_max=v_max)
     found = outcomes(record)
     assert found["mu_s"] == "wrong"
@@ -94,9 +94,9 @@ def test_one_slip_costs_its_own_step_only():
 
 def test_follow_through_draws_again_where_no_formula_is_linear():
     # tan(alpha) = (v - sigma e)/(s0 + s), from the student's own v.
-    exercise, certificate = issued("pressure-angle")
-    variant = drawn(exercise, "Anna", SECRET, certificate.draw)
-    task, right = variant.task, key(certificate)
+    exercise, answer_key = issued("pressure-angle")
+    variant = drawn(exercise, "Anna", SECRET, answer_key.draw)
+    task, right = variant.task, key(answer_key)
     sigma = 1 if task.rotation == "ccw" else -1
     e, r0 = task.follower.offset, task.cam.prime_radius
     s = board_chain(task).integration.value("s")[4]
@@ -112,24 +112,22 @@ def test_follow_through_draws_again_where_no_formula_is_linear():
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_follows_from_nought(name):
     """From a scale of nought every later value is nought, which nobody needs to draw."""
-    exercise, certificate = issued(name)
-    numbers = {
-        asked.name: certificate.keys[asked.name].expected for asked in exercise.answers if asked.kind == "number"
-    }
+    exercise, answer_key = issued(name)
+    numbers = {asked.name: answer_key.keys[asked.name].expected for asked in exercise.answers if asked.kind == "number"}
     for small in (0.0, -0.0, 1e-9, -1e-6, 1e-3):
-        record = mark(exercise, certificate, Answers(dict.fromkeys(numbers, small)))
+        record = mark(exercise, answer_key, Answers(dict.fromkeys(numbers, small)))
         # But for what is nought itself within its tolerance.
         earned = {answer.name for answer in record.answers if answer.marks}
-        assert earned <= {key for key, one in numbers.items() if abs(one.value) <= certificate.bound * one.scatter}
+        assert earned <= {key for key, one in numbers.items() if abs(one.value) <= answer_key.bound * one.scatter}
 
 
 def test_the_tolerance_of_an_angle_does_not_grow_with_it():
     # The right angle is less than a degree; one of ten that follows from the own v is not so much more uncertain.
-    certificate = issued("pressure-angle", "Julia")[1]
-    right = key(certificate)
+    answer_key = issued("pressure-angle", "Julia")[1]
+    right = key(answer_key)
     own = {"v_4": 1.6 * right["v_4"], "D_4": 1.6 * right["D_4"]}
-    alpha = certificate.dependences["alpha_4"].expected(right["alpha_4"], own)
-    tolerance = certificate.keys["alpha_4"].tolerance
+    alpha = answer_key.dependences["alpha_4"].expected(right["alpha_4"], own)
+    tolerance = answer_key.keys["alpha_4"].tolerance
     assert abs(alpha) > 10 * abs(right["alpha_4"])
     assert (
         outcomes(marked("pressure-angle", "Julia", **own, alpha_4=alpha + 0.9 * tolerance))["alpha_4"]
@@ -140,22 +138,22 @@ def test_the_tolerance_of_an_angle_does_not_grow_with_it():
 
 def test_a_slip_beside_a_mistake_is_not_excused_by_it():
     # What the mistake leaves right is a slip of its own where it is wrong, also when it is not far off.
-    exercise, certificate = issued("pressure-angle")
+    exercise, answer_key = issued("pressure-angle")
     at = [asked.name for asked in exercise.answers].index("alpha_8")
-    mistaken = certificate.hypotheses["offset-sign"]
+    mistaken = answer_key.hypotheses["offset-sign"]
     answers = {asked.name: each.value for asked, each in zip(exercise.answers, mistaken, strict=True)}
-    slip = mistaken[at].value + 1.5 * certificate.bound * mistaken[at].scatter
-    found = outcomes(mark(exercise, certificate, Answers(answers)))
+    slip = mistaken[at].value + 1.5 * answer_key.bound * mistaken[at].scatter
+    found = outcomes(mark(exercise, answer_key, Answers(answers)))
     assert found["alpha_8"] == "follow-through"
-    assert outcomes(mark(exercise, certificate, Answers(answers | {"alpha_8": slip})))["alpha_8"] == "wrong"
+    assert outcomes(mark(exercise, answer_key, Answers(answers | {"alpha_8": slip})))["alpha_8"] == "wrong"
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_mistake_is_named_and_costs_something(name):
-    exercise, certificate = issued(name)
-    for mistake, values in certificate.hypotheses.items():
+    exercise, answer_key = issued(name)
+    for mistake, values in answer_key.hypotheses.items():
         answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
-        record = mark(exercise, certificate, Answers(answers))
+        record = mark(exercise, answer_key, Answers(answers))
         assert record.diagnosis is not None
         assert record.diagnosis.misconception == mistake
         assert record.diagnosis.confidence > 0.99
@@ -164,11 +162,11 @@ def test_every_mistake_is_named_and_costs_something(name):
 
 
 def test_mistakes_that_the_answers_do_not_tell_are_both_named():
-    exercise, certificate = issued("pressure-angle")
+    exercise, answer_key = issued("pressure-angle")
     # Only the angle is given: both mistakes mirror the offset, and give the same angle.
-    values = certificate.hypotheses["offset-sign"]
+    values = answer_key.hypotheses["offset-sign"]
     at = [asked.name for asked in exercise.answers].index("alpha_4")
-    record = mark(exercise, certificate, Answers({"alpha_4": values[at].value}))
+    record = mark(exercise, answer_key, Answers({"alpha_4": values[at].value}))
     assert record.diagnosis is not None
     named = {record.diagnosis.misconception, *record.diagnosis.alike}
     assert named >= {"offset-sign", "rotation-sense"}
@@ -176,16 +174,16 @@ def test_mistakes_that_the_answers_do_not_tell_are_both_named():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_feedback_never_discloses_the_key(name):
-    exercise, certificate = issued(name)
-    records = [mark(exercise, certificate, Answers({}))]
-    for values in certificate.hypotheses.values():
+    exercise, answer_key = issued(name)
+    records = [mark(exercise, answer_key, Answers({}))]
+    for values in answer_key.hypotheses.values():
         answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
-        records.append(mark(exercise, certificate, Answers(answers)))
-    answers = {n: 3 * k.expected.value + 7 for n, k in certificate.keys.items()}
-    records.append(mark(exercise, certificate, Answers(answers)))
+        records.append(mark(exercise, answer_key, Answers(answers)))
+    answers = {n: 3 * k.expected.value + 7 for n, k in answer_key.keys.items()}
+    records.append(mark(exercise, answer_key, Answers(answers)))
     numbers = {
         f"{abs(k.expected.value):.{decimals}f}"
-        for k in certificate.keys.values() if not isinstance(k.expected.value, np.ndarray) for decimals in range(1, 5)
+        for k in answer_key.keys.values() if not isinstance(k.expected.value, np.ndarray) for decimals in range(1, 5)
     }  # fmt: skip
     text = " ".join(sentence for record in records for sentence in record.feedback)
     assert not numbers & set(re.findall(r"\d+[.,]\d+", text))
@@ -203,26 +201,26 @@ HOSTILE = [
 
 @pytest.mark.parametrize("value", HOSTILE, ids=repr)
 def test_whatever_is_handed_in_gives_one_record_and_no_marks(value):
-    exercise, certificate = issued("inversion-translating")
-    record = mark(exercise, certificate, Answers({asked.name: value for asked in exercise.answers}))
+    exercise, answer_key = issued("inversion-translating")
+    record = mark(exercise, answer_key, Answers({asked.name: value for asked in exercise.answers}))
     assert record.total == 0
     assert {answer.outcome for answer in record.answers} <= {"unreadable", "wrong", "missing"}
     json.dumps(record.to_dict(), allow_nan=False)
 
 
 def test_what_could_not_be_read_is_said():
-    exercise, certificate = issued("integration")
-    record = mark(exercise, certificate, Answers({}, {"s_2": "The line holds no number."}))
+    exercise, answer_key = issued("integration")
+    record = mark(exercise, answer_key, Answers({}, {"s_2": "The line holds no number."}))
     assert outcomes(record)["s_2"] == "unreadable"
     assert outcomes(record)["mu_v"] == "missing"
     assert any("The line holds no number." in sentence for sentence in record.feedback)
 
 
 def test_a_stored_certificate_marks_the_same():
-    exercise, certificate = issued("inversion-translating")
-    stored = Certificate.from_json(certificate.to_json())
-    assert stored.to_json() == certificate.to_json()
-    task = drawn(exercise, "Anna", SECRET, certificate.draw).task
+    exercise, answer_key = issued("inversion-translating")
+    stored = AnswerKey.from_json(answer_key.to_json())
+    assert stored.to_json() == answer_key.to_json()
+    task = drawn(exercise, "Anna", SECRET, answer_key.draw).task
     chain = board_chain(task, exercise.hand.pencil(20, seed=5))
     hands = answers_of(exercise, misconception("offset-sign").change(chain))
     for row in range(20):
@@ -232,12 +230,12 @@ def test_a_stored_certificate_marks_the_same():
                 for a, v in zip(exercise.answers, hands, strict=True)
             }
         )
-        assert mark(exercise, stored, answers) == mark(exercise, certificate, answers)
+        assert mark(exercise, stored, answers) == mark(exercise, answer_key, answers)
 
 
 def test_issuing_again_gives_the_same_certificate():
-    exercise, certificate = issued("integration")
-    assert issue(exercise, "Anna", SECRET)[1].to_json() == certificate.to_json()
+    exercise, answer_key = issued("integration")
+    assert issue(exercise, "Anna", SECRET)[1].to_json() == answer_key.to_json()
 
 
 def test_a_curve_is_marked_by_its_distance_and_shows_the_worst_place():
@@ -258,9 +256,9 @@ def test_a_curve_is_marked_by_its_distance_and_shows_the_worst_place():
 
 def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
     """Ways to draw the pitch curve of the variant, each with what it is worth."""
-    exercise, certificate = issued("inversion-translating")
-    chain = board_chain(drawn(exercise, "Anna", SECRET, certificate.draw).task)
-    points, smooth = key(certificate)["pitch"], pitch_curve(chain.inversion)
+    exercise, answer_key = issued("inversion-translating")
+    chain = board_chain(drawn(exercise, "Anna", SECRET, answer_key.draw).task)
+    points, smooth = key(answer_key)["pitch"], pitch_curve(chain.inversion)
     closed = np.append(smooth, smooth[0])
     out_and_back = np.concatenate([smooth[:60], [smooth[59] * 1.15], smooth[60:]])
     # Through every station in another order, so that only the way between them is wrong.
@@ -304,13 +302,13 @@ def test_a_curve_is_right_only_if_all_of_it_is():
 
 def test_a_scribble_is_nobodys_mistake_either():
     # What a mistake brings earns its marks as follow-through; a line over all of the sheet passes near that as well.
-    exercise, certificate = issued("inversion-translating")
+    exercise, answer_key = issued("inversion-translating")
     scribble = drawn_curves()["a line ruled back and forth over the sheet"][0]
-    for values in certificate.hypotheses.values():
+    for values in answer_key.hypotheses.values():
         answers = {asked.name: each.value for asked, each in zip(exercise.answers, values, strict=True)}
-        record = mark(exercise, certificate, Answers(answers | {"pitch": scribble}))
+        record = mark(exercise, answer_key, Answers(answers | {"pitch": scribble}))
         assert outcomes(record)["pitch"] == "wrong"
-        assert outcomes(mark(exercise, certificate, Answers(answers)))["pitch"] in ("right", "follow-through")
+        assert outcomes(mark(exercise, answer_key, Answers(answers)))["pitch"] in ("right", "follow-through")
 
 
 def test_the_place_of_an_excursion_is_said():

@@ -27,7 +27,7 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.submission_files import read_files
 from graphcam.sheets.model import Text
 
@@ -69,10 +69,10 @@ def test_the_papers_of_a_russian_course_are_russian(name):
 
 
 def test_the_sheets_of_a_russian_course_are_russian():
-    exercise, certificate = find_exercise("inversion-arm", "ru"), issued("inversion-arm")[1]
-    variant = drawn(exercise, "Anna", SECRET, certificate.draw)
+    exercise, answer_key = find_exercise("inversion-arm", "ru"), issued("inversion-arm")[1]
+    variant = drawn(exercise, "Anna", SECRET, answer_key.draw)
     student = Student("анна", "Анна")
-    for sheet in (worksheet(variant, student), key_sheet(variant, student, certificate)):
+    for sheet in (worksheet(variant, student), key_sheet(variant, student, answer_key)):
         texts = [e.text for page in sheet.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
         assert set().union(*(english(text, exercise) for text in texts)) == set()
         assert [text for text in texts if re.search(r"\d\.\d", text)] == []
@@ -80,10 +80,10 @@ def test_the_sheets_of_a_russian_course_are_russian():
 
 def test_a_certificate_that_is_none_is_refused():
     with pytest.raises(TaskError, match="make it again"):
-        Certificate.from_json("{}")
+        AnswerKey.from_json("{}")
     text = issued("integration")[1].to_json().replace('"format": 2', '"format": 1')
     with pytest.raises(TaskError, match="format 1"):
-        Certificate.from_json(text)
+        AnswerKey.from_json(text)
 
 
 @pytest.mark.parametrize(
@@ -157,18 +157,18 @@ def test_a_course_is_made_whole(tmp_path):
         }  # fmt: skip
         # What is to be filled in is what is read.
         assert {"answers.toml", "answers.ipynb"} <= read_files(folder)[0].keys()
-        certificate = Certificate.from_json(
+        answer_key = AnswerKey.from_json(
             (out / "teacher" / "certificates" / f"{folder_name(student)}.json").read_text(encoding="utf-8")
         )
-        assert certificate.student == student
-        assert certificate.alike == ()
+        assert answer_key.student == student
+        assert answer_key.alike == ()
         text = "".join(
             path.read_text(encoding="utf-8") for path in folder.iterdir() if path.suffix in (".toml", ".ipynb")
         )
         drawing = ezdxf.readfile(folder / "worksheet.dxf")
         text += " ".join(entity.dxf.text for entity in drawing.modelspace().query("TEXT"))
         for name in ("v_max", "mu_v", "s_max"):
-            assert f"{certificate.keys[name].expected.value:.3f}"[:-1] not in text
+            assert f"{answer_key.keys[name].expected.value:.3f}"[:-1] not in text
         assert (out / "teacher" / "keys" / f"{folder_name(student)}.pdf").stat().st_size > 10_000
     with (out / "teacher" / "keys.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -185,8 +185,8 @@ def test_a_course_is_made_whole(tmp_path):
 @pytest.mark.parametrize("name", [name for name in library() if name != "differentiation"])
 def test_the_diagrams_of_a_variant_find_room_on_its_axes(name):
     """A curve that a hand draws over the empty axes ends neither above nor below them."""
-    exercise, certificate = issued(name)
-    chain = board_chain(drawn(exercise, "Anna", SECRET, certificate.draw).task)
+    exercise, answer_key = issued(name)
+    chain = board_chain(drawn(exercise, "Anna", SECRET, answer_key.draw).task)
     greatest = chain.acceleration.readings["greatest"].paper.max()
     curves = {
         "acceleration": np.array([greatest, -greatest]),
@@ -209,8 +209,8 @@ def test_the_diagrams_of_a_variant_find_room_on_its_axes(name):
     ],
 )
 def test_a_worksheet_is_true_to_scale_and_its_diagrams_stand_in_order(name, views):
-    exercise, certificate = issued(name)
-    (page,) = worksheet(drawn(exercise, "Anna", SECRET, certificate.draw), Student("Anna")).pages
+    exercise, answer_key = issued(name)
+    (page,) = worksheet(drawn(exercise, "Anna", SECRET, answer_key.draw), Student("Anna")).pages
     # Only views in true scale have their origins said.
     assert set(page.origins) == set(views)
     origins = [page.origins[view] for view in views[:3]]

@@ -12,11 +12,11 @@ from browsers import opened
 from issued_variants import SECRET, issued, key
 from russian import english_words
 
-from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
 
@@ -25,16 +25,16 @@ HOSTILE = "<img src=http://127.0.0.1/x onerror=alert(1)>"
 IDS = ("Anna", "Boris", "Clara", "Dmitri", HOSTILE)
 
 
-def answers(student: str, certificate: Certificate) -> str:
+def answers(student: str, answer_key: AnswerKey) -> str:
     """By Anna a careful hand's, by Boris those of the wrong offset, by Clara a bump, by Dmitri nearly none."""
     exercise = issued(NAME)[0]
-    values = dict(key(certificate))
+    values = dict(key(answer_key))
     rng = np.random.default_rng(len(student))
     values = {
-        name: value + certificate.keys[name].tolerance / 5 * rng.standard_normal() for name, value in values.items()
+        name: value + answer_key.keys[name].tolerance / 5 * rng.standard_normal() for name, value in values.items()
     }
     if student == "Boris":
-        wrong = certificate.hypotheses["offset-sign"]
+        wrong = answer_key.hypotheses["offset-sign"]
         values = {asked.name: each.value for asked, each in zip(exercise.answers, wrong, strict=True)}
     if student == "Clara":
         bump = 4 * np.exp(-(((np.arange(values["pitch"].size) - 9) / 1.5) ** 2))
@@ -52,15 +52,15 @@ def answers(student: str, certificate: Certificate) -> str:
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("course")
-    kept = Certificates(place / TEACHER)
+    kept = AnswerKeys(place / TEACHER)
     kept.keep_course(exercise_path(NAME), SECRET, language="en")
     (place / "secret").write_bytes(SECRET)
     for student in IDS:
-        certificate = issued(NAME, student)[1]
-        kept.keep(student, certificate.to_json())
+        answer_key = issued(NAME, student)[1]
+        kept.keep(student, answer_key.to_json())
         folder = place / "students" / folder_name(student)
         folder.mkdir(parents=True)
-        (folder / "answers.toml").write_text(answers(student, certificate))
+        (folder / "answers.toml").write_text(answers(student, answer_key))
     grade_course(Course(place, place / "secret", place / "grades.csv", feedback=place / "pages"))
     return place
 
@@ -85,11 +85,11 @@ def numbers_of(html: str) -> set[float]:
     return {float(number) for number in re.findall(r"-?\d+\.\d+", text)}
 
 
-def disclosed(html: str, certificate: Certificate) -> list[str]:
+def disclosed(html: str, answer_key: AnswerKey) -> list[str]:
     """Answers whose keys stand on a page, to three decimals, or of points most of them to two."""
     shown = numbers_of(html)
     found: list[str] = []
-    for name, value in key(certificate).items():
+    for name, value in key(answer_key).items():
         if isinstance(value, np.ndarray):
             near = [any(abs(x - part) < 0.006 for x in shown) for z in value for part in (z.real, -z.imag)]
             if np.mean(near) > 0.5:
@@ -101,15 +101,15 @@ def disclosed(html: str, certificate: Certificate) -> list[str]:
 
 def test_a_students_page_does_not_hold_the_key(pages: Path):
     for student in IDS[1:]:
-        certificate = issued(NAME, student)[1]
+        answer_key = issued(NAME, student)[1]
         html = page_of(pages, student).read_text()
-        own = {name for name in key(certificate) if f"{name} = " in answers(student, certificate)}
+        own = {name for name in key(answer_key) if f"{name} = " in answers(student, answer_key)}
         # What the student gave right stands there as the student's own.
         given_right = {
             answer["name"] for record in json.loads((pages / "grades.json").read_text()) if record["student"] == student
             for answer in record["answers"] if answer["outcome"] == "right"
         }  # fmt: skip
-        assert set(disclosed(html, certificate)) <= given_right & own, student
+        assert set(disclosed(html, answer_key)) <= given_right & own, student
 
 
 def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages: Path):
@@ -126,14 +126,14 @@ def test_the_report_tells_what_to_teach_again(pages: Path):
 
 
 def test_the_pages_of_a_russian_course_are_russian(pages: Path):
-    kept = Certificates(pages / TEACHER)
+    kept = AnswerKeys(pages / TEACHER)
     exercise = find_exercise(NAME, "ru")
     records = json.loads((pages / "grades.json").read_text())
-    certificates = {student: Certificate.from_json(kept.find(student)) for student in IDS}
+    answer_keys = {student: AnswerKey.from_json(kept.find(student)) for student in IDS}
     # The sentences of a record were said when it was marked; here the pages' own words are looked at.
     records = [record | {"feedback": [], "notes": []} for record in records if record["student"] != HOSTILE]
-    html = [group_page(exercise, records, certificates)]
-    html += [student_page(exercise, record, certificates[record["student"]]) for record in records]
+    html = [group_page(exercise, records, answer_keys)]
+    html += [student_page(exercise, record, answer_keys[record["student"]]) for record in records]
     for page in html:
         text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)
         assert english_words(text, (*IDS, *(asked.name for asked in exercise.answers))) == set()

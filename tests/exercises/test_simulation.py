@@ -90,8 +90,8 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
     issue = module.issue
 
     def strict(*arguments):
-        variant, certificate = issue(*arguments)
-        return variant, replace(certificate, bound=1e-3)
+        variant, answer_key = issue(*arguments)
+        return variant, replace(answer_key, bound=1e-3)
 
     monkeypatch.setattr(module, "issue", strict)
     assert simulate(find_exercise("integration"), SECRET, 1, 20).false_rejections == 1.0
@@ -100,10 +100,10 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
 def test_what_is_timed_is_the_work_that_hand_ins_make():
     """Careful ones are read and earn their marks, curves too; in the others the mistake is found."""
     exercise = find_exercise("inversion-translating")
-    hand_ins = simulated(exercise)
-    known = hand_ins[0][0].certificate
-    careful, wrong = ([grade(Assignment(exercise, SPEED_SECRET), each) for each in some] for some in hand_ins)
-    assert {each.certificate for each in [*careful, *wrong]} == {known}
+    submissions = simulated(exercise)
+    known = submissions[0][0].answer_key
+    careful, wrong = ([grade(Assignment(exercise, SPEED_SECRET), each) for each in some] for some in submissions)
+    assert {each.answer_key for each in [*careful, *wrong]} == {known}
     assert not any(each.record.notes for each in [*careful, *wrong])
     assert sum(each.record.total == exercise.marks for each in careful) >= 0.9 * HANDS
     assert sum(each.record.diagnosis is not None for each in wrong) >= 0.9 * HANDS * len(exercise.misconceptions)

@@ -27,8 +27,8 @@ Curve = np.ndarray
 
 @pytest.fixture(scope="module")
 def sheet(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    exercise, certificate = issued(NAME)
-    variant = drawn(exercise, "Anna", SECRET, certificate.draw)
+    exercise, answer_key = issued(NAME)
+    variant = drawn(exercise, "Anna", SECRET, answer_key.draw)
     path = tmp_path_factory.mktemp("papers") / "worksheet.dxf"
     write_dxf(worksheet(variant, Student("Anna")), path, origins(variant), [LAYER])
     return path
@@ -116,10 +116,10 @@ UNDERSTOOD: dict[str, tuple[Callable[[Drawing, Curve], None], Callable[[Drawing]
 @pytest.mark.parametrize("case", UNDERSTOOD)
 @pytest.mark.parametrize("hand", ["careful", "offset-sign"])
 def test_what_is_drawn_in_the_worksheet_earns_what_its_points_earn(sheet: Path, case: str, hand: str):
-    exercise, certificate = issued(NAME)
+    exercise, answer_key = issued(NAME)
     wrong = {asked.name: value.value for asked, value in
-             zip(exercise.answers, certificate.hypotheses["offset-sign"], strict=True)}  # fmt: skip
-    curve = np.asarray(key(certificate)["pitch"]) + (0.25 - 0.2j) if hand == "careful" else np.asarray(wrong["pitch"])
+             zip(exercise.answers, answer_key.hypotheses["offset-sign"], strict=True)}  # fmt: skip
+    curve = np.asarray(key(answer_key)["pitch"]) + (0.25 - 0.2j) if hand == "careful" else np.asarray(wrong["pitch"])
     document = ezdxf.readfile(sheet)
     draw, edit = UNDERSTOOD[case]
     draw(document, curve + centre(document))

@@ -19,7 +19,7 @@ from programs import program
 from scipy.spatial import cKDTree
 
 from graphcam.sheets.fonts import width
-from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text, count
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text, count
 from graphcam.sheets.styles import STYLES
 
 RULER = 0.005
@@ -140,7 +140,7 @@ def _places(entity: Entity) -> np.ndarray:
             return points
         case Circles(centres=centres, radius=radius):
             return np.concatenate([centres + radius * turn for turn in (1, 1j, -1, -1j)])
-        case Arc(centre=centre, radius=radius, start=start, end=end):
+        case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             return centre + radius * np.exp(1j * np.linspace(start, end, 9))
         case Heads(corners=corners):
             return corners[:, 0]

@@ -9,7 +9,7 @@ import shapely
 from graphcam.drafting.ink import Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.labels import place
-from graphcam.sheets.model import Arc, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
 from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import corners, within
 from graphcam.sheets.writing import along, around, over
@@ -98,7 +98,7 @@ def test_check_finds_overlapping_texts() -> None:
     [
         Stroke(np.array([40 + 51j, 80 + 52j]), Role.RESULT),
         Strokes(np.array([52 + 0j]), np.array([52 + 100j]), Role.RESULT),
-        Arc(52 + 31j, 21.0, 1.0, 2.0, Role.RESULT),
+        ArcEntity(52 + 31j, 21.0, 1.0, 2.0, Role.RESULT),
         Circles(np.array([52 + 31j]), 21.0, Role.RESULT),
     ],
 )

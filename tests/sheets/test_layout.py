@@ -14,7 +14,7 @@ from graphcam.drafting.ink import Line, Role, Step, View, say
 from graphcam.report.sheet_contents import sheet
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
-from graphcam.sheets.model import Arc, Circles, Curve, Drawing, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Stroke, Strokes, Text
 from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import box_of
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
@@ -87,7 +87,7 @@ def test_what_is_too_large_is_reduced_with_its_neighbours(paper: str, ordinate: 
     assert len(set(reduced)) == 1
     for page in drawn.pages:
         for group in page.groups:
-            box = box_of(e for e in group.entities if isinstance(e, Stroke | Strokes | Arc | Circles | Curve))
+            box = box_of(e for e in group.entities if isinstance(e, Stroke | Strokes | ArcEntity | Circles | Curve))
             assert group.key == "frame" or box is None or page.frame.holds(box)
 
 

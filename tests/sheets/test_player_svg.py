@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scene import drawing
 
-from graphcam.sheets.model import Arc, Circles, Curve, Group, Heads, Stroke, Strokes, Text, count
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text, count
 from graphcam.sheets.player import Slide, player
 from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.styles import STYLES
@@ -66,7 +66,7 @@ def test_lines_and_texts_lie_where_they_are_drawn():
 def test_round_things_are_round():
     circle, arc = (
         elements(group_svg(Group("a", (entity,)), HEIGHT))[0].attrib["d"]
-        for entity in (Circles(np.array([10 + 20j]), 5.0, "curve"), Arc(10 + 20j, 5.0, 0.0, 1.5 * np.pi, "curve"))
+        for entity in (Circles(np.array([10 + 20j]), 5.0, "curve"), ArcEntity(10 + 20j, 5.0, 0.0, 1.5 * np.pi, "curve"))
     )
     assert circle == "M5 277a5 5 0 1 1 10 0a5 5 0 1 1 -10 0z"
     places = [complex(float(x), HEIGHT - float(y)) for x, y in re.findall(rf"({NUMBER}) ({NUMBER})(?=A|$)", arc)]

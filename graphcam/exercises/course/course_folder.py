@@ -24,22 +24,22 @@ HIDDEN = ".graphcam"
 
 
 @dataclass(frozen=True)
-class Certificates:
+class AnswerKeys:
     """The certificates kept in a folder."""
 
     folder: Path
 
     @staticmethod
-    def of(course: Path) -> tuple[Path, Certificates]:
+    def of(course: Path) -> tuple[Path, AnswerKeys]:
         """Where the hand-ins of a course are, and where its certificates: beside them if graphcam made the course."""
-        for hand_ins in (STUDENTS, SUBMITTED):
+        for submissions in (STUDENTS, SUBMITTED):
             # Students may have any name, and hand in what they like.
-            if (course / hand_ins).is_dir() and (course / TEACHER / COURSE).is_file():
-                return course / hand_ins, Certificates(course / TEACHER)
+            if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():
+                return course / submissions, AnswerKeys(course / TEACHER)
         beside = course.resolve().parent / TEACHER
         if course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir():
-            return course, Certificates(beside)
-        return course, Certificates(course / HIDDEN)
+            return course, AnswerKeys(beside)
+        return course, AnswerKeys(course / HIDDEN)
 
     def find(self, student: str) -> str:
         """A student's certificate as JSON; empty where there is none."""
@@ -59,13 +59,13 @@ class Certificates:
             return student_of(place)
         return student if folder_name(student) == place else student_of(place)
 
-    def keep(self, student: str, certificate: str) -> None:
+    def keep(self, student: str, answer_key: str) -> None:
         """Keep a certificate; it is there whole or not at all."""
         path = self._path(student)
         path.parent.mkdir(parents=True, exist_ok=True)
         # Two runs may keep the same one.
         draft = path.with_name(f"{path.name}.{os.getpid()}.new")
-        draft.write_text(certificate, encoding="utf-8")
+        draft.write_text(answer_key, encoding="utf-8")
         draft.replace(path)
 
     def keep_course(self, exercise: Path, secret: bytes, **said: Any) -> None:

@@ -16,7 +16,7 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.definition.variant import Variant
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.drawn_layers import ORIGIN
 from graphcam.exercises.reading.submission_files import DXF
 from graphcam.report.markdown import number
@@ -80,12 +80,12 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
     return _composed(variant, student, steps, [table], [instructions(variant)])
 
 
-def key_sheet(variant: Variant, student: Student, certificate: Certificate) -> Drawing:
+def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Drawing:
     """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
     steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
-    table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, certificate)))
+    table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, answer_key)))
     return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
 
 
@@ -96,11 +96,11 @@ def _drawn_for(exercise: Exercise, order: tuple[str, ...]) -> list[str]:
     return [*order[: max(within) + 1 if within else 0], *sorted(asked - set(order))]
 
 
-def key_rows(exercise: Exercise, certificate: Certificate) -> list[tuple[Words, ...]]:
+def key_rows(exercise: Exercise, answer_key: AnswerKey) -> list[tuple[Words, ...]]:
     """A line an answer: name, unit, value, tolerance, marks."""
     rows: list[tuple[Words, ...]] = []
     for asked in exercise.answers:
-        key = certificate.keys[asked.name]
+        key = answer_key.keys[asked.name]
         value = key.expected.value
         told = number(value, asked.decimals) if isinstance(value, float) else say("see the drawing")
         tolerance = number(key.tolerance, asked.decimals + 1)
@@ -181,7 +181,7 @@ def _value(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def write_papers(variant: Variant, student: Student, folder: Path) -> None:
+def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
     """Write all that the student gets into a folder."""
     from graphcam.sheets.dxf_renderer import write_dxf
     from graphcam.sheets.matplotlib_renderer import write_pdf

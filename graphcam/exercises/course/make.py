@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, Certificates, read_secret
+from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.course.folder_names import folder_name
-from graphcam.exercises.course.handouts import key_rows, key_sheet, write_papers
+from graphcam.exercises.course.handouts import key_rows, key_sheet, write_handouts
 from graphcam.exercises.course.roster import Student, read_roster
 from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.issuing import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
@@ -60,13 +60,13 @@ def make(
     with whole_folder(out) as draft, _pool(workers) as pool:
         orders = [_Order(exercise, student, secret, draft) for student in students]
         results: Iterable[str] = pool.map(_papers, orders) if pool else map(_papers, orders)
-        certificates: list[Certificate] = []
+        answer_keys: list[AnswerKey] = []
         for done, text in enumerate(results, 1):
-            certificates.append(Certificate.from_json(text))
+            answer_keys.append(AnswerKey.from_json(text))
             step(done, len(orders))
-        kept = Certificates(draft / TEACHER)
+        kept = AnswerKeys(draft / TEACHER)
         kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
-        _write_keys(draft / TEACHER / "keys.csv", exercise, certificates)
+        _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
 
 
@@ -79,25 +79,25 @@ def _papers(order: _Order) -> str:
     """All papers of one student; the certificate as text."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
-    variant, certificate = issue(order.exercise, order.student.id, order.secret)
+    variant, answer_key = issue(order.exercise, order.student.id, order.secret)
     name = folder_name(order.student.id)
     theirs, keys, kept = order.folder / STUDENTS / name, order.folder / TEACHER / "keys", order.folder / TEACHER
     for folder in (theirs, keys, kept / "certificates"):
         folder.mkdir(parents=True, exist_ok=True)
-    write_papers(variant, order.student, theirs)
-    write_pdf(key_sheet(variant, order.student, certificate), keys / f"{name}.pdf")
-    text = certificate.to_json()
+    write_handouts(variant, order.student, theirs)
+    write_pdf(key_sheet(variant, order.student, answer_key), keys / f"{name}.pdf")
+    text = answer_key.to_json()
     (kept / "certificates" / f"{name}.json").write_text(text, encoding="utf-8")
     return text
 
 
-def _write_keys(path: Path, exercise: Exercise, certificates: list[Certificate]) -> None:
+def _write_keys(path: Path, exercise: Exercise, answer_keys: list[AnswerKey]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, quoting=csv.QUOTE_ALL)
         table.writerow(
             ["student", "draw", "answer", "unit", "key", "tolerance", "marks", "tolerance_paper_mm", "bound"]
         )
-        for each in certificates:
+        for each in answer_keys:
             for row in key_rows(exercise, each):
                 length = each.keys[str(row[0])].tolerance_paper
                 paper = f"{length:.3f}" if math.isfinite(length) else ""

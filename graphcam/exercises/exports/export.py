@@ -7,13 +7,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from graphcam.errors import DesignError
-from graphcam.exercises.course.course_folder import TEACHER, Certificates
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.exports.gradescope import write_autograder
 from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
-from graphcam.exercises.exports.systems import Format
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.exports.systems import LearningSystem
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.issuing import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
@@ -24,7 +24,7 @@ MOST = 1000
 
 
 def export(
-    name: str, target: Format, students: list[str], folder: Path, secret: bytes | None = None,
+    name: str, target: LearningSystem, students: list[str], folder: Path, secret: bytes | None = None,
     step: Callable[[int, int], None] = lambda done, total: None, language: str = ENGLISH.name,
 ) -> None:  # fmt: skip
     """Write the export for some students, or for as many nameless variants, into a new folder.
@@ -44,21 +44,21 @@ def export(
     one_of("language", language, languages())
     exercise = find_exercise(name, language)
     key = secret or secrets.token_hex(32).encode()
-    certificates: list[Certificate] = []
+    answer_keys: list[AnswerKey] = []
     for student in students:
-        certificates.append(issue(exercise, student, key)[1])
-        step(len(certificates), len(students))
+        answer_keys.append(issue(exercise, student, key)[1])
+        step(len(answer_keys), len(students))
     with whole_folder(folder) as draft:
-        kept = Certificates(draft / TEACHER)
+        kept = AnswerKeys(draft / TEACHER)
         kept.keep_course(exercise_path(name), key, version=exercise.version, language=language)
-        for certificate in certificates:
-            kept.keep(certificate.student, certificate.to_json())
+        for answer_key in answer_keys:
+            kept.keep(answer_key.student, answer_key.to_json())
         match target:
-            case Format.MOODLE:
-                (draft / f"{exercise.name}.xml").write_text(moodle_xml(exercise, certificates), encoding="utf-8")
-            case Format.NBGRADER:
-                write_course(draft, exercise, certificates)
-            case Format.GRADESCOPE:
+            case LearningSystem.MOODLE:
+                (draft / f"{exercise.name}.xml").write_text(moodle_xml(exercise, answer_keys), encoding="utf-8")
+            case LearningSystem.NBGRADER:
+                write_course(draft, exercise, answer_keys)
+            case LearningSystem.GRADESCOPE:
                 write_autograder(draft, exercise, key)
         if secret is None:
             (draft / TEACHER / "secret").write_bytes(key)

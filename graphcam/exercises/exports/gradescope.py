@@ -10,12 +10,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from graphcam.exercises.course.course_folder import TEACHER, Certificates, read_secret
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import read_hand_in
+from graphcam.exercises.grading.submission import read_submission
 from graphcam.exercises.reports.phrases import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash
@@ -70,10 +70,10 @@ def main(root: Path) -> None:
     source = root / "source"
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     student = str(metadata["users"][0]["email"])
-    kept = Certificates(source / TEACHER)
+    kept = AnswerKeys(source / TEACHER)
     exercise = find_exercise(kept.exercise(), kept.language())
     assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
-    graded = grade(assignment, read_hand_in(student, root / "submission", kept.find(student)))
+    graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
     (root / "results").mkdir(exist_ok=True)
     said = json.dumps(results(assignment.exercise, graded.record.to_dict()), indent=1, allow_nan=False)
     (root / "results" / "results.json").write_text(said, encoding="utf-8")

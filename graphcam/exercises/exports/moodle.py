@@ -14,11 +14,11 @@ from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.definition.template import sentence
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import say
 
 
-def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
+def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
     """The questions of several variants, each in a category of its own.
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
@@ -26,23 +26,23 @@ def moodle_xml(exercise: Exercise, certificates: Sequence[Certificate]) -> str:
     '<quiz />'
     """
     quiz = Element("quiz")
-    for certificate in certificates:
+    for answer_key in answer_keys:
         category = SubElement(quiz, "question", type="category")
-        _text(category, "category", f"$course$/{exercise.title}/{folder_name(certificate.student)}")
+        _text(category, "category", f"$course$/{exercise.title}/{folder_name(answer_key.student)}")
         description = _question(
-            quiz, "description", exercise.title, sentence(exercise.text, certificate.parameters, exercise.tell)
+            quiz, "description", exercise.title, sentence(exercise.text, answer_key.parameters, exercise.tell)
         )
         SubElement(description, "defaultgrade").text = "0"
         for asked in exercise.answers:
-            _ask(quiz, exercise, certificate, asked)
+            _ask(quiz, exercise, answer_key, asked)
     indent(quiz)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(quiz, encoding="unicode") + "\n"
 
 
-def _ask(quiz: Element, exercise: Exercise, certificate: Certificate, asked: Asked) -> None:
+def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> None:
     title = f"{exercise.title}: {asked.name}"
     tell = exercise.tell
-    text = sentence(asked.text, certificate.parameters, tell)
+    text = sentence(asked.text, answer_key.parameters, tell)
     if asked.kind != "number":
         how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
         _essay(quiz, title, f"{text} {tell(how)}", asked)
@@ -52,16 +52,16 @@ def _ask(quiz: Element, exercise: Exercise, certificate: Certificate, asked: Ask
     SubElement(question, "defaultgrade").text = repr(asked.marks)
     SubElement(question, "penalty").text = "0"
     SubElement(question, "hidden").text = "0"
-    key = certificate.keys[asked.name]
+    key = answer_key.keys[asked.name]
     _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(say("Right.")))
     place = [one.name for one in exercise.answers].index(asked.name)
-    for name, values in certificate.hypotheses.items():
+    for name, values in answer_key.hypotheses.items():
         value, scatter = values[place].value, values[place].scatter
         assert isinstance(value, float)
         assert isinstance(scatter, float)
         # A mistake made elsewhere leaves this answer right, and the key stands before it anyway.
         if abs(value - float(str(key.expected.value))) > key.tolerance:
-            _answer(question, 0, repr(value), repr(certificate.bound * scatter), tell(misconception(name).said))
+            _answer(question, 0, repr(value), repr(answer_key.bound * scatter), tell(misconception(name).said))
     _answer(question, 0, "*", "0", tell(say("Farther off than a careful hand draws or calculates.")))
     SubElement(question, "unitgradingtype").text = "0"
     SubElement(question, "showunits").text = "3"

@@ -14,7 +14,7 @@ from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
 from graphcam.words import Tell, say
 
@@ -30,7 +30,7 @@ SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
 """Without these nbgrader takes a whole cell for the solution, and the student gets one without the answer's name."""
 
 
-def write_course(folder: Path, exercise: Exercise, certificates: Sequence[Certificate]) -> None:
+def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> None:
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
     import nbformat
 
@@ -44,10 +44,10 @@ def write_course(folder: Path, exercise: Exercise, certificates: Sequence[Certif
     nbformat.write(notebook, source / f"{NOTEBOOK}.ipynb")
     sheets = folder / "sheets"
     sheets.mkdir()
-    for certificate in certificates:
-        told = sentence(exercise.text, certificate.parameters, tell)
-        text = f"# {exercise.title}\n\n{certificate.student}\n\n{told}"
-        (sheets / f"{folder_name(certificate.student)}.md").write_text(text, encoding="utf-8")
+    for answer_key in answer_keys:
+        told = sentence(exercise.text, answer_key.parameters, tell)
+        text = f"# {exercise.title}\n\n{answer_key.student}\n\n{told}"
+        (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8")
 
 
 def _notebook(exercise: Exercise) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from enum import StrEnum
 
 
-class Format(StrEnum):
+class LearningSystem(StrEnum):
     """A system that keeps questions, courses or scores."""
 
     MOODLE = "moodle"

@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import GraphcamError, TaskError
-from graphcam.exercises.course.course_folder import Certificates, read_secret
+from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading.grade_one import Assignment
 from graphcam.exercises.grading.gradebook import check_gradebook, enter_scores
 from graphcam.exercises.grading.grading_run import Records, grade_folder
 from graphcam.exercises.grading.record_store import Store
-from graphcam.exercises.grading.worker_pool import Crew, cluster, processes
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.grading.worker_pool import WorkerPool, cluster, processes
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.report_files import write_feedback, write_reports
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.probe import require
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.files import OutputError
 
 
@@ -57,22 +57,22 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     GraphcamError : wrong input, or a level of isolation that there is not here
     """
     _check_places(course)
-    folder, kept = Certificates.of(course.folder)
+    folder, kept = AnswerKeys.of(course.folder)
     exercise = _exercise(course, kept)
     require(course.level, (course.folder, course.secret_file, course.out))
     secret = read_secret(course.secret_file)
     kept.check_secret(secret, course.secret_file)
-    assignment = Assignment(exercise, secret, course.level, Limits(seconds=course.seconds))
+    assignment = Assignment(exercise, secret, course.level, ResourceLimits(seconds=course.seconds))
     if course.gradebook:
         _open(course.gradebook)
     store = Store.beside(course.out, assignment)
     with store.held():
-        with closing(_crew(course)) as crew:
-            records = grade_folder(folder, assignment, crew, store, kept, step)
-        certificates = _certificates(kept, records)
-        names = write_reports(course.out, exercise, records, certificates)
+        with closing(_crew(course)) as pool:
+            records = grade_folder(folder, assignment, pool, store, kept, step)
+        answer_keys = _certificates(kept, records)
+        names = write_reports(course.out, exercise, records, answer_keys)
         if course.feedback is not None:
-            write_feedback(course.feedback, exercise, records, certificates)
+            write_feedback(course.feedback, exercise, records, answer_keys)
         if course.gradebook:
             enter_scores(course.gradebook, exercise, records)
         store.clear()
@@ -90,7 +90,7 @@ def _check_places(course: Course) -> None:
         raise OutputError(course.feedback, "it is a file", "name a folder for the pages")
 
 
-def _exercise(course: Course, kept: Certificates) -> Exercise:
+def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     """The exercise that the course is noted to be about, or else the one that is named."""
     noted = kept.exercise()
     if not noted and not course.exercise:
@@ -102,7 +102,7 @@ def _exercise(course: Course, kept: Certificates) -> Exercise:
     return exercise
 
 
-def _crew(course: Course) -> Crew:
+def _crew(course: Course) -> WorkerPool:
     if not course.cluster:
         return processes(course.workers)
     try:
@@ -120,9 +120,9 @@ def _open(gradebook: str) -> None:
                         "pip install 'graphcam[nbgrader]'") from None  # fmt: skip
 
 
-def _certificates(kept: Certificates, records: Records) -> dict[str, Certificate]:
-    found: dict[str, Certificate] = {}
+def _certificates(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
+    found: dict[str, AnswerKey] = {}
     for record in records:
         with suppress(GraphcamError):
-            found[record["student"]] = Certificate.from_json(kept.find(record["student"]))
+            found[record["student"]] = AnswerKey.from_json(kept.find(record["student"]))
     return found

@@ -14,14 +14,14 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import drawn
-from graphcam.exercises.grading.submission import HandIn
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Marked, Record
-from graphcam.exercises.reading.paper_area import Room
+from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.submission_files import DXF, from_files
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 
 READING = 10.0
 """Seconds of the processor's time in which a hand-in is read and marked; its code has a time of its own.
@@ -51,7 +51,7 @@ class Assignment:
     exercise: Exercise
     secret: bytes
     level: Level = Level.L0
-    limits: Limits = field(default_factory=Limits)
+    limits: ResourceLimits = field(default_factory=ResourceLimits)
 
 
 @dataclass(frozen=True)
@@ -59,20 +59,20 @@ class Graded:
     """The record of one hand-in, and the certificate where it had to be made."""
 
     record: Record
-    certificate: str
+    answer_key: str
 
 
-def grade(assignment: Assignment, hand_in: HandIn) -> Graded:
+def grade(assignment: Assignment, submission: Submission) -> Graded:
     """The record of one hand-in; it never raises, since a hand-in that none foresaw has its record too."""
     text = ""
     try:
-        certificate, text = _certificate(assignment, hand_in)
+        answer_key, text = _certificate(assignment, submission)
         with _seconds(READING):
-            answers = _answers(assignment, hand_in, certificate)
-            return Graded(mark(assignment.exercise, certificate, answers, level=assignment.level), text)
+            answers = _answers(assignment, submission, answer_key)
+            return Graded(mark(assignment.exercise, answer_key, answers, level=assignment.level), text)
     except (Exception, LateError) as error:  # noqa: BLE001
         why = say("this hand-in could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
-        return Graded(unmarked(assignment, hand_in.student, why), text)
+        return Graded(unmarked(assignment, submission.student, why), text)
 
 
 def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
@@ -83,27 +83,27 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
                   (exercise.tell(why),), (exercise.tell(why),), assignment.level)  # fmt: skip
 
 
-def _certificate(assignment: Assignment, hand_in: HandIn) -> tuple[Certificate, str]:
+def _certificate(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:
     """The student's certificate and its text; what a file says counts only where the secret says the same."""
     exercise = assignment.exercise
-    if hand_in.certificate:
-        known = Certificate.from_json(hand_in.certificate)
-        variant = drawn(exercise, hand_in.student, assignment.secret, known.draw)
-        same = (known.exercise, known.version, known.student) == (exercise.name, exercise.version, hand_in.student)
+    if submission.answer_key:
+        known = AnswerKey.from_json(submission.answer_key)
+        variant = drawn(exercise, submission.student, assignment.secret, known.draw)
+        same = (known.exercise, known.version, known.student) == (exercise.name, exercise.version, submission.student)
         if same and dict(known.parameters) == dict(variant.parameters):
-            return known, hand_in.certificate
+            return known, submission.answer_key
     # Whoever has a certificate needs nothing that draws.
     from graphcam.exercises.key.issuing import issue
 
-    _, made = issue(exercise, hand_in.student, assignment.secret)
+    _, made = issue(exercise, submission.student, assignment.secret)
     return made, made.to_json()
 
 
-def _answers(assignment: Assignment, hand_in: HandIn, certificate: Certificate) -> Answers:
+def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerKey) -> Answers:
     asked = assignment.exercise.answers
-    read = partial(from_files, asked, hand_in.files, hand_in.errors)
-    if DXF in hand_in.files:
-        read = partial(read, rooms=_rooms(assignment.exercise, certificate))
+    read = partial(from_files, asked, submission.files, submission.errors)
+    if DXF in submission.files:
+        read = partial(read, rooms=_rooms(assignment.exercise, answer_key))
     if assignment.level is Level.L0:
         return read()
     from graphcam.exercises.running.code_answers import run_notebook
@@ -111,14 +111,14 @@ def _answers(assignment: Assignment, hand_in: HandIn, certificate: Certificate) 
     return read(notebook=partial(run_notebook, assignment.level, [one.name for one in asked], assignment.limits))
 
 
-def _rooms(exercise: Exercise, certificate: Certificate) -> dict[str, Room]:
+def _rooms(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:
     """Where drawn answers can lie: where the key does, or what a usual mistake makes of it."""
-    rooms: dict[str, Room] = {}
+    rooms: dict[str, PaperArea] = {}
     for k, asked in enumerate(exercise.answers):
         if asked.kind != "number":
-            key = certificate.keys[asked.name]
-            known = [key.expected, *(wrong[k] for wrong in certificate.hypotheses.values())]
-            rooms[asked.name] = Room.around(asked.kind, known, key.tolerance)
+            key = answer_key.keys[asked.name]
+            known = [key.expected, *(wrong[k] for wrong in answer_key.hypotheses.values())]
+            rooms[asked.name] = PaperArea.around(asked.kind, known, key.tolerance)
     return rooms
 
 

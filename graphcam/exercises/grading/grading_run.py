@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.drafting.ink import say
-from graphcam.exercises.course.course_folder import Certificates
+from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.grading.grade_one import Assignment, grade, unmarked
 from graphcam.exercises.grading.record_store import Store
-from graphcam.exercises.grading.submission import HandIn, read_hand_in, students_in
-from graphcam.exercises.grading.worker_pool import BATCH, Crew, results
+from graphcam.exercises.grading.submission import Submission, read_submission, students_in
+from graphcam.exercises.grading.worker_pool import BATCH, WorkerPool, results
 from graphcam.exercises.running.levels import Level
 
 Records = list[dict[str, Any]]
@@ -21,7 +21,7 @@ CRASHED = say("the grader broke down over this hand-in; look at it by hand")
 
 
 def grade_folder(
-    folder: Path, assignment: Assignment, crew: Crew, store: Store, kept: Certificates,
+    folder: Path, assignment: Assignment, pool: WorkerPool, store: Store, kept: AnswerKeys,
     step: Callable[[int, int], None] = lambda done, total: None,
 ) -> Records:  # fmt: skip
     """One record for each student's folder.
@@ -36,22 +36,22 @@ def grade_folder(
     students = students_in(folder, kept.student, lambda student: bool(kept.find(student)))
     found: dict[str, dict[str, Any]] = {}
 
-    def unfinished() -> Generator[HandIn]:
+    def unfinished() -> Generator[Submission]:
         for student, path in students:
-            hand_in = read_hand_in(student, path, kept.find(student), assignment.exercise.name)
-            if (record := store.find(hand_in)) is not None:
+            submission = read_submission(student, path, kept.find(student), assignment.exercise.name)
+            if (record := store.find(submission)) is not None:
                 found[path.name] = record
                 step(len(found), len(students))
             else:
-                yield hand_in
+                yield submission
 
     # Code takes so long that it travels alone, else one worker is left with the rest.
     batch = BATCH if assignment.level is Level.L0 else 1
-    for hand_in, graded in results(crew, partial(grade, assignment), unfinished(), batch):
-        if graded is not None and graded.certificate and graded.certificate != hand_in.certificate:
-            kept.keep(hand_in.student, graded.certificate)
-        record = graded.record if graded is not None else unmarked(assignment, hand_in.student, CRASHED)
-        found[hand_in.place] = record.to_dict()
-        store.keep(hand_in, found[hand_in.place])
+    for submission, graded in results(pool, partial(grade, assignment), unfinished(), batch):
+        if graded is not None and graded.answer_key and graded.answer_key != submission.answer_key:
+            kept.keep(submission.student, graded.answer_key)
+        record = graded.record if graded is not None else unmarked(assignment, submission.student, CRASHED)
+        found[submission.place] = record.to_dict()
+        store.keep(submission, found[submission.place])
         step(len(found), len(students))
     return [found[path.name] for _, path in students]

@@ -15,8 +15,8 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import HandIn
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.issuing import issue
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.reading.submission_files import TOML
@@ -51,31 +51,31 @@ def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpee
     timer, assignment = timer or Timer(), Assignment(exercise, SECRET)
     careful, wrong = simulated(exercise)
 
-    def graded(hand_ins: list[HandIn]) -> Callable[[], object]:
-        return lambda: [grade(assignment, hand_in) for hand_in in hand_ins]
+    def graded(submissions: list[Submission]) -> Callable[[], object]:
+        return lambda: [grade(assignment, submission) for submission in submissions]
 
     return MarkingSpeed(
         exercise.name, len(careful) / timer.seconds(graded(careful)), len(wrong) / timer.seconds(graded(wrong))
     )
 
 
-def simulated(exercise: Exercise) -> tuple[list[HandIn], list[HandIn]]:
+def simulated(exercise: Exercise) -> tuple[list[Submission], list[Submission]]:
     """Hand-ins of one variant: of careful students, and of others with every mistake."""
-    variant, certificate = issue(exercise, STUDENT, SECRET)
+    variant, answer_key = issue(exercise, STUDENT, SECRET)
     chain = board_chain(variant.task, exercise.hand.pencil(HANDS, seed=1))
     wrong = [misconception(name).change(chain) for name in exercise.misconceptions]
     return (
-        _hand_ins(exercise, certificate, chain),
-        [each for mistaken in wrong for each in _hand_ins(exercise, certificate, mistaken)],
+        _hand_ins(exercise, answer_key, chain),
+        [each for mistaken in wrong for each in _hand_ins(exercise, answer_key, mistaken)],
     )
 
 
-def _hand_ins(exercise: Exercise, certificate: Certificate, chain: Chain) -> list[HandIn]:
-    text, drawn = certificate.to_json(), answers_of(exercise, chain)
-    found: list[HandIn] = []
+def _hand_ins(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> list[Submission]:
+    text, drawn = answer_key.to_json(), answers_of(exercise, chain)
+    found: list[Submission] = []
     for hand in range(HANDS):
         given = {asked.name: _given(answers[hand]) for asked, answers in zip(exercise.answers, drawn, strict=True)}
-        found.append(HandIn(STUDENT, STUDENT, {TOML: toml_text(given).encode()}, (), text))
+        found.append(Submission(STUDENT, STUDENT, {TOML: toml_text(given).encode()}, (), text))
     return found
 
 

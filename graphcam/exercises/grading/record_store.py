@@ -14,7 +14,7 @@ from typing import Any
 
 import graphcam
 from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.grading.submission import HandIn
+from graphcam.exercises.grading.submission import Submission
 from graphcam.files import OutputError
 
 
@@ -54,29 +54,29 @@ class Store:
             stack.callback(_remove_empty, (self.folder, self.folder.parent)[: 1 + made])
             yield
 
-    def find(self, hand_in: HandIn) -> dict[str, Any] | None:
+    def find(self, submission: Submission) -> dict[str, Any] | None:
         """The record of just this hand-in, if a former run got so far."""
         try:
-            kept = json.loads(self._path(hand_in).read_bytes())
+            kept = json.loads(self._path(submission).read_bytes())
         except (OSError, ValueError):
             return None
-        return kept["record"] if kept["digest"] == hand_in.digest else None
+        return kept["record"] if kept["digest"] == submission.digest else None
 
-    def keep(self, hand_in: HandIn, record: dict[str, Any]) -> None:
+    def keep(self, submission: Submission, record: dict[str, Any]) -> None:
         """Write a record; it is there whole or not at all."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        path = self._path(hand_in)
+        path = self._path(submission)
         draft = path.with_name(f"{path.name}.{os.getpid()}.new")
-        draft.write_text(json.dumps({"digest": hand_in.digest, "record": record}), encoding="ascii")
+        draft.write_text(json.dumps({"digest": submission.digest, "record": record}), encoding="ascii")
         draft.replace(path)
 
     def clear(self) -> None:
         """The run is complete."""
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def _path(self, hand_in: HandIn) -> Path:
+    def _path(self, submission: Submission) -> Path:
         # Of any length, and of letters that every file system has.
-        return self.folder / f"{hashlib.sha256(os.fsencode(hand_in.place)).hexdigest()[:32]}.json"
+        return self.folder / f"{hashlib.sha256(os.fsencode(submission.place)).hexdigest()[:32]}.json"
 
 
 def _remove_empty(folders: Iterable[Path]) -> None:

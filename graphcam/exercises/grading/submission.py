@@ -15,7 +15,7 @@ from graphcam.exercises.reading.submission_files import read_files
 
 
 @dataclass(frozen=True)
-class HandIn:
+class Submission:
     """What one student handed in, as bytes: it can travel to another machine.
 
     student : any text
@@ -29,7 +29,7 @@ class HandIn:
     place: str
     files: dict[str, bytes]
     errors: tuple[Caption, ...]
-    certificate: str = ""
+    answer_key: str = ""
 
     @property
     def digest(self) -> str:
@@ -66,7 +66,7 @@ def students_in(
     return sorted((student_of(path.name), path) for path in found)
 
 
-def read_hand_in(student: str, folder: Path, certificate: str = "", assignment: str = "") -> HandIn:
+def read_submission(student: str, folder: Path, answer_key: str = "", assignment: str = "") -> Submission:
     """The bytes of a student's folder, whatever it is.
 
     assignment : name of the folder in it that counts if it is there, as nbgrader collects
@@ -74,7 +74,7 @@ def read_hand_in(student: str, folder: Path, certificate: str = "", assignment: 
     within = folder / assignment
     # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
     files, errors = read_files(within if os.path.isdir(within) and not os.path.islink(folder) else folder)  # noqa: PTH112, PTH114
-    return HandIn(student, folder.name, files, tuple(error.why for error in errors), certificate)
+    return Submission(student, folder.name, files, tuple(error.why for error in errors), answer_key)
 
 
 def _is_aside(entry: os.DirEntry[str], student_of: Callable[[str], str], known: Callable[[str], bool]) -> bool:

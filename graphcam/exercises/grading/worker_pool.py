@@ -34,7 +34,7 @@ _over = threading.Event()
 
 
 @dataclass(frozen=True)
-class Crew:
+class WorkerPool:
     """Where the work is done.
 
     executor : makes a :class:`concurrent.futures.Executor`, a new one after one has broken
@@ -47,12 +47,12 @@ class Crew:
     close: Callable[[], object] = lambda: None
 
 
-def processes(workers: int) -> Crew:
+def processes(workers: int) -> WorkerPool:
     """Processes on this machine."""
-    return Crew(partial(_pool, workers), workers)
+    return WorkerPool(partial(_pool, workers), workers)
 
 
-def cluster(address: str) -> Crew:
+def cluster(address: str) -> WorkerPool:
     """The workers of a dask scheduler; needs the extra ``cluster``.
 
     Raises
@@ -62,17 +62,19 @@ def cluster(address: str) -> Crew:
     from distributed import Client
 
     client: Any = Client(address)
-    return Crew(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
+    return WorkerPool(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
 
 
-def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH) -> Generator[tuple[J, R | None]]:
+def results(
+    pool: WorkerPool, work: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH
+) -> Generator[tuple[J, R | None]]:
     """Every job with its result as they come, or with None where the worker died of it.
 
     work : a module-level function that does not raise
     batch : jobs that travel together
 
     >>> from concurrent.futures import ThreadPoolExecutor
-    >>> sorted(results(Crew(ThreadPoolExecutor, 2), abs, [-1, 2]))
+    >>> sorted(results(WorkerPool(ThreadPoolExecutor, 2), abs, [-1, 2]))
     [(-1, 1), (2, 2)]
     """
     suspects: list[J] = []
@@ -80,23 +82,23 @@ def results(crew: Crew, work: Callable[[J], R], jobs: Iterable[J], batch: int = 
     batches = iter(lambda: list(islice(waiting, batch)), [])
     for first in batches:
         # An executor that breaks takes down with it what others were doing: all of that is suspected.
-        for done, found in _until_broken(crew, work, first, batches):
+        for done, found in _until_broken(pool, work, first, batches):
             if found is None:
                 suspects += done
             else:
                 yield from zip(done, found, strict=True)
-    yield from _one_by_one(crew, work, suspects)
+    yield from _one_by_one(pool, work, suspects)
 
 
 def _until_broken(
-    crew: Crew, work: Callable[[J], R], first: list[J], batches: Iterator[list[J]]
+    pool: WorkerPool, work: Callable[[J], R], first: list[J], batches: Iterator[list[J]]
 ) -> Generator[tuple[list[J], list[R] | None]]:
-    with crew.executor() as executor:
+    with pool.executor() as executor:
         running: dict[Future[list[R]], list[J]] = {executor.submit(_each, work, first): first}
         broken = False
         try:
             while running:
-                while not broken and len(running) < AHEAD * crew.workers and (batch := next(batches, [])):
+                while not broken and len(running) < AHEAD * pool.workers and (batch := next(batches, [])):
                     try:
                         running[executor.submit(_each, work, batch)] = batch
                     except BrokenExecutor:
@@ -112,11 +114,11 @@ def _until_broken(
                 future.cancel()
 
 
-def _one_by_one(crew: Crew, work: Callable[[J], R], suspects: list[J]) -> Generator[tuple[J, R | None]]:
+def _one_by_one(pool: WorkerPool, work: Callable[[J], R], suspects: list[J]) -> Generator[tuple[J, R | None]]:
     """Alone, so that the one that breaks the executor is the guilty one."""
     left = deque(suspects)
     while left:
-        with crew.executor() as executor:
+        with pool.executor() as executor:
             future: Future[list[R]] | None = executor.submit(_each, work, [left[0]])
             while future is not None:
                 job = left.popleft()

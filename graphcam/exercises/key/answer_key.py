@@ -16,7 +16,7 @@ from pydantic_core import from_json
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Value
-from graphcam.exercises.key.deferred import Unread
+from graphcam.exercises.key.deferred import Deferred
 from graphcam.exercises.key.expectation import Expected, from_plain, plain
 from graphcam.exercises.key.follow_through import Dependence
 from graphcam.exercises.key.hypothesis import Hypothesis
@@ -41,7 +41,7 @@ class Key:
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class AnswerKey:
     """One student's key, and the evidence that it is fair.
 
     exercise, version, student, draw, parameters : as of the variant
@@ -84,7 +84,7 @@ class Certificate:
         return json.dumps(said, allow_nan=False)
 
     @staticmethod
-    def from_json(text: str, path: str = "certificate") -> Certificate:
+    def from_json(text: str, path: str = "certificate") -> AnswerKey:
         """A certificate out of its text.
 
         Raises
@@ -99,19 +99,19 @@ class Certificate:
                             "make it again with 'graphcam exercise make'") from None  # fmt: skip
 
 
-def _read(said: dict[str, Any]) -> Certificate:
+def _read(said: dict[str, Any]) -> AnswerKey:
     if said["format"] != FORMAT:
         raise ValueError(f"format {said['format']}")
-    return Certificate(
+    return AnswerKey(
         said["exercise"], said["version"], said["student"], said["draw"], said["parameters"], said["bound"],
         said["careful"],
         {
             name: Key(from_plain(expected), tolerance, math.nan if paper is None else paper, drawn)
             for name, (expected, tolerance, paper, drawn) in said["keys"].items()
         },
-        Unread(str(said["hypotheses"]), Hypothesis),
+        Deferred(str(said["hypotheses"]), Hypothesis),
         tuple((a, b) for a, b in said["alike"]),
-        Unread(str(said["dependences"]), Dependence.from_json),
+        Deferred(str(said["dependences"]), Dependence.from_json),
         said["too_exact"],
     )  # fmt: skip
 

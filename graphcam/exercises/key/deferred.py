@@ -11,12 +11,12 @@ from pydantic_core import from_json
 V = TypeVar("V")
 
 
-class Unread(Mapping[str, V]):
+class Deferred(Mapping[str, V]):
     """Values by name that stand there as one JSON text: most hand-ins are right and need none of them.
 
     read : makes a value of what the JSON says
 
-    >>> dict(Unread('{"a": [1, 2]}', sum))
+    >>> dict(Deferred('{"a": [1, 2]}', sum))
     {'a': 3}
     """
 

@@ -8,7 +8,7 @@ from graphcam.errors import GraphcamError
 from graphcam.exercises.definition.blank_axes import finds_room
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.variant import Variant
-from graphcam.exercises.key.answer_key import Certificate, Key
+from graphcam.exercises.key.answer_key import AnswerKey, Key
 from graphcam.exercises.key.hypothesis import Hypothesis
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected
@@ -22,7 +22,7 @@ TOO_EXACT = 5e-4
 """A hand-in is remarked on as too exact where so few careful hands are as near to the key."""
 
 
-def certify(variant: Variant) -> Certificate | None:
+def draw_key(variant: Variant) -> AnswerKey | None:
     """The certificate of a variant; None where its answers cannot tell every mistake from every other.
 
     Nor has one a variant whose diagrams find no room on the worksheet.  What is quickly found out comes first: of
@@ -54,7 +54,7 @@ def certify(variant: Variant) -> Certificate | None:
         return None
     by_hand = [float(np.std(samples)) > 0 for samples in hands]
     near = np.sqrt(np.mean(off[:, by_hand] ** 2, axis=1)) if any(by_hand) else np.full(HANDS, np.nan)
-    return Certificate(
+    return AnswerKey(
         exercise.name, exercise.version, variant.student, variant.draw, variant.parameters, bound,
         float(np.mean(off.max(axis=1) > bound)),
         {

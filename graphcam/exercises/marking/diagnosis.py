@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from graphcam.exercises.definition.answers import Given
 from graphcam.exercises.definition.exercise import Asked
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.key.hypothesis import Hypothesis
 from graphcam.exercises.marking.record import Diagnosis
@@ -26,7 +26,7 @@ Seen = Sequence[tuple[int, Asked, Given]]
 """The answers that can be compared, each with its number in the exercise."""
 
 
-class _Fit(NamedTuple):
+class _Explanation(NamedTuple):
     """How well a mistake fits.
 
     badness : minus twice the logarithm of the probability, each answer being anywhere if it is far off
@@ -40,7 +40,7 @@ class _Fit(NamedTuple):
 
 
 def diagnose(
-    certificate: Certificate, keys: Sequence[Expected], seen: Seen, off: Mapping[int, float], wrong: set[int]
+    answer_key: AnswerKey, keys: Sequence[Expected], seen: Seen, off: Mapping[int, float], wrong: set[int]
 ) -> tuple[Diagnosis, frozenset[int]] | None:
     """The most probable mistake and the wrong answers that are what it brings; None where none looks like any.
 
@@ -50,12 +50,12 @@ def diagnose(
     other = sum((FAR**2 if k in wrong else min(off[k] ** 2, FAR**2)) + _width(keys[k]) for k, _, _ in seen)
     numbers = [(k, given) for k, _, given in seen if isinstance(given, float)]
     drawn = [each for each in seen if not isinstance(each[2], float)]
-    hypotheses = certificate.hypotheses
-    fits = {name: _numbers_fit(values, numbers, wrong, certificate.bound) for name, values in hypotheses.items()}
+    hypotheses = answer_key.hypotheses
+    fits = {name: _numbers_fit(values, numbers, wrong, answer_key.bound) for name, values in hypotheses.items()}
     if drawn:
         # A drawing takes longer to compare than all numbers: only with what these leave possible.
         least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.near)])
-        fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong, certificate.bound)
+        fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong, answer_key.bound)
                 for name, fit in fits.items() if fit.badness <= least + HOPELESS}  # fmt: skip
     badness = {name: fit.badness for name, fit in fits.items() if fit.near}
     if not badness:
@@ -70,7 +70,9 @@ def diagnose(
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
 
 
-def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int], bound: float) -> _Fit:
+def _numbers_fit(
+    values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int], bound: float
+) -> _Explanation:
     badness = 0.0
     similar: list[int] = []
     explained: list[int] = []
@@ -85,15 +87,15 @@ def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong
             similar.append(k)
             if abs(off) <= bound:
                 explained.append(k)
-    return _Fit(badness, frozenset(similar), frozenset(explained))
+    return _Explanation(badness, frozenset(similar), frozenset(explained))
 
 
-def _with_drawn(fit: _Fit, values: Hypothesis, drawn: Seen, wrong: set[int], bound: float) -> _Fit:
+def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Seen, wrong: set[int], bound: float) -> _Explanation:
     off = {k: values[k].deviation(given, asked.kind, FAR) for k, asked, given in drawn}
     near = {k for k in off if k in wrong and off[k] <= FAR}
     explained = {k for k in near if off[k] <= bound}
     badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
-    return _Fit(badness, fit.near | near, fit.explained | explained)
+    return _Explanation(badness, fit.near | near, fit.explained | explained)
 
 
 def _width(value: Expected) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.exercises.definition.answers import Answers, Given
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected, Off
 from graphcam.exercises.marking.diagnosis import Seen, diagnose
 from graphcam.exercises.marking.feedback import feedback
@@ -22,7 +22,7 @@ SMALL = 8.0
 """A key of fewer tolerances is no length that grows with a scale: its tolerance would grow without bounds."""
 
 
-def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, level: str = "L0") -> Record:
+def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: str = "L0") -> Record:
     """Mark one hand-in.
 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
@@ -36,30 +36,30 @@ def mark(exercise: Exercise, certificate: Certificate, answers: Answers, *, leve
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.key.issuing import issue
     >>> exercise = find_exercise("acceleration-and-scales")
-    >>> variant, certificate = issue(exercise, "Anna", b"secret")
-    >>> mark(exercise, certificate, Answers({"mu_s": float("nan")})).total
+    >>> variant, answer_key = issue(exercise, "Anna", b"secret")
+    >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
     0.0
     """
-    keys = [certificate.keys[asked.name].expected for asked in exercise.answers]
+    keys = [answer_key.keys[asked.name].expected for asked in exercise.answers]
     readable = {asked.name: _readable(asked, answers) for asked in exercise.answers}
     seen = [(k, a, given) for k, a in enumerate(exercise.answers) if (given := readable[a.name]) is not None]
-    found = {k: keys[k].off(given, asked.kind, certificate.bound) for k, asked, given in seen}
+    found = {k: keys[k].off(given, asked.kind, answer_key.bound) for k, asked, given in seen}
     off = {k: each.deviation for k, each in found.items()}
-    wrong = {k for k in off if not abs(off[k]) <= certificate.bound}
-    diagnosed = diagnose(certificate, keys, seen, off, wrong) if wrong else None
+    wrong = {k for k in off if not abs(off[k]) <= answer_key.bound}
+    diagnosed = diagnose(answer_key, keys, seen, off, wrong) if wrong else None
     diagnosis, explained = diagnosed or (None, frozenset[int]())
-    following = _following(certificate, keys, seen, wrong, explained) if wrong else set[int]()
+    following = _following(answer_key, keys, seen, wrong, explained) if wrong else set[int]()
     marked = tuple(
         _marked(asked, readable[asked.name], _outcome(k, asked, answers, off, wrong, following), found.get(k))
         for k, asked in enumerate(exercise.answers)
     )
-    exact = _too_exact(certificate, exercise, off)
+    exact = _too_exact(answer_key, exercise, off)
     return Record(
-        student=certificate.student,
-        exercise=certificate.exercise,
-        version=certificate.version,
-        draw=certificate.draw,
-        parameters=certificate.parameters,
+        student=answer_key.student,
+        exercise=answer_key.exercise,
+        version=answer_key.version,
+        draw=answer_key.draw,
+        parameters=answer_key.parameters,
         answers=marked,
         total=sum(each.marks for each in marked),
         of=exercise.marks,
@@ -103,7 +103,7 @@ def _outcome(
 
 
 def _following(
-    certificate: Certificate,
+    answer_key: AnswerKey,
     keys: Sequence[Expected],
     seen: Seen,
     wrong: set[int],
@@ -120,19 +120,19 @@ def _following(
     for k, asked, given in seen:
         # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
         caused = k > shown and k in explained
-        if k in wrong and k > first and (caused or _follows(certificate, keys[k], asked, given, own)):
+        if k in wrong and k > first and (caused or _follows(answer_key, keys[k], asked, given, own)):
             found.add(k)
         if isinstance(given, float):
             own[asked.name] = given
     return found
 
 
-def _follows(certificate: Certificate, key: Expected, asked: Asked, given: Given, own: Mapping[str, float]) -> bool:
-    dependence = certificate.dependences.get(asked.name)
+def _follows(answer_key: AnswerKey, key: Expected, asked: Asked, given: Given, own: Mapping[str, float]) -> bool:
+    dependence = answer_key.dependences.get(asked.name)
     if dependence is None or not isinstance(given, float) or not isinstance(key.value, float):
         return False
     expected = dependence.expected(key.value, own)
-    tolerance = certificate.bound * float(key.scatter)
+    tolerance = answer_key.bound * float(key.scatter)
     # Nought follows from too much that was never drawn.
     if abs(given) <= tolerance < abs(key.value):
         return False
@@ -150,8 +150,8 @@ def _marked(asked: Asked, given: Given | None, outcome: Outcome, off: Off | None
     return Marked(asked.name, outcome, earned, asked.marks, said, deviation, station, paper)
 
 
-def _too_exact(certificate: Certificate, exercise: Exercise, off: Mapping[int, float]) -> bool:
-    drawn = [off[k] for k, asked in enumerate(exercise.answers) if certificate.keys[asked.name].drawn and k in off]
+def _too_exact(answer_key: AnswerKey, exercise: Exercise, off: Mapping[int, float]) -> bool:
+    drawn = [off[k] for k, asked in enumerate(exercise.answers) if answer_key.keys[asked.name].drawn and k in off]
     if len(drawn) < FEWEST_DRAWN:
         return False
-    return math.sqrt(sum(each**2 for each in drawn) / len(drawn)) < certificate.too_exact
+    return math.sqrt(sum(each**2 for each in drawn) / len(drawn)) < answer_key.too_exact

@@ -12,7 +12,7 @@ from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.misconceptions import misconception
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.issuing import issue
 from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.exercises.marking.marking import mark
@@ -22,7 +22,7 @@ NOTHING = "none"
 
 
 @dataclass(frozen=True)
-class Row:
+class SimulatedRow:
     """Hand-ins with one mistake: how many there were, how many earned all marks, and what was named how often."""
 
     hands: int
@@ -44,11 +44,11 @@ class _Tally:
     too_exact: int = 0
     named: Counter[str] = field(default_factory=Counter[str])
 
-    def mark(self, exercise: Exercise, certificate: Certificate, chain: Chain) -> None:
+    def mark(self, exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> None:
         """Mark all that these hands drew."""
         drawn = answers_of(exercise, chain)
         given = (_hand_in(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
-        records = [mark(exercise, certificate, answers) for answers in given]
+        records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
         self.losing += sum(record.total < record.of for record in records)
         self.accepted += sum(record.total >= record.of for record in records)
@@ -72,7 +72,7 @@ class Simulation:
     careful: int
     losing: int
     too_exact: int
-    rows: dict[str, Row]
+    rows: dict[str, SimulatedRow]
     issued: tuple[int, ...]
 
     @property
@@ -117,17 +117,17 @@ def simulate(
     careful, wrong = _Tally(), {name: _Tally() for name in exercise.misconceptions}
     issued: Counter[int] = Counter()
     for k in range(variants):
-        variant, certificate = issue(exercise, f"student {k}", secret)
+        variant, answer_key = issue(exercise, f"student {k}", secret)
         issued[variant.draw] += 1
         # Never the seed of the hands that the certificate was made from.
         drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
-        careful.mark(exercise, certificate, drawn)
+        careful.mark(exercise, answer_key, drawn)
         for name, tally in wrong.items():
-            tally.mark(exercise, certificate, misconception(name).change(drawn))
+            tally.mark(exercise, answer_key, misconception(name).change(drawn))
         step(k + 1, variants)
     return Simulation(
         exercise.name, exercise.version, variants, careful.hands, careful.losing, careful.too_exact,
-        {name: Row(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()},
+        {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()},
         tuple(issued[draw] for draw in range(max(issued) + 1)),
     )  # fmt: skip
 

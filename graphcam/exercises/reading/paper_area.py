@@ -25,7 +25,7 @@ VERTICES = 400
 
 
 @dataclass(frozen=True, eq=False)
-class Room:
+class PaperArea:
     """What a drawn answer can be: the right one, or what a usual mistake makes of it [mm of paper].
 
     kind : whether points or a curve;  near : how far a hand strays from them
@@ -36,9 +36,9 @@ class Room:
     near: float = NEAR
 
     @staticmethod
-    def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> Room:
+    def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> PaperArea:
         """The room of the right answer and of wrong ones, where a hand may stray by the tolerance."""
-        return Room(kind, tuple(known), max(NEAR, tolerance))
+        return PaperArea(kind, tuple(known), max(NEAR, tolerance))
 
     def admit(self, name: str, points: Points, *, marked: bool) -> None:
         """Refuse what lies elsewhere, with a remedy; nothing is said of where it should be.
@@ -49,7 +49,7 @@ class Room:
         ------
         UnreadableError : the drawing is not where, or not of the size, that any answer could be
 
-        >>> room = Room("curve", (Expected(np.array([0j, 6 + 8j]), 1.0),))
+        >>> room = PaperArea("curve", (Expected(np.array([0j, 6 + 8j]), 1.0),))
         >>> room.admit("pitch", np.array([300j, 6 + 308j]), marked=False)
         Traceback (most recent call last):
         ...
@@ -77,7 +77,7 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
     def moved(self, points: Points) -> bool:
         """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
 
-        >>> room = Room("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
+        >>> room = PaperArea("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
         >>> room.moved(np.array([8 + 0j, 38 + 40j])), room.moved(np.array([1 + 0j, 31 + 40j]))
         (True, False)
         """

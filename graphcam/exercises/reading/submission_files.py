@@ -16,7 +16,7 @@ from graphcam.exercises.reading.answer_tables import csv_values, toml_values
 from graphcam.exercises.reading.drawn_layers import Drawn
 from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import notebook_values
-from graphcam.exercises.reading.paper_area import Room
+from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
 from graphcam.exercises.reading.values import number, points, shown
 
@@ -56,8 +56,13 @@ def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[U
     return found, errors
 
 
-def from_files(asked: Iterable[Asked], files: Mapping[str, bytes], notes: Iterable[Caption] = (),
-               notebook: Reader = data_of_notebook, rooms: Mapping[str, Room] | None = None) -> Answers:  # fmt: skip
+def from_files(
+    asked: Iterable[Asked],
+    files: Mapping[str, bytes],
+    notes: Iterable[Caption] = (),
+    notebook: Reader = data_of_notebook,
+    rooms: Mapping[str, PaperArea] | None = None,
+) -> Answers:
     """What the files answer.
 
     asked : the answers that there should be
@@ -93,8 +98,13 @@ def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
     return lambda name, data: (values(name, data), [])
 
 
-def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn | None, notes: list[Caption],
-             rooms: Mapping[str, Room]) -> Answers:  # fmt: skip
+def _answers(
+    asked: list[Asked],
+    given: Mapping[str, list[Any]],
+    drawing: Drawn | None,
+    notes: list[Caption],
+    rooms: Mapping[str, PaperArea],
+) -> Answers:
     values: dict[str, Given] = {}
     problems: dict[str, Caption] = {}
     unmarked = False
@@ -115,7 +125,7 @@ def _answers(asked: list[Asked], given: Mapping[str, list[Any]], drawing: Drawn 
     return Answers(values, problems, (*notes, *_unknown(asked, given)))
 
 
-def _drawn(asked: Asked, drawing: Drawn, room: Room | None) -> tuple[Given, list[Caption]]:
+def _drawn(asked: Asked, drawing: Drawn, room: PaperArea | None) -> tuple[Given, list[Caption]]:
     """What is drawn, and sentences on it."""
     points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
     if room is None:

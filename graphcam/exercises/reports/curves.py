@@ -20,7 +20,7 @@ MOST = 600
 
 
 @dataclass(frozen=True)
-class Picture:
+class CurvePicture:
     """A picture in mm of paper, y downwards as SVG has it.
 
     box : left, top, width, height;  lines : what is drawn, each as "x,y x,y ...", by its class
@@ -35,7 +35,7 @@ class Picture:
     height: float
 
 
-def picture(curves: Sequence[tuple[str, Points, bool]], spot: complex | None) -> Picture:
+def picture(curves: Sequence[tuple[str, Points, bool]], spot: complex | None) -> CurvePicture:
     """A picture of curves or points.
 
     curves : class for its style, points (n,) [mm of paper], whether they are joined by a line
@@ -50,7 +50,7 @@ def picture(curves: Sequence[tuple[str, Points, bool]], spot: complex | None) ->
     dots = tuple((kind, float(z.real), -float(z.imag)) for kind, points, joined in curves if not joined for z in points)
     at = None if spot is None else (float(spot.real), -float(spot.imag))
     box = f"{left:.1f} {-high:.1f} {right - left:.1f} {high - low:.1f}"
-    return Picture(box, lines, dots, at, right - left, high - low)
+    return CurvePicture(box, lines, dots, at, right - left, high - low)
 
 
 def points_of(answer: dict[str, Any]) -> Points:

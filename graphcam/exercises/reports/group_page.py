@@ -11,9 +11,9 @@ import numpy as np
 
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.misconceptions import misconception
-from graphcam.exercises.key.answer_key import Certificate
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.charts import Chart, stacked
-from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
+from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
 from graphcam.exercises.reports.phrases import spoken
 from graphcam.exercises.reports.statistics import EDGE, Mistake, StepErrors, mistakes, step_errors
 from graphcam.exercises.reports.web_pages import page
@@ -35,19 +35,19 @@ LARGEST_PICTURES = 6
 """Drawings that are shown singly for each curve: those farthest off."""
 
 
-def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate]) -> str:
+def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
 
     certificates : by student, as far as they are known
     """
     steps, found, tell = step_errors(exercise, records), mistakes(records), exercise.tell
-    bound = median(each.bound for each in certificates.values()) if certificates else 0.0
+    bound = median(each.bound for each in answer_keys.values()) if answer_keys else 0.0
     return page(
         "group.html", language=exercise.language, title=exercise.title, summary=tell(_summary(records)),
         words=spoken(WORDS, tell), again=[tell(caption) for caption in _again(exercise, steps, found, len(records))],
         marks=_marks(exercise, records), steps=[_step(step, bound, len(records), tell) for step in steps],
         mistakes=[_mistake(mistake, tell) for mistake in found],
-        pictures=[(tell(caption), drawn) for caption, drawn in _pictures(exercise, records, certificates)],
+        pictures=[(tell(caption), drawn) for caption, drawn in _pictures(exercise, records, answer_keys)],
         advised=[tell(caption) for caption in _advised(records)],
     )  # fmt: skip
 
@@ -100,17 +100,17 @@ def _mistake(mistake: Mistake, tell: Tell) -> dict[str, Any]:
 
 
 def _pictures(
-    exercise: Exercise, records: Sequence[dict[str, Any]], certificates: Mapping[str, Certificate]
-) -> list[tuple[Caption, Picture]]:
-    shown: list[tuple[Caption, Picture]] = []
+    exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
+) -> list[tuple[Caption, CurvePicture]]:
+    shown: list[tuple[Caption, CurvePicture]] = []
     for asked in exercise.answers:
         drawn = [
-            (record["student"], answer) for record in records if record["student"] in certificates
+            (record["student"], answer) for record in records if record["student"] in answer_keys
             for answer in record["answers"] if answer["name"] == asked.name and answer["off_paper"] is not None
         ]  # fmt: skip
         drawn.sort(key=lambda one: -one[1]["off_paper"])
         for student, answer in drawn[:LARGEST_PICTURES]:
-            key = certificates[student].keys[asked.name].expected
+            key = answer_keys[student].keys[asked.name].expected
             # The key knows the stations; what lies between them is not straight.
             stations = np.atleast_1d(np.asarray(key.value))
             curves = [("key", stations, False), ("own", points_of(answer), asked.kind == "curve")]

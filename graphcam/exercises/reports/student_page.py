@@ -7,8 +7,8 @@ from typing import Any
 from graphcam.drafting.ink import Caption, Words, say
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
-from graphcam.exercises.key.answer_key import Certificate
-from graphcam.exercises.reports.curves import Picture, picture, points_of, worst_place
+from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
 from graphcam.exercises.reports.phrases import OUTCOMES, given_text, spoken
 from graphcam.exercises.reports.web_pages import page
 
@@ -18,7 +18,7 @@ WORDS = {
 }  # fmt: skip
 
 
-def student_page(exercise: Exercise, record: dict[str, Any], certificate: Certificate | None) -> str:
+def student_page(exercise: Exercise, record: dict[str, Any], answer_key: AnswerKey | None) -> str:
     """The feedback on one record as HTML.
 
     certificate : tells where on the student's own curve it is farthest off; of the key nothing is shown
@@ -37,7 +37,7 @@ def student_page(exercise: Exercise, record: dict[str, Any], certificate: Certif
         "feedback.html", language=exercise.language, title=exercise.title, student=record["student"], rows=rows,
         total=tell(say("{marks:g} of {of:g} marks", marks=record["total"], of=record["of"])),
         words=spoken(WORDS, tell), feedback=list(record["feedback"]), notes=list(record["notes"]),
-        pictures=[(tell(_caption(answer)), _own(asked[answer["name"]], answer, certificate))
+        pictures=[(tell(_caption(answer)), _own(asked[answer["name"]], answer, answer_key))
                   for answer in record["answers"] if isinstance(answer["given"], list)],
     )  # fmt: skip
 
@@ -52,9 +52,9 @@ def _caption(answer: dict[str, Any]) -> Caption:
     return say("{name}: your drawing.", name=answer["name"])
 
 
-def _own(asked: Asked, answer: dict[str, Any], certificate: Certificate | None) -> Picture:
+def _own(asked: Asked, answer: dict[str, Any], answer_key: AnswerKey | None) -> CurvePicture:
     own = points_of(answer)
     spot = None
-    if certificate is not None and answer["outcome"] == "wrong":
-        spot = worst_place(certificate.keys[asked.name].expected, answer, asked.kind)
+    if answer_key is not None and answer["outcome"] == "wrong":
+        spot = worst_place(answer_key.keys[asked.name].expected, answer, asked.kind)
     return picture([("own", own, asked.kind == "curve")], spot)

@@ -13,12 +13,12 @@ from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import shown
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.process import Ended
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells
 
 
 def run_notebook(
-    level: Level, names: Sequence[str], limits: Limits, name: str, data: bytes
+    level: Level, names: Sequence[str], limits: ResourceLimits, name: str, data: bytes
 ) -> tuple[Mapping[str, Any], list[Caption]]:
     """The values that a notebook's code hands out, and sentences on how it ended.
 
@@ -66,7 +66,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _on_end(name: str, ended: Ended, limits: Limits) -> list[Caption]:
+def _on_end(name: str, ended: Ended, limits: ResourceLimits) -> list[Caption]:
     if ended.late:
         return [say("{name} was stopped after {seconds:g} s", name=name, seconds=limits.seconds)]
     # The student's own words; what is shown of them is one short line.

@@ -11,10 +11,10 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.resource_limits import MEBIBYTE, Limits
+from graphcam.exercises.running.resource_limits import MEBIBYTE, ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells, visible
 
-FEW = Limits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
+FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
 import os, socket, time
 broken = []

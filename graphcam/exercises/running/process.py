@@ -12,7 +12,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from io import FileIO
 
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 
 CHUNK = 1 << 16
 PATIENCE = 0.05
@@ -52,7 +52,7 @@ class _Sink:
 
 
 def run_limited(
-    command: list[str], order: Callable[[int], bytes], limits: Limits, folder: str, environment: dict[str, str]
+    command: list[str], order: Callable[[int], bytes], limits: ResourceLimits, folder: str, environment: dict[str, str]
 ) -> Ended:
     """Run a command in a process group of its own, and kill the group when its time is over or its work is done.
 

@@ -8,7 +8,7 @@ MEBIBYTE = 1 << 20
 
 
 @dataclass(frozen=True)
-class Limits:
+class ResourceLimits:
     """Limits of one run.
 
     seconds : of wall time
@@ -29,7 +29,7 @@ class Limits:
     def resources(self, processes_already: int) -> dict[str, int]:
         """The limits of :mod:`resource` by name.
 
-        >>> Limits(seconds=3).resources(0)["RLIMIT_CPU"]
+        >>> ResourceLimits(seconds=3).resources(0)["RLIMIT_CPU"]
         4
         """
         return {

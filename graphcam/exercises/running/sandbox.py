@@ -20,7 +20,7 @@ from typing import Any
 from graphcam.exercises.running import launcher
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.process import Ended, run_limited
-from graphcam.exercises.running.resource_limits import Limits
+from graphcam.exercises.running.resource_limits import ResourceLimits
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
 SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
@@ -31,7 +31,7 @@ ATTEMPTS = 20
 """How often what was left behind is looked for: it may go on forking meanwhile."""
 
 
-def run_cells(level: Level, cells: list[str], names: list[str], limits: Limits | None = None) -> Ended:
+def run_cells(level: Level, cells: list[str], names: list[str], limits: ResourceLimits | None = None) -> Ended:
     """Run a notebook's cells at a level.
 
     cells : their code
@@ -39,7 +39,7 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Limits |
     """
     if level is Level.L0:
         raise ValueError("at L0 nothing is run")
-    limits = limits or Limits()
+    limits = limits or ResourceLimits()
     already = 0 if os.getuid() == 0 else _processes_of(os.getuid())
     what: dict[str, Any] = {
         "cells": cells, "names": names, "limits": limits.resources(already), "user": _user(),
@@ -100,7 +100,7 @@ def visible() -> list[Path]:
     return sorted({folder.resolve() for folder in folders if folder.is_dir()} | {Path(name) for name in SYSTEM})
 
 
-def _command(level: Level, limits: Limits) -> list[str]:
+def _command(level: Level, limits: ResourceLimits) -> list[str]:
     # A virtual environment is found by the name of its own python.
     python = [sys.executable, "-I", "-B", "-X", "utf8"]
     if level is Level.L1:
@@ -118,7 +118,7 @@ def _another_user() -> list[str]:
             "--no-new-privs"]  # fmt: skip
 
 
-def _bubblewrap(limits: Limits) -> list[str]:
+def _bubblewrap(limits: ResourceLimits) -> list[str]:
     program = shutil.which("bwrap") or "bwrap"
     command = [program, "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
                "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]  # fmt: skip
