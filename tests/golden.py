@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 
 import graphcam as gc
+from graphcam.drafting.ink import Region
+from graphcam.words import Caption
 
 FILE = Path(__file__).with_name("golden.json")
 TASKS = Path(gc.__file__).parent / "data" / "tasks"
@@ -34,6 +36,12 @@ def summary(value: Any) -> Any:
         return [flat.size, float(flat.sum()), float(flat @ np.cos(np.arange(flat.size))), float(flat @ flat)]
     if isinstance(value, complex):
         return [value.real + 0.0, value.imag + 0.0]
+    if isinstance(value, Caption):
+        return str(value)
+    if isinstance(value, Region):
+        # Rounding may double a corner of it: what counts is how far it reaches.
+        points = value.boundary
+        return ["Region", *(float(x) for part in (points.real, points.imag) for x in (part.min(), part.max()))]
     if is_dataclass(value):
         return [type(value).__name__, *(summary(getattr(value, field.name)) for field in fields(value))]
     if isinstance(value, tuple):

@@ -22,7 +22,7 @@ def task(request):
 
 
 def readings(found):
-    return {name: (drawn["readings"], drawn["points"]) for name, drawn in found["constructions"].items()}
+    return {name: [drawn["readings"], drawn["points"]] for name, drawn in found["constructions"].items()}
 
 
 def test_every_reading_is_the_one_that_was_read_before(task):
