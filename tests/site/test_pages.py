@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from babel.messages.pofile import read_po, write_po
 from mpmath import mp, mpf
 from pages import HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
@@ -42,7 +45,7 @@ def test_the_files_that_a_page_names_are_there(page):
     assert missing == []
 
 
-@pytest.mark.parametrize("page", [page for page in HOW_TO if rows(page)])
+@pytest.mark.parametrize("page", [page for page in (*HOW_TO, "architecture.md") if rows(page)])
 def test_what_a_table_says_of_a_file_stands_in_it(page):
     for path, names in rows(page).items():
         held = (ROOT / path).read_text(encoding="utf-8")
@@ -77,20 +80,56 @@ def test_developers_are_sent_to_tests_that_are_there():
             assert all((ROOT / path).exists() for path in arguments)
 
 
-def test_the_commands_for_a_language_find_the_texts(tmp_path):
-    """With the paths of the clone, and what they write laid into a folder of our own."""
-    page = "how-to/add-a-language.md"
-    script = "\n".join(line for block in blocks(page, "sh") for line in block.splitlines() if "pybabel" in line)
-    script = script.replace("build/", f"{tmp_path}/").replace("-o graphcam/data/languages/", f"-o {tmp_path}/")
-    # pybabel lies beside the interpreter, whether or not its environment is activated.
-    environment = {**os.environ, "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])}
-    done = subprocess.run(
-        ["bash", "-euc", script], cwd=ROOT, capture_output=True, text=True, check=False, env=environment
-    )
+@pytest.fixture(scope="module")
+def with_german(tmp_path_factory):
+    """A clone in which the page on languages was followed: its commands, and its translations put into the catalog."""
+    page, clone = "how-to/add-a-language.md", tmp_path_factory.mktemp("clone")
+    for folder in ("graphcam", "exercises", "tests"):
+        shutil.copytree(ROOT / folder, clone / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", clone)
+    # The programs lie beside the interpreter, whether or not its environment is activated.
+    beside = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    environment = {**os.environ, "PATH": beside, "PYTHONPATH": str(clone)}
+
+    def run(script: str) -> subprocess.CompletedProcess[str]:
+        graphcam = f'graphcam() {{ "{sys.executable}" -m graphcam "$@"; }}'
+        command = ["bash", "-euc", f"{graphcam}\n{script}"]
+        return subprocess.run(command, cwd=clone, capture_output=True, text=True, check=False, env=environment)
+
+    begin, look, check, update = blocks(page, "sh")
+    assert run(begin).returncode == 0
+    path = clone / "graphcam" / "data" / "languages" / "de.po"
+    catalog, said = (read_po(io.BytesIO(text)) for text in (path.read_bytes(), blocks(page, "po")[0].encode()))
+    for message in said:
+        if message.id:
+            assert catalog[message.id].string == ""
+            catalog[message.id].string = message.string
+    with path.open("wb") as file:
+        write_po(file, catalog)
+    return clone, run, (look, check, update)
+
+
+@pytest.mark.slow
+def test_the_language_of_the_page_is_spoken_where_it_is_translated(with_german):
+    clone, run, (look, _, update) = with_german
+    done = run(look)
     assert done.returncode == 0, done.stderr
-    begun = (tmp_path / "de.po").read_text(encoding="utf-8")
-    for told in ('msgid "Velocity plan', "msgctxt ", "msgid_plural "):
-        assert told in begun
+    page = (clone / "deutsch" / "player.html").read_text(encoding="utf-8")
+    assert "Pol und Strahlen, a nach v" in page
+    assert "Pole and rays, a to v" not in page
+    assert "Shaded region" in page or "Least radius" in page
+    assert run(update).returncode == 0
+    kept = (clone / "graphcam" / "data" / "languages" / "de.po").read_text(encoding="utf-8")
+    assert 'msgstr "Pol und Strahlen, {source} nach {target}"' in kept
+
+
+@pytest.mark.slow
+def test_the_check_of_the_page_names_what_is_not_translated_yet(with_german):
+    _, run, (_, check, _) = with_german
+    done = run(check)
+    assert done.returncode == 1
+    assert "de" in done.stdout
+    assert "Velocity plan" in done.stdout
 
 
 @pytest.fixture
