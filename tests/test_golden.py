@@ -11,8 +11,9 @@ import json
 import pytest
 from golden import FILE, TASKS, differences, solved
 
-READINGS, MARKS = 1e-12, 1e-9
-"""Permitted differences, of a value or of 1: the sums over marks gather the rounding of many points."""
+READINGS, MARKS, FITTED = 1e-12, 1e-9, 1e-9
+"""Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points; a fitted motion is
+the solution of a system of equations, which differs in more than the last digits between builds of one library."""
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 
 
@@ -27,8 +28,9 @@ def readings(found):
 
 def test_every_reading_is_the_one_that_was_read_before(task):
     name, now = task
-    assert differences(readings(BEFORE[name]), readings(now), READINGS) == []
-    assert differences(BEFORE[name]["quantities"], now["quantities"], READINGS) == []
+    permitted = FITTED if name == "measured" else READINGS
+    assert differences(readings(BEFORE[name]), readings(now), permitted) == []
+    assert differences(BEFORE[name]["quantities"], now["quantities"], permitted) == []
 
 
 def test_every_mark_and_every_sheet_is_the_one_that_was_drawn_before(task):
