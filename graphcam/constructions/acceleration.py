@@ -15,7 +15,8 @@ from graphcam.constructions.axes import numbers, phase_ends, phase_title, phi_ax
 from graphcam.constructions.law_names import law_name
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.ink import Construction, Dimension, Dots, Line, Points, Role, Segments, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Line, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats, Side

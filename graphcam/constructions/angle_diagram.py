@@ -10,7 +10,8 @@ from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, p
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Construction, Dimension, Dots, Label, Line, Points, Role, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Label, Line, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 

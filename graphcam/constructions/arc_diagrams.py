@@ -12,23 +12,8 @@ from graphcam.constructions.axes import OVERHANG, degree_ticks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import (
-    Arrow,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Reading, Step, View, reading, say
+from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.laws import Floats

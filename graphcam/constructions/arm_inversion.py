@@ -16,7 +16,8 @@ from graphcam.constructions.profile_view import (
 )
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
-from graphcam.drafting.ink import Circle, Construction, Dots, Label, Role, Segments, Step, say
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Circle, Dots, Label, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense

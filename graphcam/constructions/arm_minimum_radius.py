@@ -17,21 +17,8 @@ from graphcam.constructions.region import ON_THE_LINE, Boundary, nearest_of_many
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, dot, turned, unit
-from graphcam.drafting.ink import (
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Region,
-    Role,
-    Segments,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense

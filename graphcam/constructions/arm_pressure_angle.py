@@ -15,7 +15,8 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
-from graphcam.drafting.ink import Construction, Dots, Label, Line, Mark, Role, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dots, Label, Line, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense

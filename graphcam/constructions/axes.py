@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Arrow, Caption, Label, Mark, Points, Role, Segments, say
+from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.marks import Arrow, Label, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats

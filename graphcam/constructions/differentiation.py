@@ -16,23 +16,8 @@ import numpy as np
 from graphcam.constructions.axes import OVERHANG, SUBSCRIPTS, levels
 from graphcam.drafting.curve import faired, farthest
 from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.ink import (
-    Arrow,
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
+from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit

@@ -21,7 +21,8 @@ from graphcam.constructions.profile_view import (
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.curve import farthest_of
 from graphcam.drafting.euclid import UP, turned
-from graphcam.drafting.ink import Construction, Role, Segments, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense

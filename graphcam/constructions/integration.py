@@ -15,21 +15,8 @@ from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, climb_along
-from graphcam.drafting.ink import (
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Points,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Label, Line, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError

@@ -21,24 +21,8 @@ from graphcam.constructions.region import (
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, foot, meet, turned
-from graphcam.drafting.ink import (
-    AngleMark,
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Region,
-    Role,
-    Segments,
-    Step,
-    Words,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Caption, Construction, Step, Words, reading, say
+from graphcam.drafting.marks import AngleMark, Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats

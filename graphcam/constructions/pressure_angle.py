@@ -14,22 +14,8 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
 from graphcam.drafting.euclid import UP, along_to_circle
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arrow,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    Words,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Reading, Step, Words, reading, say
+from graphcam.drafting.marks import AngleMark, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import standard_scale
 from graphcam.given.follower import Rotation, sense

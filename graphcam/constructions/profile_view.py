@@ -12,25 +12,8 @@ from graphcam.constructions.axes import numbered, phase_angle, station_names
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import UP, stepped_off, turned
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arc,
-    Arrow,
-    Caption,
-    Circle,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, reading, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Hand
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense

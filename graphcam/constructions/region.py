@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.euclid import NOWHERE, UP, crossing, dot, foot, meet
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.given.laws import Floats
 
 ON_THE_LINE = 1e-9

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from graphcam.drafting.euclid import dot
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 
 
 def farthest(points: Points, direction: Points | complex) -> Points:
