@@ -7,7 +7,7 @@ Templates are written in English, and literally where they are used, so that the
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 
@@ -33,6 +33,14 @@ class Caption:
     def __str__(self) -> str:
         template = self.plural if self.plural and self.count != 1 else self.template
         return template.format(**self.values)
+
+    def where(self, **values: Any) -> Caption:
+        """The same text with these values in its places, besides those that it has.
+
+        >>> str(say("The ray is {length:.1f} mm long.").where(length=3.14))
+        'The ray is 3.1 mm long.'
+        """
+        return replace(self, values={**self.values, **values})
 
 
 Words = str | Caption

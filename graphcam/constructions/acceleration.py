@@ -15,7 +15,8 @@ from graphcam.constructions.axes import numbers, phase_ends, phase_title, phi_ax
 from graphcam.constructions.law_names import law_name
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.ink import Construction, Dimension, Dots, Line, Points, Role, Segments, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Line, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats, Side
@@ -50,25 +51,18 @@ def acceleration_diagram(
         axis[stretch] = divided(start, end, stretch.stop - stretch.start - 1).real
     u = stations.u
     middle = (u[stations.left] + u[stations.left + 1]) / 2
-    at_stations = [y * _shape(p, u[s]) for p, y, s in zip(phases, greatest, stations.phases, strict=True)]
-    before = [y * _shape(p, u[s], "left") for p, y, s in zip(phases, greatest, stations.phases, strict=True)]
-    at_middles = [y * _shape(p, middle[s]) for p, y, s in zip(phases, greatest, stations.parts, strict=True)]
-    return Construction(
-        "acceleration",
-        {
-            "motion": motion, "stations": stations, "ordinate": ordinate, "mu_phi": mu_phi, "unit": unit,
-            "pencil": pencil,
-        },
-        {
-            "greatest": reading(pencil.sheets(greatest), 1.0, "mm of paper"),
-            "stations": reading(pencil.sheets(np.concatenate(at_stations)), 1.0, "mm of paper"),
-            "before": reading(pencil.sheets(np.concatenate(before)), 1.0, "mm of paper"),
-            "middles": reading(pencil.sheets(np.concatenate(at_middles)), 1.0, "mm of paper"),
-            "base": reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad"),
-        },
-        {"axis": pencil.sheets(axis + 0j)},
-        _draw,
-    )  # fmt: skip
+
+    def ordinates(u: Floats, spans: tuple[slice, ...], side: Side = "right") -> Floats:
+        """The given ordinates of all phases, one phase after another."""
+        return np.concatenate([y * _shape(p, u[s], side) for p, y, s in zip(phases, greatest, spans, strict=True)])
+
+    lengths = {"greatest": greatest, "stations": ordinates(u, stations.phases)}
+    lengths |= {"before": ordinates(u, stations.phases, "left"), "middles": ordinates(middle, stations.parts)}
+    readings = {name: reading(pencil.sheets(length), 1.0, "mm of paper") for name, length in lengths.items()}
+    readings["base"] = reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad")
+    givens = {"motion": motion, "stations": stations, "ordinate": ordinate, "mu_phi": mu_phi, "unit": unit}
+    points = {"axis": pencil.sheets(axis + 0j)}
+    return Construction("acceleration", givens | {"pencil": pencil}, readings, points, _draw)
 
 
 def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:
@@ -93,46 +87,29 @@ def _draw(diagram: Construction) -> list[Step]:
     motion, stations = diagram.givens["motion"], diagram.givens["stations"]
     phases, greatest = moving_phases(motion, stations), diagram.first("greatest")
     x = diagram.first("axis").real
-    curves = [
-        _curve(p, y, x[s.start], x[s.stop - 1]) for p, y, s in zip(phases, greatest, stations.phases, strict=True)
-    ]
+    ends = [(x[span.start], x[span.stop - 1]) for span in stations.phases]
+    curves = [_curve(p, y, *between) for p, y, between in zip(phases, greatest, ends, strict=True)]
     chosen = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+    ordinates = say(
+        "The greatest ordinate of the first rise is chosen, {ordinate:.1f} mm, in a scale that is not yet known. So "
+        "that the displacement comes back to the axis, the others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²): {greatest} "
+        "mm."
+    ).where(ordinate=greatest[chosen], greatest=sequence([say("{y:.1f}", y=y) for y in greatest]))
+    dimensions = tuple(_ordinate(line, y) for line, y in zip(curves, greatest, strict=True))
+    plotted = say("In each moving phase the acceleration is plotted by its law: {laws}.", laws=_laws(motion, stations))
+    lines = tuple(Line(line, Role.RESULT) for line in curves)
     return [
         _axis(diagram, np.concatenate([line.imag for line in curves])),
-        Step(
-            say("Ordinates of the phases"),
-            say(
-                "The greatest ordinate of the first rise is chosen, {ordinate:.1f} mm, in a scale that is not yet "
-                "known. So that the displacement comes back to the axis, the others follow from y = "
-                "y₁·(C·h/φ²)/(C₁·h₁/φ₁²): {greatest} mm.",
-                ordinate=greatest[chosen], greatest=sequence([say("{y:.1f}", y=y) for y in greatest]),
-            ),
-            ACCELERATION,
-            tuple(_ordinate(line, y) for line, y in zip(curves, greatest, strict=True)),
-            reads=("greatest",),
-        ),
-        Step(
-            say("Acceleration by the law"),
-            say(
-                "In each moving phase the acceleration is plotted by its law: {laws}.",
-                laws=_laws(motion, stations),
-            ),
-            ACCELERATION,
-            tuple(Line(line, Role.RESULT) for line in curves),
-        ),
+        Step(say("Ordinates of the phases"), ordinates, ACCELERATION, dimensions, reads=("greatest",)),
+        Step(say("Acceleration by the law"), plotted, ACCELERATION, lines),
         _middle_ordinates(diagram, x),
-    ]  # fmt: skip
+    ]
 
 
 def _laws(motion: Motion, stations: Stations) -> Caption:
     """The moving phases with their laws."""
-    moving = stations.phase[stations.last].tolist()
-    return sequence(
-        [
-            say("{phase} {law}", phase=phase_title(motion, k), law=law_name(phase.normalised))
-            for k, phase in zip(moving, moving_phases(motion, stations), strict=True)
-        ]
-    )
+    phases = zip(stations.phase[stations.last].tolist(), moving_phases(motion, stations), strict=True)
+    return sequence([say("{phase} {law}", phase=phase_title(motion, k), law=law_name(p.normalised)) for k, p in phases])
 
 
 def _axis(diagram: Construction, heights: Floats) -> Step:
@@ -140,19 +117,12 @@ def _axis(diagram: Construction, heights: Floats) -> Step:
     motion, mu_phi = diagram.givens["motion"], diagram.givens["mu_phi"]
     ends = phase_ends(motion, mu_phi)
     axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
-    return Step(
-        say("Axis of the cam angle"),
-        say(
-            "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
-            "The phases end at {ends} mm.",
-            length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm,
-            ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]),
-        ),
-        ACCELERATION,
-        axes,
-        given=axes,
-        reads=("base",),
-    )  # fmt: skip
+    told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
+    said = say(
+        "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
+        "The phases end at {ends} mm."
+    ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm, ends=told)
+    return Step(say("Axis of the cam angle"), said, ACCELERATION, axes, ("base",), given=axes)
 
 
 def _middle_ordinates(diagram: Construction, x: Floats) -> Step:
@@ -166,19 +136,12 @@ def _middle_ordinates(diagram: Construction, x: Floats) -> Step:
         # On the side of the axis where no ordinates stand.
         *numbers(x + 0j, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
-    return Step(
-        say("Middle ordinates"),
-        say(
-            "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle "
-            "of each part; the third of them measures {third:.1f} mm.",
-            parts=joined([f"{s.stop - s.start}" for s in stations.parts]), equal=equal_parts(stations),
-            third=middle_y[min(2, middle_y.size - 1)],
-        ),
-        ACCELERATION,
-        middles,
-        given=middles,
-        reads=("middles",),
-    )  # fmt: skip
+    parts, third = joined([f"{s.stop - s.start}" for s in stations.parts]), middle_y[min(2, middle_y.size - 1)]
+    said = say(
+        "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle of each "
+        "part; the third of them measures {third:.1f} mm."
+    ).where(parts=parts, equal=equal_parts(stations), third=third)
+    return Step(say("Middle ordinates"), said, ACCELERATION, middles, ("middles",), given=middles)
 
 
 def _curve(phase: Moving, greatest: float, start: float, end: float) -> Points:

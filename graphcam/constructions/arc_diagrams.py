@@ -3,32 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from graphcam.constructions.arc_roller import ArcStations
-from graphcam.constructions.axes import OVERHANG, degree_ticks
+from graphcam.constructions.axes import axes_over_phi, degree_ticks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
-from graphcam.drafting.curve import faired, farthest_of
+from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import (
-    Arrow,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Reading, Step, View, reading, say
+from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.laws import Floats
@@ -67,8 +52,7 @@ def arc_diagrams(
         if name == "s":
             readings["lift"] = reading(hand.read(points[name].imag[..., -1]), scale, source.unit)
             continue
-        # Highest and lowest place of the curve.
-        tops = np.stack([farthest_of(points[name], stations.spans, side * UP) for side in (1, -1)], axis=-1)
+        tops = highest_and_lowest(points[name], stations.spans)
         greatest = hand.read(np.abs(tops.imag))
         points[f"{name}_tops"] = tops
         readings[f"max_{name}"] = reading(np.max(greatest, axis=-1), scale, source.unit)
@@ -95,8 +79,9 @@ TITLES = {
     "alpha": say("Pressure angle over the cam angle"),
 }
 SPANS = (
-    say("rise {angle:.2f}°"), say("dwell {angle:.2f}°"), say("return {angle:.2f}°"), say("rest {angle:.2f}°"),
-)  # fmt: skip
+    *(say("rise {angle:.2f}°"), say("dwell {angle:.2f}°")),
+    *(say("return {angle:.2f}°"), say("rest {angle:.2f}°")),
+)
 """The phases and their angles."""
 CARRIED = {
     "a": say(
@@ -138,19 +123,14 @@ def _edges(rolled: Construction, mu_phi: Scale) -> Floats:
 
 
 def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
-    rolled, mu_phi, symbol = plotted.givens["rolled"], plotted.givens["mu_phi"], SYMBOLS[name]
+    rolled, mu_phi = plotted.givens["rolled"], plotted.givens["mu_phi"]
     curve = plotted.first(name)
     held = float(curve[-1].imag) if name == "s" else 0.0
     line = _whole_turn(curve, rolled.givens["stations"], edges, MIRROR[name], held)
     low, high = float(np.nanmin(line.imag)), float(np.nanmax(line.imag))
     heights = plotted.givens["heights"]
     mu = np.degrees(mu_phi.per_mm) if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
-    axes: list[Mark] = [
-        Arrow(0j, edges[-1] + OVERHANG + 0j, Role.SCALE),
-        Arrow(low * UP, (high + OVERHANG) * UP, Role.SCALE),
-        Label(edges[-1] + OVERHANG + 0j, "φ", towards=1 - 1j),
-        Label((high + OVERHANG) * UP, symbol, towards=-1 + 0j),
-    ]
+    axes = axes_over_phi(edges[-1], line.imag, SYMBOLS[name])
     if name == "alpha":
         axes += degree_ticks(mu_phi)
     marks: list[Mark] = [
@@ -163,8 +143,8 @@ def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
         marks += _phases(edges, mu_phi, low - 24.0)
     values = {"degree": np.degrees(mu_phi.per_mm), "mu": mu, "lift": float(rolled.value("lift"))}
     if name != "s":
-        top = plotted.first(f"{name}_tops")
-        top = complex(top[int(np.argmax(np.abs(top.imag)))])
+        tops = plotted.first(f"{name}_tops")
+        top = complex(at_greatest(tops, np.abs(tops.imag)))
         paper = float(plotted.first(f"max_{name}"))
         values |= {"paper": paper, "value": paper * mu}
         marks += [
@@ -172,7 +152,7 @@ def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
             Label(top, say("{value:.2f}", value=np.sign(top.imag) * paper * mu), towards=np.sign(top.imag) * UP),
         ]
     reads = ("lift",) if name == "s" else (f"max_{name}",)
-    return Step(TITLES[name], replace(CARRIED[name], values=values), VIEWS[name], tuple(marks), reads, tuple(axes))
+    return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), reads, axes)
 
 
 def _whole_turn(curve: Points, stations: ArcStations, edges: Floats, mirror: int, held: float) -> Points:
@@ -185,11 +165,7 @@ def _whole_turn(curve: Points, stations: ArcStations, edges: Floats, mirror: int
 
 def _phases(edges: Floats, mu_phi: Scale, height: float) -> list[Mark]:
     """The angles of rise, dwell and return."""
-    ends = edges[[0, 3, 4, 7, 8]]
-    return [
-        Dimension(
-            a + UP * height, b + UP * height, replace(said, values={"angle": np.degrees((b - a) * mu_phi.per_mm)})
-        )
-        for said, a, b in zip(SPANS, ends, ends[1:], strict=False)
-        if b > a
-    ]
+    ends = edges[[0, 3, 4, 7, 8]] + UP * height
+    angles = np.degrees(np.diff(ends.real) * mu_phi.per_mm)
+    spans = zip(pairwise(ends), SPANS, angles, strict=True)
+    return [Dimension(a, b, said.where(angle=angle)) for (a, b), said, angle in spans if angle > 0]

@@ -10,24 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, perpendicular_bisector, turned, unit
-from graphcam.drafting.ink import (
-    Arc,
-    Caption,
-    Circle,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Reading,
-    Role,
-    Step,
-    View,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
+from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.laws import Floats

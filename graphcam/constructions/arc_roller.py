@@ -17,22 +17,8 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.arc_outline import mirrored, outline, run
 from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, turned, unit
-from graphcam.drafting.ink import (
-    Circle,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Segments,
-    Step,
-    View,
-    Words,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Step, View, Words, reading, say
+from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats

@@ -4,23 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, turning
-from graphcam.constructions.profile_view import (
-    curve_readings,
-    ground,
-    outer_radius,
-    phase_angles,
-    pitch_steps,
-    prime_circle,
-    radius_arrow,
-)
+from graphcam.constructions import profile_view
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
-from graphcam.drafting.ink import Circle, Construction, Dots, Label, Role, Segments, Step, say
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Circle, Dots, Label, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
-from graphcam.words import sequence
 
 
 def arm_inversion(
@@ -40,80 +31,47 @@ def arm_inversion(
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
     hand = pencil.hand("inversion")
-    s, stations = integrated.readings["s"], integrated.givens["stations"]
-    count = stations.u.size
-    # Numbered against the rotation: in the cam's view the frame goes round the other way.
-    position = -sense(rotation) * stations.phi + hand.protractor(count)
-    pivots = stepped_off(distance / mu_l.per_mm + 0j, 0j, position)
+    s, count = integrated.readings["s"], integrated.givens["stations"].u.size
+    pivots = stepped_off(distance / mu_l.per_mm + 0j, 0j, profile_view.inverted_positions(integrated, rotation, hand))
     # To the left of the way from the cam centre to the pivot: above the line of centres.
     starts = circles_meet(np.asarray(0j), prime_radius / mu_l.per_mm, pivots, arm / mu_l.per_mm)
     pitch = stepped_off(starts, pivots, -(s.value + hand.protractor(count))) + hand.point(count)
+    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm}
     return Construction(
         "inversion",
-        {
-            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm,
-            "distance": distance, "mu_l": mu_l, "pencil": pencil,
-        },
-        curve_readings(pitch, mu_l, hand),
+        givens | {"distance": distance, "mu_l": mu_l, "pencil": pencil},
+        profile_view.curve_readings(pitch, mu_l, hand),
         {"pivots": pivots, "starts": starts, "pitch": pitch, "motion": -UP * unit(pitch - pivots)},
         _draw,
-    )  # fmt: skip
+    )
 
 
 def _draw(inverted: Construction) -> list[Step]:
     integrated, mu_l = inverted.givens["integrated"], inverted.givens["mu_l"]
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
     sigma, c, r0 = sense(inverted.givens["rotation"]), inverted.givens["distance"], inverted.givens["prime_radius"]
     pivots, starts, pitch = (inverted.first(name) for name in ("pivots", "starts", "pitch"))
-    start = complex(turned(starts[0], sigma * stations.phi[0]))  # on the prime circle, where the turn begins
-    centre = ground(inverted)
+    phi = integrated.givens["stations"].phi
+    start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
+    circle = (Circle(0j, c / mu_l.per_mm, Role.CONSTRUCTION),)
+    drawn = say(
+        "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the pivot, c = {c:g} mm, are drawn at "
+        "{ratio}: {r0_paper:.1f} mm and {c_paper:.1f} mm."
+    ).where(r0=r0, c=c, ratio=ratio_text(mu_l.per_mm), r0_paper=r0 / mu_l.per_mm, c_paper=c / mu_l.per_mm)
+    stepped = say(
+        "The pivot is stepped off on its circle as the axis of the cam angle is divided, numbered against the rotation "
+        "({rotation}); the phases take {angles}."
+    ).where(**profile_view.divided_by(inverted))
+    swung = say(
+        "From every pivot the arc of the arm's length, {arm:.1f} mm, meets the prime circle; from there the arm is "
+        "turned by the displacement, at most {most:.2f}°. Its ends are points of the pitch curve."
+    ).where(arm=inverted.givens["arm"] / mu_l.per_mm, most=np.degrees(integrated.value("s").max()))
+    first = complex(pivots[0])
+    positions = (Dots(pivots, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    arms = (Segments(pivots, pitch, Role.CONSTRUCTION), Label(first, "C", towards=first))
     return [
-        Step(
-            say("Prime circle and pivot circle"),
-            say(
-                "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the pivot, c = {c:g} mm, are "
-                "drawn at {ratio}: {r0_paper:.1f} mm and {c_paper:.1f} mm.",
-                r0=r0, c=c, ratio=ratio_text(mu_l.per_mm), r0_paper=r0 / mu_l.per_mm, c_paper=c / mu_l.per_mm,
-            ),
-            PROFILE,
-            (
-                *centre,
-                prime_circle(inverted),
-                Circle(0j, c / mu_l.per_mm, Role.CONSTRUCTION),
-                *radius_arrow(inverted, start, "r₀", r0),
-            ),
-            given=centre,
+        profile_view.prime_step(inverted, say("Prime circle and pivot circle"), drawn, start, circle),
+        Step(say("Inverted positions of the pivot"), stepped, PROFILE, positions),
+        *profile_view.pitch_steps(
+            inverted, Step(say("Arms turned by the displacement"), swung, PROFILE, arms, profile_view.CURVE_READINGS)
         ),
-        Step(
-            say("Inverted positions of the pivot"),
-            say(
-                "The pivot is stepped off on its circle as the axis of the cam angle is divided, numbered against "
-                "the rotation ({rotation}); the phases take {angles}.",
-                rotation=turning(inverted.givens["rotation"]),
-                angles=sequence([degrees(p.angle) for p in motion.phases]),
-            ),
-            PROFILE,
-            (
-                Dots(pivots, Role.CONSTRUCTION),
-                *phase_angles(inverted, start, outer_radius(inverted)),
-            ),
-        ),
-        *pitch_steps(
-            inverted,
-            Step(
-                say("Arms turned by the displacement"),
-                say(
-                    "From every pivot the arc of the arm's length, {arm:.1f} mm, meets the prime circle; from there "
-                    "the arm is turned by the displacement, at most {most:.2f}°. Its ends are points of the pitch "
-                    "curve.",
-                    arm=inverted.givens["arm"] / mu_l.per_mm, most=np.degrees(integrated.value("s").max()),
-                ),
-                PROFILE,
-                (
-                    Segments(pivots, pitch, Role.CONSTRUCTION),
-                    Label(complex(pivots[0]), "C", towards=complex(pivots[0])),
-                ),
-                reads=("x", "y", "radius", "polar_angle"),
-            ),
-        ),
-    ]  # fmt: skip
+    ]

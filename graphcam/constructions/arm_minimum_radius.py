@@ -12,26 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, numbered, station_names
+from graphcam.constructions.axes import degrees, numbers, pieces_of
 from graphcam.constructions.region import ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, dot, turned, unit
-from graphcam.drafting.ink import (
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Region,
-    Role,
-    Segments,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
@@ -89,26 +76,20 @@ def arm_least_radius(
     lines = boundaries(positions, integrated, rotation, limits, start)
     touches = np.concatenate([line.touch for line in lines], axis=-1)
     inwards = np.concatenate([line.inward for line in lines], axis=-1)
-    centre = (
-        nearest_of_many(touches, inwards, start)[0]
-        if distance is None
-        else _nearest_on_arc(touches, inwards, distance / mu_l.per_mm)
-    )
+    if distance is None:
+        centre, _ = nearest_of_many(touches, inwards, start)
+    else:
+        centre = _nearest_on_arc(touches, inwards, distance / mu_l.per_mm)
+    givens = {"integrated": integrated, "rotation": rotation, "limits": limits, "arm": arm, "distance": distance}
     return Construction(
         "minimum_radius",
-        {
-            "integrated": integrated, "rotation": rotation, "limits": limits, "arm": arm, "distance": distance,
-            "mu_l": mu_l, "pencil": pencil,
-        },
-        {
-            "prime_radius": reading(hand.read(np.abs(centre - start)), mu_l.per_mm, "mm"),
-            "distance": reading(hand.read(np.abs(centre)), mu_l.per_mm, "mm"),
-        },
+        givens | {"mu_l": mu_l, "pencil": pencil},
+        hand.readings(mu_l.per_mm, "mm", prime_radius=np.abs(centre - start), distance=np.abs(centre)),
         {"start": start, "ends": positions.ends, "tips": positions.tips(sense(rotation)), "centre": centre}
         | {f"touch of {line.name}": line.touch for line in lines}
         | {f"inward of {line.name}": line.inward for line in lines},
         _draw,
-    )  # fmt: skip
+    )
 
 
 def boundaries(
@@ -128,7 +109,7 @@ def boundaries(
 
     def family(name: str, direction: int, limit: float, side: int) -> Boundary:
         """The lines at the limit of all arms of one direction of motion."""
-        pieces = [p for p in stations.pieces if motion.phases[stations.phase[p.start]].direction == direction]
+        pieces = pieces_of(motion, stations, direction)
         touch = np.concatenate([faired(tips[..., piece]) for piece in pieces], axis=-1)
         angle = np.concatenate([faired(angles[..., piece] + 0j).real for piece in pieces], axis=-1)
         return Boundary(name, touch, leaning(limit, side, angle))
@@ -172,9 +153,8 @@ def permitted_distances(region: Construction, prime_radius: float) -> Floats:
     """
     arm, mu = region.givens["arm"] / region.givens["mu_l"].per_mm, region.givens["mu_l"].per_mm
     start, radius = -arm + 0j, prime_radius / mu
-    touches, inwards = (
-        np.concatenate(parts) for parts in zip(*((f.touch, f.inward) for f in _families(region)), strict=True)
-    )
+    touches = np.concatenate([family.touch for family in _families(region)])
+    inwards = np.concatenate([family.inward for family in _families(region)])
     # A line cuts the circle about the start in two points, equally far from the foot of the perpendicular from there.
     with np.errstate(invalid="ignore"):
         half = np.arccos(dot(inwards, touches - start) / radius)
@@ -201,57 +181,50 @@ def _draw(region: Construction) -> list[Step]:
     stations, shown = integrated.givens["stations"], at_scale(REGION, mu_l)
     ends, tips, centre = region.first("ends"), region.first("tips"), complex(region.first("centre"))
     start = complex(region.first("start"))
-    names, pivot = station_names(stations), (Dots(np.array([0j])), Label(0j, "C", towards=1 + 0j))
+    pivot = (Dots(np.array([0j])), Label(0j, "C", towards=1 + 0j))
+    arms = (Segments(np.zeros_like(ends), ends, Role.CONSTRUCTION), Dots(ends, Role.CONSTRUCTION))
+    lengths = np.abs(tips - ends)
+    laid_off = (
+        Segments(ends, tips, Role.CURVE),
+        *(Line(faired(tips[piece]), Role.RESULT) for piece in stations.pieces),
+        *numbers(tips, stations, tips, shown=lengths > 1),
+    )
+    side = say("outward") if sense(region.givens["rotation"]) > 0 else say("towards the pivot")
+    permitted = say("{rise} on the rise, while a spring drives the return", rise=degrees(limits.rise))
+    if limits.return_:
+        angles = {"rise": degrees(limits.rise), "back": degrees(limits.return_)}
+        permitted = say("{rise} on the rise and {back} on the return", **angles)
     return [
         Step(
             say("Arm positions"),
             say(
                 "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the "
-                "displacements up to {most:.2f}°.",
-                ratio=ratio_text(mu_l.per_mm), arm=abs(start), most=np.degrees(integrated.value("s").max()),
-            ),
+                "displacements up to {most:.2f}°."
+            ).where(ratio=ratio_text(mu_l.per_mm), arm=abs(start), most=np.degrees(integrated.value("s").max())),
             shown,
-            (
-                Segments(np.zeros_like(ends), ends, Role.CONSTRUCTION),
-                Dots(ends, Role.CONSTRUCTION),
-                *pivot,
-                Label(start, "B₀", towards=-1j),
-            ),
+            (*arms, *pivot, Label(start, "B₀", towards=-1j)),
             given=pivot,
         ),
         Step(
             say("Velocities along the arm"),
             say(
                 "Along every position the segment l·ds/dφ is laid off from its end, on the rise {side}, at most "
-                "{longest:.1f} mm; the ends D are joined by smooth curves.",
-                side=say("outward") if sense(region.givens["rotation"]) > 0 else say("towards the pivot"),
-                longest=float(np.abs(tips - ends).max()),
-            ),
+                "{longest:.1f} mm; the ends D are joined by smooth curves."
+            ).where(side=side, longest=float(lengths.max())),
             shown,
-            (
-                Segments(ends, tips, Role.CURVE),
-                *(Line(faired(tips[piece]), Role.RESULT) for piece in stations.pieces),
-                *(
-                    Label(complex(tips[k]), names[k], towards=complex(tips[k]), small=True)
-                    for k in numbered(tips, stations)
-                    if abs(tips[k] - ends[k]) > 1
-                ),
-            ),
+            laid_off,
         ),
         Step(
             say("Lines at the permitted angles"),
             say(
                 "Through every D the line at the permitted angle to that arm's normal is drawn: {limits}. The cam "
-                "centre may lie where no line cuts it off.",
-                limits=say("{rise} on the rise and {back} on the return", rise=degrees(limits.rise),
-                           back=degrees(limits.return_)) if limits.return_
-                else say("{rise} on the rise, while a spring drives the return", rise=degrees(limits.rise)),
-            ),
+                "centre may lie where no line cuts it off."
+            ).where(limits=permitted),
             shown,
             (*_lines(region), Region(_shown_region(region))),
         ),
         _result(region, start, centre),
-    ]  # fmt: skip
+    ]
 
 
 def _families(region: Construction) -> list[Boundary]:
@@ -289,32 +262,25 @@ def _result(region: Construction, start: complex, centre: complex) -> Step:
     title, distance = say("The least prime radius"), region.givens["distance"]
     shown = at_scale(REGION, region.givens["mu_l"])
     if np.isnan(centre):
-        said = (
-            say("No cam centre keeps all the limits.")
-            if distance is None
-            else say("At this centre distance no cam centre keeps all the limits.")
-        )
+        said = say("No cam centre keeps all the limits.")
+        if distance is not None:
+            said = say("At this centre distance no cam centre keeps all the limits.")
         return Step(title, said, shown, ())
-    r0, c = (float(region.value(name)) for name in ("prime_radius", "distance"))
-    return Step(
-        title,
-        say(
-            "{place} It lies {paper:.2f} mm from the start of the lift, so r₀ = {r0:.3f} mm, and {away:.2f} mm from "
-            "the pivot, so c = {c:.3f} mm.",
-            place=say("The place of the region nearest to the start of the lift is the cam centre A.")
-            if distance is None
-            else say("The place of the region nearest to the start of the lift on the circle c = {c:g} mm is the cam "
-                     "centre A.", c=distance),
-            paper=abs(centre - start), away=abs(centre), r0=r0, c=c,
-        ),
-        shown,
-        (
-            Line(np.array([start, centre]), Role.LIMIT),
-            Line(np.array([0j, centre]), Role.AXIS),
-            Dots(np.array([centre]), Role.RESULT),
-            Label(centre, "A", towards=-1j),
-            Dimension(start, centre, say("r₀ = {r0:.2f}", r0=r0), aside=-8.0),
-            Dimension(centre, 0j, say("c = {c:.2f}", c=c), aside=-8.0),
-        ),
-        reads=("prime_radius", "distance"),
-    )  # fmt: skip
+    reads = ("prime_radius", "distance")
+    r0, c = (float(region.value(name)) for name in reads)
+    place = say("The place of the region nearest to the start of the lift is the cam centre A.")
+    if distance is not None:
+        place = say(
+            "The place of the region nearest to the start of the lift on the circle c = {c:g} mm is the cam centre A."
+        ).where(c=distance)
+    said = say(
+        "{place} It lies {paper:.2f} mm from the start of the lift, so r₀ = {r0:.3f} mm, and {away:.2f} mm from the "
+        "pivot, so c = {c:.3f} mm."
+    ).where(place=place, paper=abs(centre - start), away=abs(centre), r0=r0, c=c)
+    marks = (
+        *(Line(np.array([start, centre]), Role.LIMIT), Line(np.array([0j, centre]), Role.AXIS)),
+        *(Dots(np.array([centre]), Role.RESULT), Label(centre, "A", towards=-1j)),
+        Dimension(start, centre, say("r₀ = {r0:.2f}", r0=r0), aside=-8.0),
+        Dimension(centre, 0j, say("c = {c:.2f}", c=c), aside=-8.0),
+    )
+    return Step(title, said, shown, marks, reads)

@@ -15,7 +15,8 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
-from graphcam.drafting.ink import Construction, Dots, Label, Line, Mark, Role, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import Dots, Label, Line, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
@@ -48,16 +49,14 @@ def arm_pressure_angle(
     seen = (centre - tips) / unit(positions.ends)  # along the arm outwards, and square to it
     alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
     psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
+    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm}
     return Construction(
         "pressure_angle",
-        {
-            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm,
-            "distance": distance, "mu_l": mu_l, "pencil": pencil,
-        },
+        givens | {"distance": distance, "mu_l": mu_l, "pencil": pencil},
         {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},
         {"ends": positions.ends, "tips": tips, "centre": pencil.sheets(centre)},
         _draw,
-    )  # fmt: skip
+    )
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -76,53 +75,35 @@ def _draw(measured: Construction) -> list[Step]:
     name = station_names(measured.givens["integrated"].givens["stations"])[k]
     # Turned so that the line of centres is level, with the cam centre at the origin.
     a = complex(measured.first("centre"))
-    b, d, c = (
-        (place - a) * -abs(a) / a * shrink for place in (measured.first("ends")[k], measured.first("tips")[k], 0j)
-    )
-    b, d, c = complex(b), complex(d), complex(c)
+    places = (measured.first("ends")[k], measured.first("tips")[k], 0j)
+    b, d, c = (complex((place - a) * -abs(a) / a * shrink) for place in places)
     v = (d - b) * sigma  # l v along the arm, outwards
     normal = UP * (b - c) / abs(b - c)  # square to the arm, towards the cam
     across, along = sigma * UP * b, -UP * v
     pole = complex(c.real + abs(across) * 0.6 + 12.0, 0.0)
+    closed = say(
+        "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
+        "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
+    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
+    side = say("away from the pivot") if abs(d - c) >= abs(b - c) else say("towards the pivot")
+    laid_off = say(
+        "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at {ratio} the "
+        "segment l·ds/dφ = {length:.2f} mm."
+    ).where(paper=abs(v), side=side, ratio=ratio_text(scale.per_mm), length=abs(v) * scale.per_mm)
+    found = say(
+        "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and the "
+        "transmission angle {transmission:.2f}°. Both are measured in every position of the arm."
+    ).where(name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)))
+    angle = (
+        Line(np.array([d, 0j]), Role.LIMIT),
+        Line(np.array([d, d + 0.7 * abs(d) * normal]), Role.CONSTRUCTION),
+        angle_at(d, np.angle(normal), np.angle(-d), 0.6 * abs(d), shown),
+    )
     return [
-        Step(
-            say("Velocity plan at station {name}", name=name),
-            say(
-                "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the "
-                "follower has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with "
-                "{closing:.1f} mm.",
-                across=abs(across), along=abs(along), closing=abs(along - across),
-            ),
-            plan,
-            velocity_plan(pole, across, along),
-        ),
-        Step(
-            say("The segment along the arm"),
-            say(
-                "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at "
-                "{ratio} the segment l·ds/dφ = {length:.2f} mm.",
-                paper=abs(v), ratio=ratio_text(scale.per_mm), length=abs(v) * scale.per_mm,
-                side=say("away from the pivot") if abs(d - c) >= abs(b - c) else say("towards the pivot"),
-            ),
-            plan,
-            _mechanism(b, c, d),
-        ),
-        Step(
-            say("The pressure angle"),
-            say(
-                "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and "
-                "the transmission angle {transmission:.2f}°. Both are measured in every position of the arm.",
-                name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)),
-            ),
-            plan,
-            (
-                Line(np.array([d, 0j]), Role.LIMIT),
-                Line(np.array([d, d + 0.7 * abs(d) * normal]), Role.CONSTRUCTION),
-                angle_at(d, np.angle(normal), np.angle(-d), 0.6 * abs(d), shown),
-            ),
-            reads=("psi0", "alpha", "transmission"),
-        ),
-    ]  # fmt: skip
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, across, along)),
+        Step(say("The segment along the arm"), laid_off, plan, _mechanism(b, c, d)),
+        Step(say("The pressure angle"), found, plan, angle, reads=("psi0", "alpha", "transmission")),
+    ]
 
 
 def _mechanism(b: complex, c: complex, d: complex) -> tuple[Mark, ...]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Arrow, Caption, Label, Mark, Points, Role, Segments, say
+from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
@@ -83,12 +85,12 @@ def phase_symbol(motion: Motion, k: int) -> Caption:
     kinds = [_kind(motion, i) for i in range(len(motion.phases))]
     again = f"{kinds[: k + 1].count(kinds[k])}" if kinds.count(kinds[k]) > 1 else ""
     number = PhaseNumber(f"{k + 1}".translate(SUBSCRIPTS), again.translate(SUBSCRIPTS))
-    return replace(SYMBOLS[kinds[k]], values={"number": number})
+    return SYMBOLS[kinds[k]].where(number=number)
 
 
 def phase_title(motion: Motion, k: int) -> Caption:
     """The name of phase ``k`` with its symbol: "rise φ₁"."""
-    return replace(PHASES[_kind(motion, k)], values={"symbol": phase_symbol(motion, k)})
+    return PHASES[_kind(motion, k)].where(symbol=phase_symbol(motion, k))
 
 
 def phase_angle(motion: Motion, k: int) -> Caption:
@@ -111,17 +113,34 @@ def phase_ends(motion: Motion, mu_phi: Scale) -> Floats:
     return np.append(motion.starts, FULL_TURN) / mu_phi.per_mm
 
 
-def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tuple[Mark, ...]:
-    """The two axes of a diagram that reaches over ``heights`` [mm of paper], and thin lines where the phases end."""
-    ends = phase_ends(motion, mu_phi)
-    low, high = min(0.0, float(np.nanmin(heights))), max(0.0, float(np.nanmax(heights)))
-    top = high + OVERHANG
+def reach(heights: Floats) -> tuple[float, float]:
+    """The lowest and the highest of heights [mm of paper] and of the axis."""
+    return min(0.0, float(np.nanmin(heights))), max(0.0, float(np.nanmax(heights)))
+
+
+def axes_over_phi(end: float, heights: Floats, symbol: str) -> tuple[Mark, ...]:
+    """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], and their names."""
+    low, high = reach(heights)
+    right, top = complex(end + OVERHANG), (high + OVERHANG) * UP
     return (
-        Arrow(0j, ends[-1] + OVERHANG + 0j, Role.SCALE),
-        Arrow(low * UP, top * UP, Role.SCALE),
-        Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
-        Label(ends[-1] + OVERHANG + 0j, "φ", towards=1 - 1j),
-        Label(top * UP, symbol, towards=-1 + 0j),
+        *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE)),
+        *(Label(right, "φ", towards=1 - 1j), Label(top, symbol, towards=-1 + 0j)),
+    )
+
+
+def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tuple[Mark, ...]:
+    """The axes of a diagram over one turn of the motion, and thin lines where the phases end."""
+    ends, (low, high) = phase_ends(motion, mu_phi), reach(heights)
+    across, up, *names = axes_over_phi(ends[-1], heights, symbol)
+    return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *names)
+
+
+def pole_marks(distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
+    """A pole to the left on the axis, its distance [mm] set down below the lowest of the rays' ``heights`` there."""
+    pole, named = -distance + 0j, say("H{index} = {pole:.6g}", index=index, pole=distance)
+    return (
+        *(Line(np.array([pole, 0j]), Role.SCALE), Dots(np.array([pole])), Label(pole, f"P{index}", towards=-1 + 1j)),
+        Dimension(pole, 0j, named, aside=-5.0 + reach(heights)[0]),
     )
 
 
@@ -163,10 +182,18 @@ def numbered(points: Points, stations: Stations) -> list[int]:
     return found
 
 
-def numbers(points: Points, stations: Stations, towards: complex | Points) -> tuple[Mark, ...]:
-    """The stations' names beside their points, in one direction or in one for each."""
+def numbers(
+    points: Points, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
+) -> tuple[Mark, ...]:
+    """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""
     names, ways = station_names(stations), np.broadcast_to(towards, points.shape)
-    return tuple(Label(complex(points[k]), names[k], complex(ways[k]), small=True) for k in numbered(points, stations))
+    named = [k for k in numbered(points, stations) if np.broadcast_to(shown, points.shape)[k]]
+    return tuple(Label(complex(points[k]), names[k], complex(ways[k]), small=True) for k in named)
+
+
+def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:
+    """The pieces of the rises (1) or of the returns (-1)."""
+    return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
 
 
 def levels(heights: Floats) -> Floats:

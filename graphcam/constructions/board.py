@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
-from graphcam.drafting.ink import Construction, Mark
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Follower, Rotation

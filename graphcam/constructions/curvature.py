@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.euclid import UP, centre_of_circle, cross, crossing, dot, perpendicular_bisector, stepped_off
-from graphcam.drafting.ink import Arc, Caption, Construction, Dots, Label, Line, Mark, Points, Role, Step, reading, say
+from graphcam.drafting.ink import Caption, Construction, Step, reading, say
+from graphcam.drafting.marks import Arc, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense

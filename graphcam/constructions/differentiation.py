@@ -13,26 +13,11 @@ from typing import Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import OVERHANG, SUBSCRIPTS, levels
+from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, levels, pole_marks
 from graphcam.drafting.curve import faired, farthest
 from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.ink import (
-    Arrow,
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
+from graphcam.drafting.marks import Dots, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
@@ -113,37 +98,30 @@ def differentiation(
     second = derive(first.x, first.y, poles[1], turn, hand)
     mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
     mu_a = mu_v / (mu_phi.per_mm * poles[1])
-    return Construction(
-        "differentiation",
-        {
-            "x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": mu_s.unit,
-            "pencil": pencil,
-        },
-        {
-            "rise": reading(hand.read(first.slope * first.run), mu_s.per_mm, mu_s.unit),
-            "run": reading(pencil.sheets(first.run), mu_phi.per_mm, "rad"),
-            "v": reading(hand.read(first.y), mu_v, f"{mu_s.unit}/rad"),
-            "v_at": reading(pencil.sheets(first.x), mu_phi.per_mm, "rad"),
-            "a": reading(hand.read(second.y), mu_a, f"{mu_s.unit}/rad²"),
-            "a_at": reading(pencil.sheets(second.x), mu_phi.per_mm, "rad"),
-            "max_v": reading(hand.read(_greatest(first, turn)), mu_v, f"{mu_s.unit}/rad"),
-            "max_a": reading(hand.read(_greatest(second, turn)), mu_a, f"{mu_s.unit}/rad²"),
-        },
-        {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y},
-        _draw,
-    )  # fmt: skip
+    readings = {
+        **hand.readings(mu_s.per_mm, mu_s.unit, rise=first.slope * first.run),
+        "run": reading(pencil.sheets(first.run), mu_phi.per_mm, "rad"),
+        **hand.readings(mu_v, f"{mu_s.unit}/rad", v=first.y),
+        "v_at": reading(pencil.sheets(first.x), mu_phi.per_mm, "rad"),
+        **hand.readings(mu_a, f"{mu_s.unit}/rad²", a=second.y),
+        "a_at": reading(pencil.sheets(second.x), mu_phi.per_mm, "rad"),
+        **hand.readings(mu_v, f"{mu_s.unit}/rad", max_v=_greatest(first, turn)),
+        **hand.readings(mu_a, f"{mu_s.unit}/rad²", max_a=_greatest(second, turn)),
+    }
+    points = {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y}
+    givens = {"x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": mu_s.unit}
+    return Construction("differentiation", givens | {"pencil": pencil}, readings, points, _draw)
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:
+    checked = "stations of the displacement"
     if x.ndim != 1 or x.shape != s.shape or x.size < FEWEST:
-        raise DesignError("stations of the displacement", x.size, f"{FEWEST} or more, each with its ordinate")
+        raise DesignError(checked, x.size, f"{FEWEST} or more, each with its ordinate")
     if not np.all(np.diff(x) > 0):
-        raise DesignError("stations of the displacement", "not in order", "growing along the axis", "sort them")
+        raise DesignError(checked, "not in order", "growing along the axis", "sort them")
     if turn is not None and not x[-1] - x[0] < turn:
-        raise DesignError(
-            "stations of the displacement", f"over {x[-1] - x[0]:g} mm", f"within one turn of {turn:g} mm",
-            "leave out the last one where it is the first one again",
-        )  # fmt: skip
+        remedy = "leave out the last one where it is the first one again"
+        raise DesignError(checked, f"over {x[-1] - x[0]:g} mm", f"within one turn of {turn:g} mm", remedy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,46 +232,25 @@ def _draw_source(c: Construction) -> Step:
 
 def _draw_pass(c: Construction, source: str, target: str, number: int) -> list[Step]:
     derived, pole, by = c.first(target), c.givens["poles"][number - 1], c.givens["by"]
-    title, traced = _TRACED[by]
-    index = f"{number}".translate(SUBSCRIPTS)
-    distance = say("H{index} = {pole:.6g}", index=index, pole=pole)
-    heights = levels(derived.imag)
-    axes = (
-        *_axes(c, derived, target),
-        Line(np.array([-pole, 0j]), Role.SCALE),
-        Dots(np.array([-pole + 0j])),
-        Label(-pole + 0j, f"P{index}", towards=-1 + 1j),
-        Dimension(-pole + 0j, 0j, distance, aside=-5.0 - max(0.0, -float(heights.min()))),
+    index, heights = f"{number}".translate(SUBSCRIPTS), levels(derived.imag)
+    title, traced = (said.where(source=source, count=derived.size) for said in _TRACED[by])
+    traces = (_traces(c, c.first(source), derived, pole),)
+    joined = say("Pole and rays, {source} to {target}", source=source, target=target)
+    axes = (*_axes(c, derived, target), *pole_marks(pole, index, heights))
+    rays = (
+        Segments(np.full(heights.size, -pole + 0j), UP * heights, Role.CONSTRUCTION),
+        Segments(UP * derived.imag, derived, Role.CONSTRUCTION),
     )
+    smooth = say(
+        "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} mm."
+    ).where(greatest=float(c.first(f"max_{target}")))
+    curve = (Dots(derived), Line(_curve(c, derived), Role.RESULT))
+    parallel = _RAYS[by].where(index=index, pole=pole, target=target)
     return [
-        Step(
-            replace(title, values={"source": source}),
-            replace(traced, values={"source": source, "count": derived.size}),
-            _view(c, source),
-            (_traces(c, c.first(source), derived, pole),),
-        ),
-        Step(
-            say("Pole and rays, {source} to {target}", source=source, target=target),
-            replace(_RAYS[by], values={"index": index, "pole": pole, "target": target}),
-            _view(c, target),
-            (
-                *axes,
-                Segments(np.full(heights.size, -pole + 0j), UP * heights, Role.CONSTRUCTION),
-                Segments(UP * derived.imag, derived, Role.CONSTRUCTION),
-            ),
-            given=axes,
-        ),
-        Step(
-            say("Curve of {target}", target=target),
-            say(
-                "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} "
-                "mm.",
-                greatest=float(c.first(f"max_{target}")),
-            ),
-            _view(c, target),
-            (Dots(derived), Line(_curve(c, derived), Role.RESULT)),
-        ),
-    ]  # fmt: skip
+        Step(title, traced, _view(c, source), traces),
+        Step(joined, parallel, _view(c, target), (*axes, *rays), given=axes),
+        Step(say("Curve of {target}", target=target), smooth, _view(c, target), curve),
+    ]
 
 
 def _view(c: Construction, symbol: str) -> View:
@@ -301,11 +258,8 @@ def _view(c: Construction, symbol: str) -> View:
     view = VIEWS[symbol]
     scale = c.givens["mu_s"].per_mm if symbol == "s" else c.readings[symbol].scale
     per = unit(c.givens["unit"]) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
-    index = {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol]
-    title = say(
-        "{title}, μ{index} = {mu:.4g} {per}/{mm}", title=view.title, index=index, mu=scale, per=per, mm=unit("mm")
-    )
-    return replace(view, title=title)
+    values = {"title": view.title, "index": {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol], "mu": scale}
+    return replace(view, title=say("{title}, μ{index} = {mu:.4g} {per}/{mm}", per=per, mm=unit("mm"), **values))
 
 
 def _traces(c: Construction, curve: Points, derived: Points, pole: float) -> Mark:
@@ -329,27 +283,13 @@ def _curve(c: Construction, points: Points) -> Points:
 
 def _axes(c: Construction, points: Points, symbol: str) -> tuple[Mark, ...]:
     turn = c.givens["turn"]
-    end = (float(c.givens["x"][-1]) if turn is None else turn) + OVERHANG
-    low, high = min(0.0, float(np.nanmin(points.imag))), max(0.0, float(np.nanmax(points.imag))) + OVERHANG
-    return (
-        Arrow(0j, end + 0j, Role.SCALE),
-        Arrow(low * UP, high * UP, Role.SCALE),
-        Label(end + 0j, "φ", towards=1 - 1j),
-        Label(high * UP, symbol, towards=-1 + 0j),
-    )
+    return axes_over_phi(float(c.givens["x"][-1]) if turn is None else turn, points.imag, symbol)
 
 
 def _draw_scales(c: Construction) -> Step:
-    return Step(
-        say("The scales of the derivatives"),
-        say(
-            "The poles give μᵥ = μₛ/(μᵩ·H₁) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = μᵥ/(μᵩ·H₂) = {mu_a:.5g} "
-            "({unit}/rad²)/mm: the greatest velocity is {v:.5g} {unit}/rad, the greatest acceleration {a:.5g} "
-            "{unit}/rad².",
-            mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens["unit"]),
-            v=float(c.value("max_v")), a=float(c.value("max_a")),
-        ),
-        _view(c, "a"),
-        (),
-        reads=("max_v", "max_a", "v", "a"),
-    )  # fmt: skip
+    greatest = {"v": float(c.value("max_v")), "a": float(c.value("max_a"))}
+    said = say(
+        "The poles give μᵥ = μₛ/(μᵩ·H₁) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = μᵥ/(μᵩ·H₂) = {mu_a:.5g} "
+        "({unit}/rad²)/mm: the greatest velocity is {v:.5g} {unit}/rad, the greatest acceleration {a:.5g} {unit}/rad²."
+    ).where(mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens["unit"]), **greatest)
+    return Step(say("The scales of the derivatives"), said, _view(c, "a"), (), ("max_v", "max_a", "v", "a"))

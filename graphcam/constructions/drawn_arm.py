@@ -12,7 +12,8 @@ from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitte
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.curvature import curvature
 from graphcam.drafting.euclid import stepped_off
-from graphcam.drafting.ink import Circle, Construction, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.follower import Oscillating, Rotation, sense

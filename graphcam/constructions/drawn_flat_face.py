@@ -10,7 +10,8 @@ import numpy as np
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Construction, Label, Line, Mark, Role, Segments
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.marks import Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import FlatFaced, Rotation

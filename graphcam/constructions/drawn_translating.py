@@ -12,7 +12,8 @@ from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Arrow, Circle, Construction, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.marks import Arrow, Circle, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, Translating, sense

@@ -8,24 +8,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, turning
-from graphcam.constructions.profile_view import (
-    curve_readings,
-    ground,
-    outer_radius,
-    phase_angles,
-    pitch_steps,
-    prime_circle,
-    radius_arrow,
-)
+from graphcam.constructions import profile_view
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.curve import farthest_of
+from graphcam.drafting.curve import highest_and_lowest
 from graphcam.drafting.euclid import UP, turned
-from graphcam.drafting.ink import Construction, Role, Segments, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
-from graphcam.words import sequence
 
 FACE_BEYOND = 6.0
 """How far a face is drawn beyond the place where it is touched, and to the other side of its ray [mm]."""
@@ -45,77 +36,48 @@ def flat_inversion(
     hand, sigma = pencil.hand("inversion"), sense(rotation)
     s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens["stations"]
     count = stations.u.size
-    position = -sigma * stations.phi + hand.protractor(count)
+    position = profile_view.inverted_positions(integrated, rotation, hand)
     along, across = turned(UP, position), turned(1 + 0j, position)
     feet = along * (prime_radius / mu_l.per_mm + s.value / mu_l.per_mm + hand.dividers(count))
     contact = sigma * v.value / mu_l.per_mm + hand.dividers(count)
     touch = feet + across * contact + hand.point(count)
     # The velocity over the cam angle, faired as any other curve, says how far the contact wanders.
     wander = integrated.points["v_curve"].real + UP * contact
-    right, left = (farthest_of(wander, stations.pieces, side * UP).imag * side for side in (1, -1))
+    ends = highest_and_lowest(wander, stations.pieces).imag
+    faces = {"face_left": -ends[..., 1], "face_right": ends[..., 0]}
+    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "mu_l": mu_l}
     return Construction(
         "inversion",
-        {
-            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "mu_l": mu_l,
-            "pencil": pencil,
-        },
-        {
-            **curve_readings(touch, mu_l, hand),
-            "contact": reading(hand.read(contact), mu_l.per_mm, "mm"),
-            "face_left": reading(hand.read(left), mu_l.per_mm, "mm"),
-            "face_right": reading(hand.read(right), mu_l.per_mm, "mm"),
-        },
+        givens | {"pencil": pencil},
+        profile_view.curve_readings(touch, mu_l, hand) | hand.readings(mu_l.per_mm, "mm", contact=contact, **faces),
         {"feet": feet, "pitch": touch, "motion": along},
         _draw,
-    )  # fmt: skip
+    )
 
 
 def _draw(inverted: Construction) -> list[Step]:
-    motion = inverted.givens["integrated"].givens["motion"]
     feet, along = inverted.first("feet"), inverted.first("motion")
     r0, contact = inverted.givens["prime_radius"], inverted.first("contact")
     across, start = along / UP, complex(UP * r0 / inverted.givens["mu_l"].per_mm)
-    centre = ground(inverted)
+    rays = (Segments(np.zeros_like(feet), feet, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    drawn = say(
+        "About the cam centre the prime circle r₀ = {r0:g} mm is drawn, and the rays of the inverted positions, "
+        "numbered against the rotation ({rotation}); the phases take {angles}."
+    ).where(r0=r0, **profile_view.divided_by(inverted))
+    left = feet + across * (np.minimum(contact, 0) - FACE_BEYOND)
+    right = feet + across * (np.maximum(contact, 0) + FACE_BEYOND)
+    touched = say(
+        "On every ray r₀ + s is laid off and the face drawn square to it. The profile touches the face ds/dφ to the "
+        "side: at most {left:.2f} mm to the left and {right:.2f} mm to the right, the face's half-widths."
+    ).where(left=float(inverted.value("face_left")), right=float(inverted.value("face_right")))
+    faces = (Segments(left, right, Role.CONSTRUCTION),)
+    reads = ("face_left", "face_right", "contact", *profile_view.CURVE_READINGS)
     return [
-        Step(
-            say("Prime circle and rays"),
-            say(
-                "About the cam centre the prime circle r₀ = {r0:g} mm is drawn, and the rays of the inverted "
-                "positions, numbered against the rotation ({rotation}); the phases take {angles}.",
-                r0=r0, rotation=turning(inverted.givens["rotation"]),
-                angles=sequence([degrees(p.angle) for p in motion.phases]),
-            ),
-            PROFILE,
-            (
-                *centre,
-                prime_circle(inverted),
-                *radius_arrow(inverted, start, "r₀", r0),
-                Segments(np.zeros_like(feet), feet, Role.CONSTRUCTION),
-                *phase_angles(inverted, start, outer_radius(inverted)),
-            ),
-            given=centre,
-        ),
-        *pitch_steps(
+        profile_view.prime_step(inverted, say("Prime circle and rays"), drawn, start, further=rays),
+        *profile_view.pitch_steps(
             inverted,
-            Step(
-                say("Faces and contacts"),
-                say(
-                    "On every ray r₀ + s is laid off and the face drawn square to it. The profile touches the face "
-                    "ds/dφ to the side: at most {left:.2f} mm to the left and {right:.2f} mm to the right, the "
-                    "face's half-widths.",
-                    left=float(inverted.value("face_left")), right=float(inverted.value("face_right")),
-                ),
-                PROFILE,
-                (
-                    Segments(
-                        feet + across * (np.minimum(contact, 0) - FACE_BEYOND),
-                        feet + across * (np.maximum(contact, 0) + FACE_BEYOND),
-                        Role.CONSTRUCTION,
-                    ),
-                ),
-                reads=("face_left", "face_right", "contact", "x", "y", "radius", "polar_angle"),
-            ),
+            Step(say("Faces and contacts"), touched, PROFILE, faces, reads),
             say("Profile"),
             say("A smooth curve through the points, with arcs about the centre in the dwells, is the profile."),
         ),
-    ]  # fmt: skip
+    ]

@@ -15,22 +15,8 @@ from graphcam.constructions.axes import OVERHANG, station_names
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import faired, farthest
 from graphcam.drafting.euclid import RIGHT, UP, dot, meet
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arrow,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Segments,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Dwell
 

@@ -19,20 +19,8 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import UP, dot, meet, turned
-from graphcam.drafting.ink import (
-    Arrow,
-    Caption,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Caption, Construction, Step, reading, say
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense

@@ -7,29 +7,16 @@ scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s f
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes
+from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, climb_along
-from graphcam.drafting.ink import (
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Points,
-    Role,
-    Segments,
-    Step,
-    View,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
+from graphcam.drafting.marks import Dimension, Line, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
@@ -80,25 +67,20 @@ def integration(diagram: Construction, poles: tuple[float, float], pencil: Penci
     mu_v = mu_s / (mu_phi.per_mm * poles[1])
     mu_a = mu_v / (mu_phi.per_mm * poles[0])
     fastest = [farthest_of(x + UP * side * v, stations.pieces, UP).imag for side in (1, -1)]
-    return Construction(
-        "integration",
-        {**diagram.givens, "diagram": diagram, "poles": poles, "pencil": pencil},
-        {
-            "s": reading(hand.read(s), mu_s, lift_unit),
-            "v": reading(hand.read(v), mu_v, f"{lift_unit}/rad"),
-            "a": reading(hand.read(diagram.readings["stations"].paper), mu_a, f"{lift_unit}/rad²"),
-            "a_before": reading(hand.read(diagram.readings["before"].paper), mu_a, f"{lift_unit}/rad²"),
-            "max_v": reading(hand.read(np.maximum(*fastest)), mu_v, f"{lift_unit}/rad"),
-            "max_a": reading(hand.read(diagram.readings["greatest"].paper.max(axis=-1)), mu_a, f"{lift_unit}/rad²"),
-            "closing_v": reading(closing_v, mu_v, f"{lift_unit}/rad"),
-            "closing_s": reading(closing_s, mu_s, lift_unit),
-        },
-        {
-            "a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v,
-            "v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s,
-        },
-        _draw,
-    )  # fmt: skip
+    a, before, greatest = (diagram.readings[name].paper for name in ("stations", "before", "greatest"))
+    readings = {
+        **hand.readings(mu_s, lift_unit, s=s),
+        **hand.readings(mu_v, f"{lift_unit}/rad", v=v),
+        **hand.readings(mu_a, f"{lift_unit}/rad²", a=a, a_before=before),
+        **hand.readings(mu_v, f"{lift_unit}/rad", max_v=np.maximum(*fastest)),
+        **hand.readings(mu_a, f"{lift_unit}/rad²", max_a=greatest.max(axis=-1)),
+        "closing_v": reading(closing_v, mu_v, f"{lift_unit}/rad"),
+        "closing_s": reading(closing_s, mu_s, lift_unit),
+    }
+    first = {"a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v}
+    second = {"v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s}
+    givens = {**diagram.givens, "diagram": diagram, "poles": poles, "pencil": pencil}
+    return Construction("integration", givens, readings, first | second, _draw)
 
 
 def _polygons(rises: Floats, stations: Stations) -> Floats:
@@ -134,10 +116,8 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     """
     risen = top > FLAT * full
     if pencil.samples is None and not risen:
-        raise DesignError(
-            "greatest displacement on paper", f"{float(top):.3g} mm", "above the axis",
-            "divide into more parts, or draw longer ordinates",
-        )  # fmt: skip
+        remedy = "divide into more parts, or draw longer ordinates"
+        raise DesignError("greatest displacement on paper", f"{float(top):.3g} mm", "above the axis", remedy)
     return np.where(risen, top, np.nan)
 
 
@@ -148,7 +128,7 @@ def _top(motion: Motion, stations: Stations) -> int:
 
 
 def _draw(c: Construction) -> list[Step]:
-    return [*_draw_pass(c, _FIRST), *_draw_pass(c, _SECOND), _draw_scales(c)]
+    return [*(step for run in _PASSES for step in _draw_pass(c, run)), _draw_scales(c)]
 
 
 @dataclass(frozen=True)
@@ -162,107 +142,84 @@ class _Pass:
     closing: Caption
 
 
-_FIRST = _Pass(
-    1, ACCELERATION, VELOCITY, ("a", "v"),
-    say("A phase ends at rest: the velocity left there, {left:.2f} mm at most, is taken up by turning the base line."),
-)  # fmt: skip
-_SECOND = _Pass(
-    2, VELOCITY, DISPLACEMENT, ("v", "s"),
-    say("The displacement left at the end of the turn, {left:.2f} mm, is shared out along the returns."),
-)  # fmt: skip
+_AT_REST = say(
+    "A phase ends at rest: the velocity left there, {left:.2f} mm at most, is taken up by turning the base line."
+)
+_SHARED_OUT = say("The displacement left at the end of the turn, {left:.2f} mm, is shared out along the returns.")
+_PASSES = (
+    _Pass(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST),
+    _Pass(2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT),
+)
 
 
 def _draw_pass(c: Construction, run: _Pass) -> list[Step]:
     motion, stations, mu_phi = (c.givens[name] for name in ("motion", "stations", "mu_phi"))
-    pole = -c.givens["poles"][run.index - 1] + 0j
+    distance, index = c.givens["poles"][run.index - 1], f"{run.index}".translate(SUBSCRIPTS)
     source, target = run.symbols
-    projected, chords, curve = (
-        c.first(name) for name in (f"{source}_projected", f"{target}_chords", f"{target}_curve")
-    )
-    left = float(np.max(np.abs(c.first(f"closing_{target}"))))
-    index = f"{run.index}".translate(SUBSCRIPTS)
+    projected, chords = c.first(f"{source}_projected"), c.first(f"{target}_chords")
+    curve, left = c.first(f"{target}_curve"), float(np.max(np.abs(c.first(f"closing_{target}"))))
     # Projections that fall on one another are drawn once, from the farthest ordinate.
-    distance = say("H{index} = {pole:.6g}", index=index, pole=-pole.real)
     heights = levels(projected.imag)
     reach = np.array([projected.real[np.abs(projected.imag - y) < SAME_HEIGHT].max() for y in heights])
-    laid_out = (
-        Line(np.array([pole, 0j]), Role.SCALE),
-        Dots(np.array([pole])),
-        Label(pole, f"P{index}", towards=-1 + 1j),
-        Dimension(pole, 0j, distance, aside=-5.0 - max(0.0, -float(heights.min()))),
+    laid_out = pole_marks(distance, index, heights)
+    rays = (
+        Segments(UP * heights, reach + UP * heights, Role.CONSTRUCTION),
+        Segments(np.full(heights.size, -distance + 0j), UP * heights, Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.imag, target)
+    polygons = (
+        *(Line(chords[span], Role.CONSTRUCTION) for span in stations.phases),
+        Segments(curve.real + 0j, curve, Role.CONSTRUCTION),
+    )
+    curves = tuple(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces)
     return [
         Step(
             say("Pole and rays, {source} to {target}", source=source, target=target),
             say(
-                "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate "
-                "of {source} is projected on the vertical axis and joined to the pole.",
-                index=index, distance=-pole.real, source=source,
-            ),
+                "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate of "
+                "{source} is projected on the vertical axis and joined to the pole."
+            ).where(index=index, distance=distance, source=source),
             run.source,
-            (
-                *laid_out,
-                Segments(UP * heights, reach + UP * heights, Role.CONSTRUCTION),
-                Segments(np.full(heights.size, pole), UP * heights, Role.CONSTRUCTION),
-            ),
+            (*laid_out, *rays),
             given=laid_out,
         ),
         Step(
             say("Chords parallel to the rays: {target}", target=target),
             say(
-                "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end "
-                "of the one before. {closing}",
-                closing=replace(run.closing, values={"left": left}),
-            ),
+                "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end of "
+                "the one before. {closing}"
+            ).where(closing=run.closing.where(left=left)),
             run.target,
-            (
-                *axes,
-                *(Line(chords[span], Role.CONSTRUCTION) for span in stations.phases),
-                Segments(curve.real + 0j, curve, Role.CONSTRUCTION),
-            ),
+            (*axes, *polygons),
             given=axes,
         ),
         Step(
             say("Curve of {target}", target=target),
             say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
             run.target,
-            (*(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces), *_rests(c, curve)),
+            (*curves, *_rests(c, curve)),
         ),
-    ]  # fmt: skip
+    ]
 
 
 def _rests(c: Construction, curve: Points) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    stations, mu_phi = c.givens["stations"], c.givens["mu_phi"]
-    level = UP * curve[-1].imag
-    ends = [
-        level,
-        *(curve[k] for s in stations.phases for k in (s.start, s.stop - 1)),
-        FULL_TURN / mu_phi.per_mm + level,
-    ]
+    level, turn = UP * curve[-1].imag, FULL_TURN / c.givens["mu_phi"].per_mm
+    moving = [curve[k] for span in c.givens["stations"].phases for k in (span.start, span.stop - 1)]
+    ends = [level, *moving, turn + level]
     return [Line(np.array(pair), Role.RESULT) for pair in zip(ends[::2], ends[1::2], strict=True)]
 
 
 def _draw_scales(c: Construction) -> Step:
-    motion, stations = c.givens["motion"], c.givens["stations"]
-    curve = c.first("s_curve")
+    motion, stations, curve = c.givens["motion"], c.givens["stations"], c.first("s_curve")
     top = complex(curve[_top(motion, stations)])
     named = numbers(curve.real + 0j, stations, -UP)
-    mu_s, mu_v, mu_a = (float(np.ravel(c.readings[name].scale)[0]) for name in ("s", "v", "a"))
-    return Step(
-        say("The scales"),
-        say(
-            "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, "
-            "so μₛ = {mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and "
-            "μₐ = μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm.",
-            paper=top.imag, unit=unit(c.givens["unit"]), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a,
-        ),
-        DISPLACEMENT,
-        (
-            Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), aside=-6.0),
-            *named,
-        ),
-        given=named,
-        reads=("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s"),
-    )  # fmt: skip
+    mu_s, mu_v, mu_a = (c.readings[name].per_mm for name in ("s", "v", "a"))
+    said = say(
+        "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
+        "{mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = "
+        "μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm."
+    ).where(paper=top.imag, unit=unit(c.givens["unit"]), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a)
+    height = Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), aside=-6.0)
+    reads = ("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s")
+    return Step(say("The scales"), said, DISPLACEMENT, (height, *named), reads, given=named)

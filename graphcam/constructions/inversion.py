@@ -4,23 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, turning
-from graphcam.constructions.profile_view import (
-    curve_readings,
-    ground,
-    outer_radius,
-    phase_angles,
-    pitch_steps,
-    prime_circle,
-    radius_arrow,
-)
+from graphcam.constructions import profile_view
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, along_to_circle, stepped_off, turned
-from graphcam.drafting.ink import Circle, Construction, Role, Segments, Step, say
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Circle, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
-from graphcam.words import sequence
 
 
 def inversion(
@@ -34,83 +25,47 @@ def inversion(
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
     hand = pencil.hand("inversion")
-    s, stations = integrated.readings["s"], integrated.givens["stations"]
-    count = stations.u.size
-    # Numbered against the rotation: in the cam's view the frame goes round the other way.
-    position = -sense(rotation) * stations.phi + hand.protractor(count)
+    s, count = integrated.readings["s"], integrated.givens["stations"].u.size
+    position = profile_view.inverted_positions(integrated, rotation, hand)
     feet = stepped_off(offset / mu_l.per_mm, 0j, position)  # on the circle e
     along = turned(UP, position)  # its tangents
     starts = along_to_circle(feet, along, 0j, prime_radius / mu_l.per_mm)
     laid_off = s.value / mu_l.per_mm + hand.dividers(count)
     pitch = starts + along * laid_off + hand.point(count)
-    return Construction(
-        "inversion",
-        {
-            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset,
-            "mu_l": mu_l, "pencil": pencil,
-        },
-        curve_readings(pitch, mu_l, hand),
-        {"feet": feet, "starts": starts, "pitch": pitch, "motion": along},
-        _draw,
-    )  # fmt: skip
+    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset}
+    points = {"feet": feet, "starts": starts, "pitch": pitch, "motion": along}
+    readings = profile_view.curve_readings(pitch, mu_l, hand)
+    return Construction("inversion", givens | {"mu_l": mu_l, "pencil": pencil}, readings, points, _draw)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
 def _draw(inverted: Construction) -> list[Step]:
-    integrated, mu_l = inverted.givens["integrated"], inverted.givens["mu_l"]
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    mu_l, phi = inverted.givens["mu_l"], inverted.givens["integrated"].givens["stations"].phi
     sigma, e, r0 = sense(inverted.givens["rotation"]), inverted.givens["offset"], inverted.givens["prime_radius"]
     feet, starts, pitch = (inverted.first(name) for name in ("feet", "starts", "pitch"))
-    start = complex(turned(starts[0], sigma * stations.phi[0]))  # on the prime circle, where the turn begins
+    start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
     # A central follower has no circle e: its lines are rays through the cam centre.
     circle = (Circle(0j, abs(e) / mu_l.per_mm, Role.CONSTRUCTION),) if e else ()
-    centre = ground(inverted)
+    arrow = profile_view.radius_arrow(inverted, start * UP, "e", abs(e)) if e else ()
+    circles = say(
+        "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the offset e = {e:g} mm are drawn at "
+        "{ratio}: {r0_paper:.1f} mm and {e_paper:.1f} mm. The follower's line touches the circle e."
+    ).where(r0=r0, e=e, ratio=ratio_text(mu_l.per_mm), r0_paper=r0 / mu_l.per_mm, e_paper=abs(e) / mu_l.per_mm)
+    tangents = say(
+        "The circle e is divided as the axis of the cam angle is, numbered against the rotation ({rotation}), and the "
+        "tangents are drawn; the phases take {angles}."
+    ).where(**profile_view.divided_by(inverted))
+    ends = say(
+        "On every tangent the displacement is laid off from the prime circle, in the scale of the profile; the "
+        "greatest is {longest:.1f} mm. The ends are points of the pitch curve."
+    ).where(longest=float(np.abs(pitch - starts).max()))
+    lines = (Segments(feet, pitch, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
     return [
-        Step(
-            say("Prime circle and offset circle"),
-            say(
-                "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the offset e = {e:g} mm are "
-                "drawn at {ratio}: {r0_paper:.1f} mm and {e_paper:.1f} mm. The follower's line touches the circle e.",
-                r0=r0, e=e, ratio=ratio_text(mu_l.per_mm), r0_paper=r0 / mu_l.per_mm, e_paper=abs(e) / mu_l.per_mm,
-            ),
-            PROFILE,
-            (
-                *centre,
-                prime_circle(inverted),
-                *circle,
-                *radius_arrow(inverted, start, "r₀", r0),
-                *(radius_arrow(inverted, start * UP, "e", abs(e)) if e else ()),
-            ),
-            given=centre,
+        profile_view.prime_step(inverted, say("Prime circle and offset circle"), circles, start, circle, arrow),
+        Step(say("Inverted positions of the follower's line"), tangents, PROFILE, lines),
+        *profile_view.pitch_steps(
+            inverted, Step(say("Displacements laid off"), ends, PROFILE, (), reads=profile_view.CURVE_READINGS)
         ),
-        Step(
-            say("Inverted positions of the follower's line"),
-            say(
-                "The circle e is divided as the axis of the cam angle is, numbered against the rotation "
-                "({rotation}), and the tangents are drawn; the phases take {angles}.",
-                rotation=turning(inverted.givens["rotation"]),
-                angles=sequence([degrees(p.angle) for p in motion.phases]),
-            ),
-            PROFILE,
-            (
-                Segments(feet, pitch, Role.CONSTRUCTION),
-                *phase_angles(inverted, start, outer_radius(inverted)),
-            ),
-        ),
-        *pitch_steps(
-            inverted,
-            Step(
-                say("Displacements laid off"),
-                say(
-                    "On every tangent the displacement is laid off from the prime circle, in the scale of the "
-                    "profile; the greatest is {longest:.1f} mm. The ends are points of the pitch curve.",
-                    longest=float(np.abs(pitch - starts).max()),
-                ),
-                PROFILE,
-                (),
-                reads=("x", "y", "radius", "polar_angle"),
-            ),
-        ),
-    ]  # fmt: skip
+    ]

@@ -9,41 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.constructions.axes import OVERHANG, degrees, numbered, station_names, turning
-from graphcam.constructions.region import (
-    ON_THE_LINE,
-    Boundary,
-    binding,
-    lowest_on,
-    nearest,
-    permitted_part,
-)
+from graphcam.constructions.axes import OVERHANG, degrees, numbers, pieces_of, turning
+from graphcam.constructions.region import ON_THE_LINE, Boundary, binding, lowest_on, nearest, permitted_part
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, foot, meet, turned
-from graphcam.drafting.ink import (
-    AngleMark,
-    Caption,
-    Construction,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Region,
-    Role,
-    Segments,
-    Step,
-    Words,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Caption, Construction, Step, Words, say
+from graphcam.drafting.marks import AngleMark, Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
-from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-from graphcam.given.stations import Stations
 from graphcam.words import say_in, sequence
 
 START = np.zeros((), dtype=complex)
@@ -64,18 +39,14 @@ def least_radius(
     s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens["stations"]
     mu, count = s.scale, stations.u.size
     # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
-    segment = v.value / _column(mu) + hand.dividers(count)
+    segment = v.value / np.asarray(mu)[..., None] + hand.dividers(count)
     ends = -sense(rotation) * segment + UP * (s.paper + hand.line(count))
     lines = boundaries(ends, integrated, rotation, limits)
     centre = nearest(lines, START) if offset is None else lowest_on(lines, -offset / mu)
     return Construction(
         "minimum_radius",
         {"integrated": integrated, "rotation": rotation, "limits": limits, "offset": offset, "pencil": pencil},
-        {
-            "prime_radius": reading(hand.read(np.abs(centre)), mu, "mm"),
-            "offset": reading(-hand.read(centre.real), mu, "mm"),
-            "s0": reading(-hand.read(centre.imag), mu, "mm"),
-        },
+        hand.readings(mu, "mm", prime_radius=np.abs(centre), offset=-centre.real, s0=-centre.imag),
         {"ends": ends, "centre": centre} | {line.name: line.touch for line in lines},
         _draw,
     )
@@ -90,8 +61,7 @@ def boundaries(ends: Points, integrated: Construction, rotation: Rotation, limit
     motion, stations = integrated.givens["motion"], integrated.givens["stations"]
 
     def touching(name: str, direction: int, inward: Points) -> Boundary:
-        pieces = [p for p in stations.pieces if motion.phases[stations.phase[p.start]].direction == direction]
-        return Boundary(name, farthest_of(ends, pieces, inward), inward)
+        return Boundary(name, farthest_of(ends, pieces_of(motion, stations, direction), inward), inward)
 
     # A line at the angle A to the motion, leaning to the side on which the rise's segments lie, permits the side away
     # from them; the return's line and the rest line lean the other way.
@@ -117,11 +87,6 @@ def _shown(region: Construction) -> list[Boundary]:
     return boundaries(region.first("ends"), integrated, region.givens["rotation"], limits)
 
 
-def _column(scale: Floats | float) -> Floats:
-    """A scale per sample as a column beside the samples' rows."""
-    return np.asarray(scale)[..., None]
-
-
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 REGION_DEPTH = 14.0
@@ -142,56 +107,48 @@ def _draw(region: Construction) -> list[Step]:
     marked = [place for place in (centre, *others.values()) if not np.isnan(place)]
     bottom = min(0.0, *(place.imag for place in marked)) - REGION_DEPTH
     line = (Line(UP * np.array([bottom, float(ends.imag.max()) + OVERHANG]), Role.AXIS),)
+    laid_off = (Segments(UP * ends.imag, ends, Role.CONSTRUCTION), Dots(ends, Role.CONSTRUCTION))
+    # The ends of the phases lie on the line of motion and need no number.
+    named = numbers(ends, stations, np.sign(ends.real) + 0j, shown=np.abs(ends.real) > 1)
+    curves = tuple(Line(faired(ends[piece]), Role.RESULT) for piece in stations.pieces)
+    alternatives = [mark for name, place in others.items() for mark in _cross(place, PLACES[name])]
     return [
         Step(
             say("Velocities at the displacements"),
             say(
                 "On the follower's line the displacements are marked; at each of them v is laid off in the scale of "
-                "s, turned by 90° in the sense of the cam's rotation, {rotation}. The longest measures "
-                "{longest:.1f} mm.",
-                rotation=turning(region.givens["rotation"]), longest=float(np.abs(ends.real).max()),
-            ),
+                "s, turned by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} "
+                "mm."
+            ).where(rotation=turning(region.givens["rotation"]), longest=float(np.abs(ends.real).max())),
             COMBINED,
-            (
-                *line,
-                Segments(UP * ends.imag, ends, Role.CONSTRUCTION),
-                Dots(ends, Role.CONSTRUCTION),
-                *_ends_named(ends, stations),
-            ),
+            (*line, *laid_off, *named),
             given=line,
         ),
         Step(
             say("Curves of rise and return"),
             say("The ends are joined by smooth curves, one for the rise and one for the return."),
             COMBINED,
-            tuple(Line(faired(ends[piece]), Role.RESULT) for piece in stations.pieces),
+            curves,
         ),
         Step(
             say("Tangents at the permitted angles"),
             say(
                 "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion "
-                "({angles}); {zero}{further}",
-                angles=sequence([
-                    say("{angle} {line}", angle=_limit_text(line, limits), line=LINES[line.name])
-                    for line in lines if line.name != "rest"
-                ]),
-                zero=_at_zero_lift(lines[0]), further=_spring_and_rest(limits),
-            ),
+                "({angles}); {zero}{further}"
+            ).where(angles=_angles(lines, limits), zero=_at_zero_lift(lines[0]), further=_spring_and_rest(limits)),
             COMBINED,
             tuple(mark for line in lines for mark in _limit_line(line, bottom, limits)),
         ),
         Step(
             say("The region of the cam centre"),
-            say("Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}.",
-                names=sequence([PLACES[name] for name in others])),
+            say(
+                "Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}."
+            ).where(names=sequence([PLACES[name] for name in others])),
             COMBINED,
-            (
-                Region(permitted_part(lines, _box(ends, bottom))),
-                *(mark for name, place in others.items() for mark in _cross(place, PLACES[name])),
-            ),
+            (Region(permitted_part(lines, _box(ends, bottom))), *alternatives),
         ),
         _result(region, centre),
-    ]  # fmt: skip
+    ]
 
 
 def _result(region: Construction, centre: complex) -> Step:
@@ -202,28 +159,24 @@ def _result(region: Construction, centre: complex) -> Step:
             "line of the offset, at less than a degree."
         )
         return Step(title, unreadable, COMBINED, ())
+    place = say("The place of the region nearest to the start of the lift is the cam centre A.")
+    if offset is not None:
+        place = say("The highest permitted place on the line at e = {e:g} mm is the cam centre A.", e=offset)
+    reads = ("prime_radius", "offset", "s0")
     # Adding zero makes a plain zero of the negative one that a central follower's offset is read as.
-    values = {name: float(region.value(name)) + 0.0 for name in ("prime_radius", "offset", "s0")}
-    return Step(
-        title,
-        say(
-            "{place} {binding} The distance to the start of the lift measures {paper:.2f} mm, so r₀ = "
-            "{prime_radius:.3f} mm with e = {offset:.3f} mm and s₀ = {s0:.3f} mm.",
-            place=say("The place of the region nearest to the start of the lift is the cam centre A.")
-            if offset is None
-            else say("The highest permitted place on the line at e = {e:g} mm is the cam centre A.", e=offset),
-            binding=_bound_by(active(region)), paper=abs(centre), **values,
-        ),
-        COMBINED,
-        (
-            Line(np.array([0j, centre]), Role.LIMIT),
-            Dots(np.array([centre]), Role.RESULT),
-            Label(centre, "A", towards=-1j + np.sign(centre.real)),
-            Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=values["prime_radius"]), aside=0.0),
-            *_centre_lines(centre, offset),
-        ),
-        reads=("prime_radius", "offset", "s0"),
-    )  # fmt: skip
+    values = {name: float(region.value(name)) + 0.0 for name in reads}
+    said = say(
+        "{place} {binding} The distance to the start of the lift measures {paper:.2f} mm, so r₀ = {prime_radius:.3f} "
+        "mm with e = {offset:.3f} mm and s₀ = {s0:.3f} mm."
+    ).where(place=place, binding=_bound_by(active(region)), paper=abs(centre), **values)
+    marks = (
+        Line(np.array([0j, centre]), Role.LIMIT),
+        Dots(np.array([centre]), Role.RESULT),
+        Label(centre, "A", towards=-1j + np.sign(centre.real)),
+        Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=values["prime_radius"]), aside=0.0),
+        *_centre_lines(centre, offset),
+    )
+    return Step(title, said, COMBINED, marks, reads)
 
 
 def _at_zero_lift(line: Boundary) -> Caption:
@@ -250,19 +203,14 @@ def _bound_by(lines: list[Boundary]) -> Caption:
     return say("It lies on the limit of: {lines}.", lines=sequence([LINES[line.name] for line in lines]))
 
 
-def _ends_named(ends: Points, stations: Stations) -> list[Mark]:
-    """Numbers at the ends, away from the line of motion; the ends of the phases lie on it and need none."""
-    names = station_names(stations)
-    return [
-        Label(complex(ends[k]), names[k], towards=complex(np.sign(ends[k].real)), small=True)
-        for k in numbered(ends, stations)
-        if abs(ends[k].real) > 1
-    ]
+def _angles(lines: list[Boundary], limits: Limits) -> Caption:
+    """The permitted angles of the tangents."""
+    tangents = [line for line in lines if line.name != "rest"]
+    return sequence([say("{angle} {line}", angle=_limit(line, limits), line=LINES[line.name]) for line in tangents])
 
 
-def _limit_text(line: Boundary, limits: Limits) -> Caption:
-    angle = limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise
-    return degrees(angle)
+def _limit(line: Boundary, limits: Limits) -> Caption:
+    return degrees(limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise)
 
 
 def _limit_line(line: Boundary, bottom: float, limits: Limits) -> tuple[Mark, ...]:
@@ -272,23 +220,21 @@ def _limit_line(line: Boundary, bottom: float, limits: Limits) -> tuple[Mark, ..
     below = touch + along * (touch.imag - bottom)
     # The angle is shown where the line has run a third of its way down.
     at = touch + along * (touch.imag - bottom) / 3
-    down, slant = -np.pi / 2, float(np.angle(line.along))
-    text = _limit_text(line, limits)
+    first, last = sorted((-np.pi / 2, float(np.angle(line.along))))
     return (
         Line(np.array([above, below]), Role.LIMIT),
         Segments(np.array([at]), np.array([at - UP * ANGLE_RADIUS * 1.2]), Role.CONSTRUCTION),
-        AngleMark(at, ANGLE_RADIUS, min(down, slant), max(down, slant), text),
+        AngleMark(at, ANGLE_RADIUS, first, last, _limit(line, limits)),
     )
 
 
 def _alternatives(lines: list[Boundary]) -> dict[str, complex]:
     """Other places that textbooks take: the apex, the foot on the rise's tangent, the central follower's centre."""
-    rise = lines[0]
-    along = rise.along
-    places = {"foot": foot(START, rise.touch, along)}
-    for line in lines[1:]:
-        if line.name == "return":
-            places["apex"] = meet(rise.touch, along, line.touch, line.along)
+    by_name = {line.name: line for line in lines}
+    rise, return_ = by_name["rise"], by_name.get("return")
+    places = {"foot": foot(START, rise.touch, rise.along)}
+    if return_ is not None:
+        places["apex"] = meet(rise.touch, rise.along, return_.touch, return_.along)
     places["central"] = lowest_on(lines, 0.0)
     return {name: complex(place) for name, place in places.items() if np.isfinite(place)}
 

@@ -14,22 +14,8 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
 from graphcam.drafting.euclid import UP, along_to_circle
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arrow,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    Words,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Reading, Step, Words, reading, say
+from graphcam.drafting.marks import AngleMark, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import standard_scale
 from graphcam.given.follower import Rotation, sense
@@ -55,16 +41,14 @@ def pressure_angle(
     ends = -sigma * segment + UP * (s.paper + hand.line(count))
     ray = ends - centre[..., None]
     alpha = sigma * np.arctan2(-ray.real, ray.imag) + hand.protractor(count)
+    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset}
     return Construction(
         "pressure_angle",
-        {
-            "integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset,
-            "pencil": pencil,
-        },
-        {**angle_readings(alpha), "s0": reading(-hand.read(centre.imag), mu, "mm")},
+        givens | {"pencil": pencil},
+        angle_readings(alpha) | hand.readings(mu, "mm", s0=-centre.imag),
         {"ends": ends, "centre": centre},
         _draw,
-    )  # fmt: skip
+    )
 
 
 def angle_readings(alpha: Floats) -> dict[str, Reading]:
@@ -98,11 +82,9 @@ def moving_up(measured: Construction) -> NDArray[np.bool_]:
 
 def _draw(measured: Construction) -> list[Step]:
     k, sigma = shown_station(measured), sense(measured.givens["rotation"])
-    integrated = measured.givens["integrated"]
-    mu = float(np.ravel(measured.readings["s0"].scale)[0])
+    integrated, mu = measured.givens["integrated"], measured.readings["s0"].per_mm
     centre, ends = complex(measured.first("centre")), measured.first("ends")
-    machine = complex(ends[k] - centre) * mu
-    scale = standard_scale(machine.imag, PLAN_HEIGHT)
+    scale = standard_scale((ends[k] - centre).imag * mu, PLAN_HEIGHT)
     plan = at_scale(PLAN, scale)
     b = complex(-centre.real, ends[k].imag - centre.imag) * mu / scale.per_mm
     v = float(integrated.value("v")[k]) / scale.per_mm
@@ -112,55 +94,31 @@ def _draw(measured: Construction) -> list[Step]:
     # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
     across, along = sigma * UP * b, UP * v
     pole = complex(max(b.real, c.real, d.real, 0.0) + max(0.0, -across.real) + 22.0, 8.0)
+    closed = say(
+        "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
+        "has v₂ along the guide, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
+    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
+    similar = say(
+        "Through the cam centre A the perpendicular to the motion meets the normal in C. The triangle ABC and the plan "
+        "have perpendicular sides, so AC = ds/dφ: {length:.1f} mm · {mu:.4g} = {value:.2f} mm/rad."
+    ).where(length=abs(c), mu=scale.per_mm, value=abs(c) * scale.per_mm)
+    turned = say(
+        "AC is laid off from B across the motion, turned from v₂ by 90° in the sense of the rotation, to D. The angle "
+        "of DA with the motion is the pressure angle at station {name}: {alpha:.2f}°, and the transmission angle "
+        "{transmission:.2f}°."
+    ).where(name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)))
+    everywhere = say(
+        "With the adopted cam centre, r₀ = {r0:g} mm and e = {e:g} mm, the rays from A to the ends D of the combined "
+        "diagram make the pressure angles with the motion at all stations."
+    ).where(r0=measured.givens["prime_radius"], e=measured.givens["offset"])
+    ray = Segments(np.full(1, centre), ends[k : k + 1], Role.CONSTRUCTION)
+    rays, reads = (Dots(np.array([centre]), Role.RESULT), ray), ("s0", "alpha", "transmission")
     return [
-        Step(
-            say("Velocity plan at station {name}", name=name),
-            say(
-                "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the "
-                "follower has v₂ along the guide, {along:.1f} mm; v₂₁ along the profile closes the plan with "
-                "{closing:.1f} mm.",
-                across=abs(across), along=abs(along), closing=abs(along - across),
-            ),
-            plan,
-            velocity_plan(pole, across, along),
-        ),
-        Step(
-            say("The mechanism's triangle"),
-            say(
-                "Through the cam centre A the perpendicular to the motion meets the normal in C. The triangle ABC "
-                "and the plan have perpendicular sides, so AC = ds/dφ: {length:.1f} mm · {mu:.4g} = {value:.2f} "
-                "mm/rad.",
-                length=abs(c), mu=scale.per_mm, value=abs(c) * scale.per_mm,
-            ),
-            plan,
-            _triangle(b, c, sigma),
-        ),
-        Step(
-            say("The pressure angle"),
-            say(
-                "AC is laid off from B across the motion, turned from v₂ by 90° in the sense of the rotation, to D. "
-                "The angle of DA with the motion is the pressure angle at station {name}: {alpha:.2f}°, and the "
-                "transmission angle {transmission:.2f}°.",
-                name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)),
-            ),
-            plan,
-            _angle(b, d, sigma, alpha),
-        ),
-        Step(
-            say("The pressure angle at every station"),
-            say(
-                "With the adopted cam centre, r₀ = {r0:g} mm and e = {e:g} mm, the rays from A to the ends D of the "
-                "combined diagram make the pressure angles with the motion at all stations.",
-                r0=measured.givens["prime_radius"], e=measured.givens["offset"],
-            ),
-            COMBINED,
-            (
-                Dots(np.array([centre]), Role.RESULT),
-                Segments(np.full(1, centre), ends[k : k + 1], Role.CONSTRUCTION),
-            ),
-            reads=("s0", "alpha", "transmission"),
-        ),
-    ]  # fmt: skip
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, across, along)),
+        Step(say("The mechanism's triangle"), similar, plan, _triangle(b, c, sigma)),
+        Step(say("The pressure angle"), turned, plan, _angle(b, d, sigma, alpha)),
+        Step(say("The pressure angle at every station"), everywhere, COMBINED, rays, reads),
+    ]
 
 
 def _triangle(b: complex, c: complex, sigma: int) -> tuple[Mark, ...]:

@@ -8,46 +8,45 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.axes import numbered, phase_angle, station_names
+from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import UP, stepped_off, turned
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arc,
-    Arrow,
-    Caption,
-    Circle,
-    Construction,
-    Dots,
-    Label,
-    Line,
-    Mark,
-    Points,
-    Reading,
-    Role,
-    Segments,
-    Step,
-    reading,
-    say,
-)
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, reading, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Hand
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import sense
+from graphcam.given.follower import Rotation, sense
+from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.words import sequence
 
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
 
 
+CURVE_READINGS = ("x", "y", "radius", "polar_angle")
+"""What is read of a profile's points."""
+
+
 def curve_readings(points: Points, mu_l: Scale, hand: Hand) -> dict[str, Reading]:
     """``x``, ``y`` and ``radius`` [mm] and the ``polar_angle`` [rad] of points of a profile about the cam centre."""
-    return {
-        "x": reading(hand.read(points.real), mu_l.per_mm, "mm"),
-        "y": reading(hand.read(points.imag), mu_l.per_mm, "mm"),
-        "radius": reading(hand.read(np.abs(points)), mu_l.per_mm, "mm"),
-        "polar_angle": reading(np.angle(points), 1.0, "rad"),
-    }
+    lengths = hand.readings(mu_l.per_mm, "mm", x=points.real, y=points.imag, radius=np.abs(points))
+    return {**lengths, "polar_angle": reading(np.angle(points), 1.0, "rad")}
+
+
+def inverted_positions(integrated: Construction, rotation: Rotation, hand: Hand) -> Floats:
+    """The angles [rad] by which the frame is turned at the stations, measured off with a protractor."""
+    # Numbered against the rotation: in the cam's view the frame goes round the other way.
+    phi = integrated.givens["stations"].phi
+    return -sense(rotation) * phi + hand.protractor(phi.size)
+
+
+def divided_by(inverted: Construction) -> dict[str, Words]:
+    """What a caption says of the inverted positions: the ``rotation`` they are numbered against, and the ``angles``."""
+    phases = inverted.givens["integrated"].givens["motion"].phases
+    angles = sequence([degrees(phase.angle) for phase in phases])
+    return {"rotation": turning(inverted.givens["rotation"]), "angles": angles}
 
 
 def pitch_curve(inverted: Construction) -> Points:
@@ -107,10 +106,10 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
     return Arc(0j, radius, start, end, Role.CURVE, arrow="end" if sigma > 0 else "start")
 
 
-def phase_angles(inverted: Construction, start: complex, radius: float) -> list[Mark]:
+def phase_angles(inverted: Construction, start: complex) -> list[Mark]:
     """The angles of the phases outside the curve, against the rotation, from the point where the lift starts."""
     motion: Motion = inverted.givens["integrated"].givens["motion"]
-    sigma = sense(inverted.givens["rotation"])
+    sigma, radius = sense(inverted.givens["rotation"]), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     rays: Points = np.exp(1j * limits[:-1])
     marks = list[Mark]([Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS)])
@@ -119,7 +118,7 @@ def phase_angles(inverted: Construction, start: complex, radius: float) -> list[
     return marks
 
 
-def outer_radius(inverted: Construction) -> float:
+def _outer_radius(inverted: Construction) -> float:
     """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
     prime = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm
     return max(float(np.nanmax(np.abs(inverted.first("pitch")))), prime) + BEYOND
@@ -128,7 +127,7 @@ def outer_radius(inverted: Construction) -> float:
 def ground(inverted: Construction) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation."""
     prime, sigma = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm, sense(inverted.givens["rotation"])
-    reach = (outer_radius(inverted) + BEYOND) * np.array([-1, 1])
+    reach = (_outer_radius(inverted) + BEYOND) * np.array([-1, 1])
     return (
         Line(reach + 0j, Role.AXIS),
         Line(UP * reach, Role.AXIS),
@@ -138,9 +137,19 @@ def ground(inverted: Construction) -> tuple[Mark, ...]:
     )
 
 
-def prime_circle(inverted: Construction) -> Circle:
-    """The prime circle."""
-    return Circle(0j, inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm, Role.CONSTRUCTION)
+def prime_step(
+    inverted: Construction,
+    title: Caption,
+    said: Caption,
+    start: complex,
+    circles: tuple[Mark, ...] = (),
+    further: tuple[Mark, ...] = (),
+) -> Step:
+    """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them."""
+    centre, r0, mu_l = ground(inverted), inverted.givens["prime_radius"], inverted.givens["mu_l"]
+    prime = Circle(0j, r0 / mu_l.per_mm, Role.CONSTRUCTION)
+    marks = (*centre, prime, *circles, *radius_arrow(inverted, start, "r₀", r0), *further)
+    return Step(title, said, PROFILE, marks, given=centre)
 
 
 PITCH_CURVE = say("Pitch curve")
@@ -152,20 +161,6 @@ def pitch_steps(
 ) -> list[Step]:
     """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
     pitch, stations = inverted.first("pitch"), inverted.givens["integrated"].givens["stations"]
-    names = station_names(stations)
-    points = (
-        Dots(pitch, Role.CONSTRUCTION),
-        *(
-            Label(complex(pitch[k]), names[k], towards=complex(pitch[k]) / abs(pitch[k]), small=True)
-            for k in numbered(pitch, stations)
-        ),
-    )
-    return [
-        replace(laid_off, marks=(*laid_off.marks, *points)),
-        Step(
-            title,
-            said,
-            PROFILE,
-            (Line(pitch_curve(inverted), Role.CURVE, closed=True),),
-        ),
-    ]
+    points = (Dots(pitch, Role.CONSTRUCTION), *numbers(pitch, stations, pitch / np.abs(pitch)))
+    curve = Line(pitch_curve(inverted), Role.CURVE, closed=True)
+    return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]

@@ -12,8 +12,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.drafting.curve import at_greatest
 from graphcam.drafting.euclid import NOWHERE, UP, crossing, dot, foot, meet
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.given.laws import Floats
 
 ON_THE_LINE = 1e-9
@@ -59,10 +60,8 @@ def nearest(lines: Sequence[Boundary], start: Points) -> Points:
     corners = [meet(a.touch, a.along, b.touch, b.along) for a, b in combinations(lines, 2)]
     places = np.stack(np.broadcast_arrays(*feet, *corners), axis=-1)
     permitted = np.all([line.clearance(places.T).T >= -ON_THE_LINE for line in lines], axis=0)
-    distance = np.where(permitted, np.abs(places - np.asarray(start)[..., None]), np.inf)
-    best = np.argmin(distance, axis=-1)[..., None]
-    place = np.take_along_axis(places, best, -1)[..., 0]
-    return np.where(np.isfinite(distance.min(axis=-1)), place, NOWHERE)
+    nearness = np.where(permitted, -np.abs(places - np.asarray(start)[..., None]), -np.inf)
+    return np.where(np.isfinite(nearness.max(axis=-1)), at_greatest(places, nearness), NOWHERE)
 
 
 def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
@@ -84,13 +83,12 @@ def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Po
     for added in range(touches.shape[-1]):
         clearance = dot(inwards, place[..., None] - touches)
         deepest = np.argmin(clearance, axis=-1)[..., None]
-        cut_off = np.take_along_axis(clearance, deepest, -1)[..., 0] < -ON_THE_LINE
+        cut_off = clearance.min(axis=-1) < -ON_THE_LINE
         if not cut_off.any():
             break
         three = np.concatenate([deepest, lines if added else np.repeat(deepest, 2, axis=-1)], axis=-1)
-        found, pair = _nearest_of_three(
-            np.take_along_axis(touches, three, -1), np.take_along_axis(inwards, three, -1), start
-        )
+        touch, inward = (np.take_along_axis(given, three, -1) for given in (touches, inwards))
+        found, pair = _nearest_of_three(touch, inward, start)
         place = np.where(cut_off, found, place)
         lines = np.where(cut_off[..., None], np.take_along_axis(three, pair, -1), lines)
     return place, lines
@@ -101,11 +99,10 @@ _PAIRS = np.array([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
 
 def _nearest_of_three(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
     """The nearest place that three lines permit, and the pair of them that makes it, (..., 2)."""
-    feet = [foot(start, touches[..., k], inwards[..., k] * UP) for k in range(3)]
+    lines = [(touches[..., k], inwards[..., k] * UP) for k in range(3)]
+    feet = [foot(start, *line) for line in lines]
     # Neighbouring lines of a family cross at less than a degree; what they bound is their envelope, not the crossing.
-    corners = [
-        crossing(touches[..., a], inwards[..., a] * UP, touches[..., b], inwards[..., b] * UP) for a, b in _PAIRS[3:]
-    ]
+    corners = [crossing(*lines[a], *lines[b]) for a, b in _PAIRS[3:]]
     places = np.stack([*feet, *corners], axis=-1)
     clearance = dot(inwards[..., None, :], places[..., None] - touches[..., None, :])
     permitted = np.all(clearance >= -ON_THE_LINE, axis=-1)

@@ -10,19 +10,8 @@ from numpy.typing import NDArray
 from graphcam.constructions.profile_view import closed_curve
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.ink import (
-    AngleMark,
-    Circle,
-    Construction,
-    Dots,
-    Line,
-    Mark,
-    Points,
-    Role,
-    Step,
-    reading,
-    say,
-)  # fmt: skip
+from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.marks import AngleMark, Circle, Dots, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats

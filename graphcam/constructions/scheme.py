@@ -7,7 +7,8 @@ import numpy as np
 from graphcam.constructions.board import DrawnFollower
 from graphcam.constructions.profile_view import closed_curve, rotation_arrow
 from graphcam.constructions.views import SCHEME, at_scale
-from graphcam.drafting.ink import Circle, Construction, Label, Line, Role, Segments, Step, say
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Circle, Label, Line, Role, Segments
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
 

@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphcam.drafting.euclid import dot
-from graphcam.drafting.ink import Points
+from graphcam.drafting.euclid import UP, Floats, dot
+from graphcam.drafting.marks import Points
+
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+def at_greatest(values: NDArray[Scalar], measure: Floats) -> NDArray[Scalar]:
+    """Of values (..., n) the one whose ``measure`` (..., n) is greatest; what is unread, NaN, may be.
+
+    >>> at_greatest(np.array([1, 2, 3]), np.array([0.5, 2.5, -4.0])).item()
+    2
+    """
+    return np.take_along_axis(values, np.argmax(measure, axis=-1)[..., None], -1)[..., 0]
 
 
 def farthest(points: Points, direction: Points | complex) -> Points:
@@ -49,8 +62,17 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     (2+2j)
     """
     tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
-    best = np.argmax(dot(direction, tops), axis=-1)[..., None]
-    return np.take_along_axis(tops, best, -1)[..., 0]
+    return at_greatest(tops, dot(direction, tops))
+
+
+def highest_and_lowest(points: Points, pieces: Sequence[slice]) -> Points:
+    """The two ends of what smooth pieces reach over, each faired for itself: (..., 2).
+
+    >>> x = np.arange(5.0)
+    >>> [complex(end) for end in highest_and_lowest(x + 1j * np.minimum(x, 4 - x), [slice(0, 3), slice(2, 5)])]
+    [(2+2j), 0j]
+    """
+    return np.stack([farthest_of(points, pieces, side * UP) for side in (1, -1)], axis=-1)
 
 
 def faired(points: Points, between: int = 8) -> Points:

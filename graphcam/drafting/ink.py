@@ -1,26 +1,21 @@
-"""What a construction leaves on the paper: readings, and steps made of marks.
-
-Points are complex numbers in mm of paper, in the frame of their view (x right, y up).  Marks say *what* a line is, by
-its role; how thick it is drawn, and where a label finds room, is the sheet's business.
-"""
+"""What a construction leaves on the paper: readings, and steps made of marks."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 
 # A construction says what it draws, so both come from here.
 from graphcam.words import Caption as Caption
 from graphcam.words import Tell
 from graphcam.words import Words as Words
 from graphcam.words import say as say
-
-Points = NDArray[np.complexfloating[Any, Any]]
 
 
 @dataclass(frozen=True)
@@ -40,117 +35,6 @@ class View:
     up: str
     answer: Caption | None = None
     found_by: str = ""
-
-
-class Role(StrEnum):
-    """What a line is for, from thin to bold."""
-
-    CONSTRUCTION = "construction"  # thin: rays, projections, bisectors
-    HATCH = "hatch"  # thin: shading of a region
-    DIMENSION = "dimension"  # thin: dimension lines, arrows, leaders
-    AXIS = "axis"  # thin, dash-dot: centre lines, the line of motion
-    HIDDEN = "hidden"  # thin, dashed: alternatives that are not taken
-    SCALE = "scale"  # thin: coordinate axes with their divisions
-    CURVE = "curve"  # medium: plotted and faired curves
-    LIMIT = "limit"  # medium, the accent: lines at a limit, and what binds
-    RESULT = "result"  # bold: what the construction was drawn for
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """A line through points (n,), straight from one to the next; ``closed`` joins the last to the first."""
-
-    points: Points
-    role: Role
-    closed: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Segments:
-    """Many separate segments from ``starts`` (n,) to ``ends`` (n,)."""
-
-    starts: Points
-    ends: Points
-    role: Role
-
-
-@dataclass(frozen=True)
-class Circle:
-    """A whole circle."""
-
-    centre: complex
-    radius: float
-    role: Role
-
-
-@dataclass(frozen=True)
-class Arc:
-    """Part of a circle, counter-clockwise from direction ``start`` to ``end`` [rad]; ``arrow`` at 'start' or 'end'."""
-
-    centre: complex
-    radius: float
-    start: float
-    end: float
-    role: Role
-    arrow: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Dots:
-    """Plotted points (n,)."""
-
-    points: Points
-    role: Role = Role.CURVE
-
-
-@dataclass(frozen=True)
-class Arrow:
-    """A vector with its head at ``end``."""
-
-    start: complex
-    end: complex
-    role: Role
-
-
-@dataclass(frozen=True)
-class Label:
-    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``."""
-
-    at: complex
-    text: Words
-    towards: complex = 1 + 1j
-    small: bool = False
-
-
-@dataclass(frozen=True)
-class Dimension:
-    """The length from ``start`` to ``end``, its line moved to the left by ``aside`` mm."""
-
-    start: complex
-    end: complex
-    text: Words
-    aside: float = 0.0
-
-
-@dataclass(frozen=True)
-class AngleMark:
-    """An angle at ``centre`` between two directions [rad], drawn as an arc with arrows and its text."""
-
-    centre: complex
-    radius: float
-    start: float
-    end: float
-    text: Words
-
-
-@dataclass(frozen=True, eq=False)
-class Region:
-    """A shaded region: a polygon (n,) to be hatched."""
-
-    boundary: Points
-
-
-Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,6 +98,11 @@ class Reading:
         scale = np.asarray(self.scale)
         # A scale per sample stands before the axes of one drawing.
         return self.paper * scale.reshape(scale.shape + (1,) * (np.ndim(self.paper) - scale.ndim))
+
+    @property
+    def per_mm(self) -> float:
+        """The scale in the first sample [unit/mm]."""
+        return float(np.ravel(self.scale)[0])
 
 
 def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> Reading:

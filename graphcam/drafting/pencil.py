@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from graphcam.drafting.ink import Reading, reading
 from graphcam.errors import DesignError
 
 Floats = NDArray[np.floating[Any]]
@@ -100,6 +101,15 @@ class Hand:
         """A length as it is read off a scale: rounded to its division."""
         division = self.pencil.division
         return np.round(paper / division) * division if division else paper
+
+    def readings(self, scale: float | NDArray[np.float64], unit: str, **paper: Floats) -> dict[str, Reading]:
+        """Lengths as they are read off a scale, by their names.
+
+        >>> read = Pencil(division=0.5).hand("minimum_radius").readings(0.2, "mm", radius=np.array(40.2))
+        >>> read["radius"].paper.item(), read["radius"].value.item()
+        (40.0, 8.0)
+        """
+        return {name: reading(self.read(length), scale, unit) for name, length in paper.items()}
 
     def _errors(self, sigma: float, count: int) -> Floats:
         shape = (count,) if self.pencil.samples is None else (self.pencil.samples, count)

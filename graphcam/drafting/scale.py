@@ -9,9 +9,9 @@ from graphcam.errors import DesignError
 from graphcam.words import Caption, say
 
 STANDARD_RATIOS = (
-    100.0, 50.0, 40.0, 20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0,
-    1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40, 1 / 50, 1 / 75, 1 / 100,
-)  # fmt: skip
+    *(100.0, 50.0, 40.0, 20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0),
+    *(1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40, 1 / 50, 1 / 75, 1 / 100),
+)
 """Drawing scales of ISO 5455 and GOST 2.302, paper over machine, the largest first."""
 
 

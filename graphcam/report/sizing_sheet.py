@@ -8,7 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments, Step, View, say
+from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.given.laws import Floats
 from graphcam.language import ENGLISH
 from graphcam.language import language as language_of

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphcam.drafting import ink
-from graphcam.drafting.ink import Points, Role
+from graphcam.drafting import marks
+from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.hatching import hatch
@@ -48,45 +48,45 @@ Drawn = tuple[list[Entity], list[Writing]]
 """Entities, and the texts that still have to find their place."""
 
 
-def expand(marks: Iterable[ink.Mark], place: Placement, letters: Lettering) -> Drawn:
+def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering) -> Drawn:
     """The entities of marks, and the texts that still have to find their place."""
     entities: list[Entity] = []
     writings: list[Writing] = []
-    for mark in marks:
+    for mark in step_marks:
         match mark:
-            case ink.Line():
+            case marks.Line():
                 entities += _line(mark, place)
-            case ink.Segments():
+            case marks.Segments():
                 starts, ends = place(mark.starts), place(mark.ends)
                 long = np.abs(ends - starts) > SAME
                 if np.any(long):
                     entities.append(Strokes(starts[long], ends[long], mark.role))
-            case ink.Circle():
+            case marks.Circle():
                 entities.append(
                     Circles(np.array([place.point(mark.centre)]), mark.radius * place.factor, mark.role))  # fmt: skip
-            case ink.Arc():
+            case marks.Arc():
                 entities += _arc(mark, place)
-            case ink.Dots():
+            case marks.Dots():
                 entities.append(Circles(np.atleast_1d(place(mark.points)), DOT, mark.role, opaque=True))
-            case ink.Arrow():
+            case marks.Arrow():
                 entities += arrow(place.point(mark.start), place.point(mark.end), mark.role)
-            case ink.Label():
+            case marks.Label():
                 height = letters.small if mark.small else letters.label
                 writings.append(around(place.point(mark.at), str(mark.text), height, mark.towards))
-            case ink.Dimension():
+            case marks.Dimension():
                 drawn, text = _dimension(mark, place, letters.label)
                 entities += drawn
                 writings.append(text)
-            case ink.AngleMark():
+            case marks.AngleMark():
                 drawn, text = _angle(mark, place, letters.label)
                 entities += drawn
                 writings.append(text)
-            case ink.Region():
+            case marks.Region():
                 entities.append(hatch(place(mark.boundary)))
     return entities, writings
 
 
-def _line(mark: ink.Line, place: Placement) -> list[Entity]:
+def _line(mark: marks.Line, place: Placement) -> list[Entity]:
     points = place(mark.points)
     # A repeated point would make a piece of no length.
     following = np.roll(points, -1) if mark.closed else np.append(points[1:], np.inf)
@@ -118,7 +118,7 @@ def arrow(start: complex, end: complex, role: str) -> list[Entity]:
     return [Strokes(np.array([start]), np.array([tip]), role), head(end, end - start, role)]
 
 
-def _arc(mark: ink.Arc, place: Placement) -> list[Entity]:
+def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
     centre, radius = place.point(mark.centre), mark.radius * place.factor
     drawn: list[Entity] = [ArcEntity(centre, radius, mark.start, mark.end, mark.role)]
     if mark.arrow:
@@ -133,7 +133,7 @@ def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) ->
     return head(centre + cmath.rect(radius, at), sense * 1j * cmath.rect(1.0, at - sense * half), role)
 
 
-def _dimension(mark: ink.Dimension, place: Placement, height: float) -> tuple[list[Entity], Writing]:
+def _dimension(mark: marks.Dimension, place: Placement, height: float) -> tuple[list[Entity], Writing]:
     """Extension lines, the dimension line with its heads (from outside where there is no room), and its text."""
     start, end = place.point(mark.start), place.point(mark.end)
     direction = (end - start) / abs(end - start) if end != start else 1.0 + 0j
@@ -159,7 +159,7 @@ def _dimension(mark: ink.Dimension, place: Placement, height: float) -> tuple[li
     return drawn, replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))
 
 
-def _angle(mark: ink.AngleMark, place: Placement, height: float) -> tuple[list[Entity], Writing]:
+def _angle(mark: marks.AngleMark, place: Placement, height: float) -> tuple[list[Entity], Writing]:
     """An arc with heads at both ends (from outside where there is no room) and its text beyond the middle."""
     centre, radius = place.point(mark.centre), mark.radius * place.factor
     start, end = sorted((mark.start, mark.end))

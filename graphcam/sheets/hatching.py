@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from graphcam.drafting.ink import Points, Role
+from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.model import Entity, Strokes, Text
 from graphcam.sheets.sampling import corners, within
 

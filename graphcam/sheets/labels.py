@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points, Role
+from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.model import Entity, Strokes, Text
 from graphcam.sheets.sampling import corners, pieces, sampled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphcam.drafting.ink import Role
+from graphcam.drafting.marks import Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn
 from graphcam.sheets.hatching import interrupted

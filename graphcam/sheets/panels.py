@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from graphcam.drafting.ink import Mark, Points, Step, View
+from graphcam.drafting.ink import Step, View
+from graphcam.drafting.marks import Mark, Points
 from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.fonts import width, wrap
@@ -143,7 +144,8 @@ def clusters(views: Sequence[Panel]) -> list[list[Panel]]:
 def stand(group: Sequence[Panel], gap: float) -> list[complex]:
     """Origins of panels, the first at 0: what shares ``across`` one under the other, what shares ``up`` side by side.
 
-    >>> from graphcam.drafting.ink import Line, Role, say
+    >>> from graphcam.drafting.ink import say
+    >>> from graphcam.drafting.marks import Line, Role
     >>> import numpy as np
     >>> line = Line(np.array([0, 10 + 10j]), Role.CURVE)
     >>> upper, lower = (Panel(View(n, say(""), "phi", n), (line,), Lettering(5, 3.5, 2.5)) for n in ("v", "s"))

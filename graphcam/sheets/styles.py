@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from graphcam.drafting.ink import Role
+from graphcam.drafting.marks import Role
 
 BOLD, MEDIUM, THIN = 0.7, 0.35, 0.18
 """Widths of lines, mm: two steps of the standard series apart, so that a print keeps the hierarchy."""

@@ -14,7 +14,8 @@ from graphcam.constructions.axes import degrees, phase_symbol
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import force_plan, round_scale
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Arrow, Caption, Construction, Dots, Label, Line, Mark, Role, Segments, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Step, View, say
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.given.follower import Translating
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import SpringLoad

@@ -13,7 +13,8 @@ from three_arcs import EXAMPLE, given, sound_data
 
 import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
-from graphcam.drafting.ink import Arc, Caption, Dots
+from graphcam.drafting.ink import Caption
+from graphcam.drafting.marks import Arc, Dots
 from graphcam.drafting.scale import Scale
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.mechanism.arcs import three_arc_cam

@@ -16,7 +16,7 @@ from graphcam.constructions.arm_minimum_radius import arm_least_radius
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.region import nearest_of_many
 from graphcam.drafting.euclid import UP, dot, unit
-from graphcam.drafting.ink import Arrow, Line, Role
+from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import differentiation
-from graphcam.drafting.ink import Line, Segments
+from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError

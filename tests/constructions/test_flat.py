@@ -17,7 +17,7 @@ from graphcam.comparison.bounds import Bounds
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.drafting.euclid import UP, dot
-from graphcam.drafting.ink import AngleMark, Line, Role
+from graphcam.drafting.marks import AngleMark, Line, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense

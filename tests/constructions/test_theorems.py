@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.profile_view import closed_curve
-from graphcam.drafting.ink import Arrow, Line, Role
+from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from graphcam.drafting.ink import Caption, Construction, Line, Reading, Role, Step, View, reading, say
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
+from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.pencil import Pencil
 
 BOARD = View("board", say("Board"), across="x", up="y")

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
-from graphcam.drafting.ink import Segments
+from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.course.handouts import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet

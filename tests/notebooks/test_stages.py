@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import graphcam as gc
-from graphcam.drafting.ink import Role
+from graphcam.drafting.marks import Role
 from graphcam.notebooks.stages import boards, drawing, show_steps, stages
 from graphcam.sheets.model import Text
 

@@ -4,22 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.drafting.ink import (
-    AngleMark,
-    Arc,
-    Arrow,
-    Circle,
-    Dimension,
-    Dots,
-    Label,
-    Line,
-    Region,
-    Role,
-    Segments,
-    Step,
-    View,
-    say,
-)
+from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table

@@ -10,7 +10,8 @@ import pytest
 from ezdxf.document import Drawing as Document
 from scene import TITLE, drawing
 
-from graphcam.drafting.ink import AngleMark, Step, View, say
+from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.marks import AngleMark
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.layout import compose

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from graphcam.drafting.ink import Role
+from graphcam.drafting.marks import Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.labels import place
 from graphcam.sheets.model import ArcEntity, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text

@@ -10,7 +10,8 @@ import pytest
 from scene import TABLE, TITLE, drawing, steps
 
 import graphcam as gc
-from graphcam.drafting.ink import Line, Role, Step, View, say
+from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.marks import Line, Role
 from graphcam.report.sheet_contents import sheet
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room

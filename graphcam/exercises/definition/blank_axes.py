@@ -10,7 +10,8 @@ from graphcam.constructions.axes import phi_axes
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import VIEWS
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
-from graphcam.drafting.ink import Line, Role, Step, View
+from graphcam.drafting.ink import Step, View
+from graphcam.drafting.marks import Line, Role
 from graphcam.exercises.definition.exercise import Diagram, Exercise
 
 ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {

@@ -1,0 +1,129 @@
+"""Marks: what a line, a point or a text on the paper is, by its role.
+
+Points are complex numbers in mm of paper, in the frame of their view (x right, y up).  How thick a line is drawn, and
+where a label finds room, is the sheet's business.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.words import Words
+
+Points = NDArray[np.complexfloating[Any, Any]]
+
+
+class Role(StrEnum):
+    """What a line is for, from thin to bold."""
+
+    CONSTRUCTION = "construction"  # thin: rays, projections, bisectors
+    HATCH = "hatch"  # thin: shading of a region
+    DIMENSION = "dimension"  # thin: dimension lines, arrows, leaders
+    AXIS = "axis"  # thin, dash-dot: centre lines, the line of motion
+    HIDDEN = "hidden"  # thin, dashed: alternatives that are not taken
+    SCALE = "scale"  # thin: coordinate axes with their divisions
+    CURVE = "curve"  # medium: plotted and faired curves
+    LIMIT = "limit"  # medium, the accent: lines at a limit, and what binds
+    RESULT = "result"  # bold: what the construction was drawn for
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A line through points (n,), straight from one to the next; ``closed`` joins the last to the first."""
+
+    points: Points
+    role: Role
+    closed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Many separate segments from ``starts`` (n,) to ``ends`` (n,)."""
+
+    starts: Points
+    ends: Points
+    role: Role
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A whole circle."""
+
+    centre: complex
+    radius: float
+    role: Role
+
+
+@dataclass(frozen=True)
+class Arc:
+    """Part of a circle, counter-clockwise from direction ``start`` to ``end`` [rad]; ``arrow`` at 'start' or 'end'."""
+
+    centre: complex
+    radius: float
+    start: float
+    end: float
+    role: Role
+    arrow: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Dots:
+    """Plotted points (n,)."""
+
+    points: Points
+    role: Role = Role.CURVE
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """A vector with its head at ``end``."""
+
+    start: complex
+    end: complex
+    role: Role
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``."""
+
+    at: complex
+    text: Words
+    towards: complex = 1 + 1j
+    small: bool = False
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """The length from ``start`` to ``end``, its line moved to the left by ``aside`` mm."""
+
+    start: complex
+    end: complex
+    text: Words
+    aside: float = 0.0
+
+
+@dataclass(frozen=True)
+class AngleMark:
+    """An angle at ``centre`` between two directions [rad], drawn as an arc with arrows and its text."""
+
+    centre: complex
+    radius: float
+    start: float
+    end: float
+    text: Words
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A shaded region: a polygon (n,) to be hatched."""
+
+    boundary: Points
+
+
+Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region
