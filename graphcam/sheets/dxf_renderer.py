@@ -20,20 +20,7 @@ from ezdxf.enums import TextEntityAlignment
 from numpy.typing import NDArray
 
 from graphcam.drafting.ink import Points
-from graphcam.sheets.model import (
-    ArcEntity,
-    Circles,
-    Curve,
-    Drawing,
-    Entity,
-    Group,
-    Heads,
-    Page,
-    Stroke,
-    Strokes,
-    Text,
-    moved,
-)
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
 

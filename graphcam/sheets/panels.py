@@ -136,9 +136,14 @@ def clusters(views: Sequence[Panel]) -> list[list[Panel]]:
     """Panels that share an axis, directly or through others, together."""
     found: list[list[Panel]] = []
     for panel in views:
-        sharing = [c for c in found if any(panel.view.across == p.view.across or panel.view.up == p.view.up for p in c)]
+        sharing = [cluster for cluster in found if shares(panel, cluster)]
         found = [c for c in found if c not in sharing] + [[*(p for c in sharing for p in c), panel]]
     return found
+
+
+def shares(panel: Panel, others: Iterable[Panel]) -> bool:
+    """Whether a view shares an axis with one of the others."""
+    return any(panel.view.across == other.view.across or panel.view.up == other.view.up for other in others)
 
 
 def stand(group: Sequence[Panel], gap: float) -> list[complex]:

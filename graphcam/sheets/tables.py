@@ -77,13 +77,17 @@ def table_block(table: Table, height: float) -> Block:
     entities.append(Text(complex(0, high + 0.7 * height), title, height))
     answers: list[Entity] = []
     for j, (row, (upper, lower)) in enumerate(zip(grid, pairwise(levels), strict=True), -headed):
-        for k, lines in enumerate(row):
-            # The first of the lines, which stand in the middle of the row.
-            y = (upper + lower) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
-            x, align = ((ends[k] + ends[k + 1]) / 2, "center") if k else (MARGIN / 2 * height, "left")
-            texts = stacked(lines, complex(x, y), LEADING, height, align)
+        for k, (lines, (left, right)) in enumerate(zip(row, pairwise(ends), strict=True)):
+            texts = _cell(lines, Box(left, lower, right, upper), height)
             (answers if (j, k) in table.answers else entities).extend(texts)
     return Block(tuple(entities), tuple(answers), Box(0, 0, wide, high + 2.0 * height))
+
+
+def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
+    """Lines in the middle of a cell; in the first column they begin at the left."""
+    y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
+    x, align = ((box.left + box.right) / 2, "center") if box.left else (MARGIN / 2 * height, "left")
+    return stacked(lines, complex(x, y), LEADING, height, align)
 
 
 def _broken(row: Iterable[Words], height: float) -> list[list[str]]:
@@ -94,7 +98,7 @@ def _broken(row: Iterable[Words], height: float) -> list[list[str]]:
 
 
 def _header(cell: str, below: Iterable[list[str]], height: float) -> list[str]:
-    """A header's cell in lines no wider than what stands below it, or than is needed for two or three."""
+    """A header's cell in lines about as wide as what stands below it, but in no more than two or three."""
     widest = max((_widest(lines, height) for lines in below), default=0.0)
     return wrap(cell, height, max(widest, 0.6 * width(cell, height)))
 
