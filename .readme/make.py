@@ -9,8 +9,8 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import graphcam as gc
-from graphcam.bench.bench_folder import bench
-from graphcam.bench.measuring import QUICK
+from graphcam.bench.bench_files import bench
+from graphcam.bench.bench_report import QUICK
 from graphcam.report.output_folder import write
 
 HERE = Path(__file__).parent

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,9 +13,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from numpy.typing import ArrayLike
+from scipy.optimize import isotonic_regression
 
+from graphcam.bench.bench_report import Report
 from graphcam.bench.convergence import Series
-from graphcam.bench.measuring import Report
+from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 from graphcam.sheets.fonts import FAMILY
 
@@ -25,13 +28,15 @@ INK, GREY, FAINT, ACCENT = "#1f2328", "#7d858c", "#e7e9eb", "#b3331f"
 BLUES = ("#1d4e89", "#3d85c6", "#2a9d8f")
 COLOURS = ("#b3331f", "#1d4e89", "#2a9d8f", "#c77d0a", "#7b4b94", "#4d7c2f")
 EPS = float(np.finfo(float).eps)
-SETTINGS: dict[Any, Any] = {
-    "font.family": FAMILY, "font.size": 10.0, "axes.edgecolor": GREY, "axes.labelcolor": INK, "text.color": INK,
-    "xtick.color": GREY, "ytick.color": GREY, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "axes.linewidth": 0.8,
-    "axes.titlesize": 11.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "pdf.fonttype": 42,
-    "axes.spines.top": False, "axes.spines.right": False,
-}  # fmt: skip
+SETTINGS: dict[Any, Any] = (
+    dict.fromkeys(("text.color", "axes.labelcolor", "xtick.labelcolor", "ytick.labelcolor"), INK)
+    | dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), GREY)
+    | dict.fromkeys(("axes.spines.top", "axes.spines.right"), False)
+    | {"font.family": FAMILY, "font.size": 10.0, "pdf.fonttype": 42, "axes.linewidth": 0.8}
+    | {"axes.titlesize": 11.5, "axes.titleweight": "bold", "axes.titlelocation": "left"}
+)
 DPI = 160
+PLAIN = FuncFormatter("{:g}".format)
 
 
 def save(draw: Callable[[Report], Figure], report: Report, path: Path) -> None:
@@ -42,19 +47,27 @@ def save(draw: Callable[[Report], Figure], report: Report, path: Path) -> None:
         figure.savefig(path.with_suffix(".png"), dpi=DPI)
 
 
+def _note(axes: Axes, text: str, at: tuple[float, float], away: tuple[float, float], **look: Any) -> None:
+    """A text at a distance [points] from a place of the diagram."""
+    axes.annotate(text, at, xytext=away, textcoords="offset points", **look)
+
+
 # --- error against the number of parts -------------------------------------------------------------------------------
 
+TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
 SHOWN = (
-    "displacement", "velocity", "least prime radius", "pressure angle", "working profile", "least curvature radius",
-)  # fmt: skip
+    *("displacement", "velocity", "least prime radius", "pressure angle", "working profile"),
+    "least curvature radius",
+)
 OTHERS = (
     ("rectangular", "least curvature radius", "curvature at a jump"),
     ("rectangular", "working profile", "profile, rectangular"),
     ("cosine", "displacement", "displacement, cosine"),
 )
 """Series of the translating follower with other orders: law, quantity, what it is called in the figure."""
-
 GUIDE_ABOVE = 3.0
+"""Each guide to another order starts so many times above its curve as lets both be seen."""
+Labelled = list[tuple[Series, str]]
 
 
 def error_against_parts(report: Report) -> Figure:
@@ -62,17 +75,13 @@ def error_against_parts(report: Report) -> Figure:
     figure = Figure(figsize=(11.5, 8.4), layout="constrained")
     panels = figure.subplots(2, 2)
     law = "3-4-5" if any(s.law == "3-4-5" for s in report.series) else report.series[0].law
-    by = {(s.follower, s.law, s.quantity): s for s in report.series}
-    for axes, follower, title in zip(
-        panels.flat, ("translating", "arm", "flat"), ("Translating follower", "Arm", "Flat face"), strict=False
-    ):
-        flat = follower == "flat"
-        shown = [("pitch curve" if flat and name == "working profile" else name) for name in SHOWN]
-        found = [(by[follower, law, name], "profile" if flat and name == "pitch curve" else name)
-                 for name in shown if (follower, law, name) in by]  # fmt: skip
-        _panel_of_parts(axes, f"{title}, {law}", found, {2: 0.0})
-    others = [(by["translating", law, name], label) for law, name, label in OTHERS if ("translating", law, name) in by]
-    # Each guide starts as far above its curve as lets both be seen.
+    for axes, (follower, title) in zip(panels.flat, TITLES.items(), strict=False):
+        shown = [(law, name, name) for name in SHOWN]
+        if follower == "flat":
+            # Without a roller the pitch curve is the profile.
+            shown[SHOWN.index("working profile")] = law, "pitch curve", "profile"
+        _panel_of_parts(axes, f"{title}, {law}", _labelled(report, follower, shown), {2: 0.0})
+    others = _labelled(report, "translating", OTHERS)
     guides = {round(s.order): GUIDE_ABOVE * s.errors[0] for s, _ in others if s.order}
     _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, guides)
     for axes in panels[:, 0]:
@@ -82,29 +91,33 @@ def error_against_parts(report: Report) -> Figure:
     return figure
 
 
-def _panel_of_parts(axes: Axes, title: str, found: Sequence[tuple[Series, str]], guides: dict[int, float]) -> None:
+def _labelled(report: Report, follower: str, shown: Iterable[tuple[str, str, str]]) -> Labelled:
+    """What there is of some laws and quantities of a follower, each with what it is called."""
+    by = {(s.law, s.quantity): s for s in report.series if s.follower == follower}
+    return [(by[law, name], label) for law, name, label in shown if (law, name) in by]
+
+
+def _panel_of_parts(axes: Axes, title: str, found: Labelled, guides: Mapping[int, float]) -> None:
     """``guides`` are the lines' orders with their errors at the least n, 0 for above all curves."""
     axes.set_title(title)
     axes.set(xscale="log", yscale="log")
-    parts = found[0][0].parts if found else (6, 96)
-    for (series, _), colour in zip(found, COLOURS, strict=False):
-        axes.plot(series.parts, np.maximum(series.errors, EPS / 4), "o-", color=colour, lw=1.6, ms=3.6)
     if not found:
         return
-    greatest = max(max(series.errors) for series, _ in found)
-    least = min(min(series.errors) for series, _ in found)
-    if least < EPS * 100:
-        _floor(axes, parts[0])
-    top = 2.5 * greatest
+    parts, errors = found[0][0].parts, [error for series, _ in found for error in series.errors]
+    for (series, _), colour in zip(found, COLOURS, strict=False):
+        axes.plot(series.parts, np.maximum(series.errors, EPS / 4), "o-", color=colour, lw=1.6, ms=3.6)
+    rounded, top = min(errors) < EPS * 100, 2.5 * max(errors)
+    if rounded:
+        axes.axhspan(EPS / 1e6, EPS, color=FAINT, lw=0, zorder=0)
+        axes.text(parts[0], EPS / 1.6, "ε = 2.2·10⁻¹⁶", color=GREY, va="top", fontsize=9)
     # Room below for the labels of curves that end close together.
-    axes.set_ylim(EPS / 30 if least < EPS * 100 else least / 12, 3 * top)
+    axes.set_ylim(EPS / 30 if rounded else min(errors) / 12, 3 * top)
     for order, start in guides.items():
         _guide(axes, parts, order, start or top)
     axes.set_xlim(parts[0] / 1.12, parts[-1] * 6.8)
     _ticks_of_parts(axes, parts)
     at = [max(series.errors[-1], EPS / 4) for series, _ in found]
-    labels = [f"{label}, {_order_text(series)}" for series, label in found]
-    _labels_at_the_end(axes, parts[-1], at, labels)
+    _labels_at_the_end(axes, parts[-1], at, [f"{label}, {_order_text(series)}" for series, label in found])
 
 
 def _guide(axes: Axes, parts: Sequence[int], order: int, start: float) -> None:
@@ -121,18 +134,10 @@ def _order_text(series: Series) -> str:
 
 def _ticks_of_parts(axes: Axes, parts: Sequence[int]) -> None:
     axes.xaxis.set_major_locator(FixedLocator([n for n in (3, 6, 12, 24, 48, 96) if parts[0] <= n <= parts[-1]]))
-    axes.xaxis.set_major_formatter(FuncFormatter(_plain))
+    axes.xaxis.set_major_formatter(PLAIN)
     axes.xaxis.set_minor_locator(NullLocator())
     axes.grid(axis="y", color=FAINT, lw=0.7)
     axes.set_axisbelow(True)
-
-
-def _plain(value: float, _: int | None = None) -> str:
-    return f"{value:g}"
-
-
-def _percent(value: float, _: int | None = None) -> str:
-    return f"{value:g} %"
 
 
 def _labels_at_the_end(
@@ -155,22 +160,10 @@ def spread(places: Floats, gap: float) -> Floats:
     """
     order = np.argsort(places, kind="stable")
     steps = gap * np.arange(places.size)
-    # What is left after equal steps must not fall: pool neighbours that do (isotonic regression).
-    pools: list[list[float]] = []
-    for place in (places[order] - steps).tolist():
-        pools.append([place])
-        while len(pools) > 1 and np.mean(pools[-2]) > np.mean(pools[-1]):
-            last = pools.pop()
-            pools[-1] += last
-    level = np.concatenate([np.full(len(pool), np.mean(pool)) for pool in pools])
     out = np.empty_like(places)
-    out[order] = level + steps
+    # What is left after equal steps must not fall.
+    out[order] = isotonic_regression(places[order] - steps).x + steps
     return out
-
-
-def _floor(axes: Axes, x: float) -> None:
-    axes.axhspan(EPS / 1e6, EPS, color=FAINT, lw=0, zorder=0)
-    axes.text(x, EPS / 1.6, "ε = 2.2·10⁻¹⁶", color=GREY, va="top", fontsize=9)
 
 
 # --- error against time ----------------------------------------------------------------------------------------------
@@ -201,9 +194,13 @@ SPOTS = {
     ("profile", "graphical"): Spot(1.0, (8, 10)),
     ("profile", "shapely buffer"): Spot(0.5, (-9, -4), "right"),
 }
-NAMES = {"cumulative_trapezoid": "cumulative\ntrapezoid", "cumulative_simpson": "cumulative\nSimpson",
-         "CubicSpline": "cubic spline", "HalfspaceIntersection": "half-space\nintersection", "SLSQP": "SLSQP",
-         "shapely buffer": "polygon\nbuffer"}  # fmt: skip
+NAMES = {
+    "cumulative_trapezoid": "cumulative\ntrapezoid",
+    "cumulative_simpson": "cumulative\nSimpson",
+    "CubicSpline": "cubic spline",
+    "HalfspaceIntersection": "half-space\nintersection",
+    "shapely buffer": "polygon\nbuffer",
+}
 ORDERS = {"graphical": 2, "cumulative_simpson": 4}
 """Of the methods that an order line goes with."""
 LOWEST, HIGHEST = 2e-17, 0.6
@@ -240,7 +237,7 @@ def _here(axes: Axes, pair: float) -> None:
 
     top = axes.secondary_xaxis("top", functions=(milliseconds, pairs))
     top.set_xlabel("ms on this machine", color=GREY, fontsize=9)
-    top.xaxis.set_major_formatter(FuncFormatter(_plain))
+    top.xaxis.set_major_formatter(PLAIN)
     top.tick_params(labelsize=9, labelcolor=GREY)
     top.spines["top"].set_color(FAINT)
 
@@ -255,23 +252,26 @@ def _panel_of_time(axes: Axes, report: Report, question: str) -> None:
     blues = iter(BLUES)
     for method in (m for m in report.methods if m.question == question):
         t, error = np.array(method.pairs), np.maximum(method.errors, EPS / 2)
-        if method.kind == "exact":
+        if method.kind == "sampled":
+            _curve(axes, method, t, error, color=next(blues), lw=1.5, ms=3.4)
+        elif method.kind == "graphical":
+            _curve(axes, method, t, error, color=ACCENT, lw=2.2, ms=4.6)
+            for k in (method.n.index(n) for n in (12, 96) if n in method.n):
+                _note(axes, f"n = {method.n[k]}", (t[k], error[k]), (7, 1), color=ACCENT, fontsize=8.5, va="center")
+        else:
             axes.plot(t, error, "D", color=INK, ms=8, zorder=5)
-            axes.annotate("exact", (t[0], error[0]), xytext=(0, 10), textcoords="offset points", weight="bold",
-                          ha="center", va="bottom")  # fmt: skip
-            continue
-        graphical = method.kind == "graphical"
-        colour = ACCENT if graphical else next(blues)
-        axes.plot(t, error, "o-", color=colour, lw=2.2 if graphical else 1.5, ms=4.6 if graphical else 3.4, zorder=4)
-        if method.name in ORDERS:
-            _order_line(axes, t, error, ORDERS[method.name])
-        _label(axes, question, method.name, t, error, colour)
-        if graphical:
-            for n in (12, 96):
-                if n in method.n:
-                    k = method.n.index(n)
-                    axes.annotate(f"n = {n}", (t[k], error[k]), xytext=(7, 1), textcoords="offset points", color=colour,
-                                  fontsize=8.5, va="center")  # fmt: skip
+            _note(axes, "exact", (t[0], error[0]), (0, 10), weight="bold", ha="center", va="bottom")
+
+
+def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) -> None:
+    """A method's points, joined, and its name."""
+    axes.plot(t, error, "o-", zorder=4, **look)
+    if method.name in ORDERS:
+        _order_line(axes, t, error, ORDERS[method.name])
+    spot = SPOTS.get((method.question, method.name), Spot(1.0, (8, 6)))
+    at, weight = round(spot.at * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"
+    look = {"color": look["color"], "ha": spot.align, "va": "center", "weight": weight, "linespacing": 0.95}
+    _note(axes, NAMES.get(method.name, method.name), (t[at], error[at]), spot.away, fontsize=10, **look)
 
 
 def _order_line(axes: Axes, t: Floats, error: Floats, order: int) -> None:
@@ -283,16 +283,7 @@ def _order_line(axes: Axes, t: Floats, error: Floats, order: int) -> None:
     ends = np.array([t[k], min(t[k] * 4.0, axes.get_xlim()[1] / 2.6)])
     line = error[k] * (ends / t[k]) ** -order
     axes.plot(ends, line, color=GREY, lw=1.0, ls=(0, (5, 3)), zorder=2)
-    middle = float(np.sqrt(ends[0] * ends[1])), float(np.sqrt(line[0] * line[1]))
-    axes.annotate(f"order {order}", middle, xytext=(5, 5), textcoords="offset points", color=GREY, fontsize=9)
-
-
-def _label(axes: Axes, question: str, name: str, t: Floats, error: Floats, colour: str) -> None:
-    spot = SPOTS.get((question, name), Spot(1.0, (8, 6)))
-    k = round(spot.at * (t.size - 1))
-    axes.annotate(NAMES.get(name, name), (t[k], error[k]), xytext=spot.away, textcoords="offset points", color=colour,
-                  ha=spot.align, va="center", fontsize=10, weight="bold" if name == "graphical" else "normal",
-                  linespacing=0.95)  # fmt: skip
+    _note(axes, f"order {order}", (math.sqrt(ends.prod()), math.sqrt(line.prod())), (5, 5), color=GREY, fontsize=9)
 
 
 # --- error of the hand -----------------------------------------------------------------------------------------------
@@ -308,8 +299,8 @@ def error_of_the_hand(report: Report) -> Figure:
     for k, (hands, colour) in enumerate(zip(report.hands, COLOURS, strict=False)):
         mean, method = 100 * np.array(hands.mean), 100 * np.array(hands.method)
         if k == 0:
-            axes.fill_between(hands.parts, 100 * np.array(hands.low), 100 * np.array(hands.high), color=colour,
-                              alpha=0.12, lw=0)  # fmt: skip
+            low, high = 100 * np.array(hands.low), 100 * np.array(hands.high)
+            axes.fill_between(hands.parts, low, high, color=colour, alpha=0.12, lw=0)
         axes.plot(hands.parts, mean, "-", color=colour, lw=2.0)
         if method.max() > drawn_exactly:
             axes.plot(hands.parts, method, color=colour, lw=1.1, ls=(0, (4, 3)))
@@ -322,7 +313,7 @@ def error_of_the_hand(report: Report) -> Figure:
     _ticks_of_parts(axes, parts)
     axes.yaxis.set_major_locator(FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]))
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(_percent))
+    axes.yaxis.set_major_formatter(FuncFormatter("{:g} %".format))
     axes.set_xlabel("parts a phase")
     axes.set_ylabel("greatest error of the displacement, of the lift")
     axes.set_title("Drawn by a hand with σ = 0.2 mm: the best number of parts")
@@ -335,11 +326,12 @@ def _notes_by_hand(axes: Axes, report: Report) -> None:
     """What band, dashes and dots are, said at the first law."""
     hands, colour = report.hands[0], COLOURS[0]
     k = len(hands.parts) * 3 // 4
-    axes.text(hands.parts[k], 112 * hands.high[k], f"nine hands in ten, {hands.law}", color=colour, ha="right",
-              va="bottom", fontsize=9)  # fmt: skip
+    band = f"nine hands in ten, {hands.law}"
+    axes.text(hands.parts[k], 112 * hands.high[k], band, color=colour, ha="right", va="bottom", fontsize=9)
     below = [(n, 100 * error) for n, error in zip(hands.parts, hands.method, strict=True) if error < hands.floor / 3]
     if below:
-        axes.annotate("without the hand:\norder 2", below[0], xytext=(-16, -14), textcoords="offset points",
-                      color=colour, ha="right", va="center", fontsize=9)  # fmt: skip
-    axes.annotate(f"{hands.best} parts:\n{100 * hands.floor:.2f} %", (hands.best, 100 * hands.floor), xytext=(0, 14),
-                  textcoords="offset points", color=colour, ha="center", va="bottom", weight="bold")  # fmt: skip
+        without = "without the hand:\norder 2"
+        _note(axes, without, below[0], (-16, -14), color=colour, ha="right", va="center", fontsize=9)
+    best, floor = hands.best, 100 * hands.floor
+    look = {"color": colour, "ha": "center", "va": "bottom", "weight": "bold"}
+    _note(axes, f"{best} parts:\n{floor:.2f} %", (best, floor), (0, 14), **look)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphcam.bench.bench_report import Report
 from graphcam.bench.hand_errors import SIGMA
-from graphcam.bench.measuring import Report
 
 NONE = "–"
 Cell = str | int | float | None

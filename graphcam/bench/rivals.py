@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
 import numpy as np
+from scipy.integrate import cumulative_simpson, cumulative_trapezoid
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize
+from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
 
 Lines = tuple[Floats, Floats]
 """Normals (m, 2) and heights (m,) of half-planes: what keeps normals @ x >= heights is permitted."""
-TIGHT = 1e-15
-"""The tolerance that the optimiser is asked for."""
+Integrator = Callable[[Floats, Floats], Floats]
+"""s of the angles and the accelerations."""
+Solver = Callable[[Lines, tuple[float, float]], float]
+"""The least distance of half-planes, from a start inside them."""
+SLSQP = {"ftol": 1e-15, "maxiter": 200}
+"""What the optimiser is asked for."""
 
 
 def optional(name: str) -> Any | None:
@@ -42,31 +50,27 @@ def samples(motion: Motion, n: int) -> list[tuple[Floats, Floats]]:
 
 def trapezoid(phi: Floats, a: Floats) -> Floats:
     """Twice scipy's cumulative_trapezoid: s less its value at the start."""
-    from scipy.integrate import cumulative_trapezoid
-
     return cumulative_trapezoid(cumulative_trapezoid(a, phi, initial=0), phi, initial=0)
 
 
 def simpson(phi: Floats, a: Floats) -> Floats:
     """Twice scipy's cumulative_simpson."""
-    from scipy.integrate import cumulative_simpson
-
     return cumulative_simpson(cumulative_simpson(a, x=phi, initial=0), x=phi, initial=0)
 
 
 def spline(phi: Floats, a: Floats) -> Floats:
     """The second antiderivative of scipy's CubicSpline."""
-    from scipy.interpolate import CubicSpline
-
     return CubicSpline(phi, a).antiderivative(2)(phi)
 
 
-INTEGRATORS: Mapping[str, Callable[[Floats, Floats], Floats]] = {
-    "cumulative_trapezoid": trapezoid, "cumulative_simpson": simpson, "CubicSpline": spline,
-}  # fmt: skip
+INTEGRATORS: dict[str, Integrator] = {
+    "cumulative_trapezoid": trapezoid,
+    "cumulative_simpson": simpson,
+    "CubicSpline": spline,
+}
 
 
-def integrated_error(motion: Motion, n: int, method: Callable[[Floats, Floats], Floats]) -> float:
+def integrated_error(motion: Motion, n: int, method: Integrator) -> float:
     """The greatest error of s over all phases, relative to the lift."""
     errors: list[float] = []
     for k, (phi, a) in zip((0, 2), samples(motion, n), strict=True):
@@ -81,7 +85,7 @@ def integrated_error(motion: Motion, n: int, method: Callable[[Floats, Floats], 
 def translating_lines(motion: Motion, limit: float, n: int) -> Lines:
     """The half-planes for (e', s0) of n stations in each of rise and return, and of the rest."""
     u, slope = np.linspace(0, 1, n), math.tan(limit)
-    (s, v, _, _), (s_back, v_back, _, _) = motion.at(0, u), motion.at(2, u)
+    (s, v, *_), (s_back, v_back, *_) = motion.at(0, u), motion.at(2, u)
     sides = np.repeat([1.0, -1.0, -1.0], [n, n, 1])
     heights = np.concatenate([v - slope * s, np.abs(v_back) - slope * s_back, [0.0]])
     return np.stack([sides, np.full(sides.size, slope)], axis=1), heights
@@ -102,33 +106,25 @@ def arm_lines(motion: Motion, limit: float, arm: float, n: int) -> Lines:
 
 def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
     """The distance from the origin to the permitted region, by scipy's SLSQP with exact derivatives."""
-    from scipy.optimize import minimize
-
     normals, heights = lines
     size = math.hypot(*start)
-
-    def square(x: Floats) -> float:
-        """Of the distance from the origin."""
-        return float(x @ x)
-
-    def slope(x: Floats) -> Floats:
-        """The derivative of that square."""
-        return 2 * x
 
     def room(x: Floats) -> Floats:
         """How far inside every line."""
         return normals @ x - heights / size
 
-    def room_slope(_: Floats) -> Floats:
-        """The derivative of that room."""
+    def slope(_: Floats) -> Floats:
+        """The derivative of that."""
         return normals
 
-    kept = {"type": "ineq", "fun": room, "jac": room_slope}
-    found = minimize(
-        square, np.array(start) / size, jac=slope, method="SLSQP", constraints=[kept],
-        options={"ftol": TIGHT, "maxiter": 200},
-    )  # fmt: skip
+    kept = {"type": "ineq", "fun": room, "jac": slope}
+    found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
     return size * float(np.hypot(*found.x))
+
+
+def _square(x: Floats) -> tuple[float, Floats]:
+    """Of the distance from the origin, and its derivative."""
+    return float(x @ x), 2 * x
 
 
 def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float, float]) -> float:
@@ -137,8 +133,6 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float,
     The angles at n stations of rise and return and at the rest keep the limit; SLSQP takes its derivatives by
     differences.
     """
-    from scipy.optimize import minimize
-
     u = np.linspace(0, 1, n)
     s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
 
@@ -153,17 +147,13 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float,
         """The prime radius, in units of the start's."""
         return float(np.hypot(x[0], x[1]))
 
-    found = minimize(
-        radius, np.array(start) / size, method="SLSQP", constraints=[{"type": "ineq", "fun": room}],
-        options={"ftol": TIGHT, "maxiter": 200},
-    )  # fmt: skip
+    kept = {"type": "ineq", "fun": room}
+    found = minimize(radius, np.array(start) / size, method="SLSQP", constraints=[kept], options=SLSQP)
     return size * radius(found.x)
 
 
 def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
     """The same by scipy's HalfspaceIntersection, boxed in, from a point inside the region."""
-    from scipy.spatial import ConvexHull, HalfspaceIntersection
-
     normals, heights = lines
     box = 4 * math.hypot(*inside)
     walls = np.array([[1.0, 0, -box], [-1, 0, -box], [0, 1, -box], [0, -1, -box]])

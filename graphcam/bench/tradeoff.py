@@ -2,31 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
-from graphcam.bench import reference
-from graphcam.bench.convergence import (
-    as_complex,
-    displacement_error,
-    distance_from_profile,
-    least_radius_error,
-    nearest_angles,
-    profile_error,
-)
-from graphcam.bench.rivals import (
-    INTEGRATORS,
-    buffered,
-    by_half_planes,
-    by_optimiser,
-    integrated_error,
-    optional,
-    samples,
-    translating_lines,
-)
+from graphcam.bench import convergence, reference, rivals
 from graphcam.bench.scenes import LIFT, LIMIT, TestScene, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.given.laws import Floats
@@ -42,6 +25,8 @@ ROUNDS = 2
 CHECKED = 24
 """Places at which the exact side is held against 50 digits."""
 Kind = Literal["graphical", "sampled", "exact"]
+Parts = tuple[int, ...]
+"""Numbers of parts a phase, or of stations."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +39,7 @@ class Method:
     question: str
     name: str
     kind: Kind
-    n: tuple[int, ...]
+    n: Parts
     pairs: tuple[float, ...]
     errors: tuple[float, ...]
 
@@ -63,65 +48,104 @@ class Method:
 class TimedSizes:
     """The numbers of parts or stations up to which the methods are taken."""
 
-    graphical: tuple[int, ...]
-    profile: tuple[int, ...]
-    integrators: tuple[int, ...]
-    half_planes: tuple[int, ...]
-    optimiser: tuple[int, ...]
-    buffer: tuple[int, ...]
+    graphical: Parts
+    profile: Parts
+    integrators: Parts
+    half_planes: Parts
+    optimiser: Parts
+    buffer: Parts
+
+
+@dataclass(frozen=True)
+class Way:
+    """A method before it is timed: its work in n parts or stations, and the error of what comes out."""
+
+    question: str
+    name: str
+    kind: Kind
+    counts: Parts
+    work: Callable[[int], object]
+    error: Callable[[int], float]
 
 
 def tradeoff(sizes: TimedSizes, timer: Timer, pair: float) -> list[Method]:
     """All methods of all questions; ``pair`` is the time of one sine and one cosine [s]."""
     fixed, free = scene("translating", LAW), free_scene(LAW)
+    ways = [*_displacement(fixed, sizes), *_least_radius(free, sizes), *_profile(fixed, sizes), *_exact(fixed, free)]
+    return [_timed(way, timer, pair) for way in ways]
 
-    def points(
-        question: str, name: str, kind: Kind, counts: Sequence[int], work: Callable[[int], object],
-        error: Callable[[int], float],
-    ) -> Method:  # fmt: skip
-        # In rounds, so that a disturbance of the machine spoils no point in all of them.
-        rounds = [[timer.seconds(lambda n=n: work(n)) / pair for n in counts] for _ in range(ROUNDS)]
-        times = tuple(np.min(rounds, axis=0).tolist())
-        return Method(question, name, kind, tuple(counts), times, tuple(error(n) for n in counts))
 
-    motion = fixed.board.motion
-    found = [
-        points("displacement", "graphical", "graphical", sizes.graphical,
-               lambda n: fixed.chain(n)["integration"], lambda n: displacement_error(fixed, fixed.chain(n))),
-        *(
-            points("displacement", name, "sampled", sizes.integrators,
-                   lambda n, f=method: [f(phi, a) for phi, a in samples(motion, n)],
-                   lambda n, f=method: integrated_error(motion, n, f))
-            for name, method in INTEGRATORS.items()
-        ),
-        points("least radius", "graphical", "graphical", sizes.graphical,
-               lambda n: free.chain(n)["minimum_radius"], lambda n: least_radius_error(free, free.chain(n))),
-        points("least radius", "HalfspaceIntersection", "sampled", sizes.half_planes,
-               lambda n: by_half_planes(translating_lines(motion, LIMIT, n), INSIDE),
-               lambda n: _half_planes_off(free, n)),
-        points("least radius", "SLSQP", "sampled", sizes.optimiser,
-               lambda n: by_optimiser(translating_lines(motion, LIMIT, n), INSIDE),
-               lambda n: _optimiser_off(free, n)),
-        points("profile", "graphical", "graphical", sizes.profile,
-               lambda n: fixed.chain(n)["working_profile"], lambda n: profile_error(fixed, fixed.chain(n))),
-    ]  # fmt: skip
-    if optional("shapely"):
-        found.append(
-            points("profile", "shapely buffer", "sampled", sizes.buffer,
-                   lambda n: buffered(fixed.cam.pitch_curve(turn(n)), fixed.sizes.roller_radius),
-                   lambda n: _buffer_off(fixed, n))
-        )  # fmt: skip
-    phi, cam = turn(STATIONS), fixed.cam
-    exact: list[tuple[str, Callable[[], object], float | None]] = [
-        ("displacement", lambda: motion(phi), exact_displacement_error(fixed)),
-        ("least radius", free.least, exact_least_radius_error(free)),
-        ("profile", lambda: cam.profile(phi), exact_profile_error(fixed)),
+def _timed(way: Way, timer: Timer, pair: float) -> Method:
+    # In rounds, so that a disturbance of the machine spoils no point in all of them.
+    rounds = [[timer.seconds(partial(way.work, n)) / pair for n in way.counts] for _ in range(ROUNDS)]
+    times, errors = np.min(rounds, axis=0).tolist(), map(way.error, way.counts)
+    return Method(way.question, way.name, way.kind, way.counts, tuple(times), tuple(errors))
+
+
+def _drawn(question: str, counts: Parts, where: TestScene, construction: str, error: convergence.Measure) -> Way:
+    """By a construction, drawn anew with all that it starts from."""
+
+    def work(n: int) -> object:
+        return where.chain(n)[construction]
+
+    return Way(question, "graphical", "graphical", counts, work, lambda n: error(where, where.chain(n)))
+
+
+def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Way]:
+    motion = where.board.motion
+    yield _drawn("displacement", sizes.graphical, where, "integration", convergence.displacement_error)
+    for name, method in rivals.INTEGRATORS.items():
+
+        def work(n: int, method: rivals.Integrator = method) -> object:
+            return [method(phi, a) for phi, a in rivals.samples(motion, n)]
+
+        error = partial(rivals.integrated_error, motion, method=method)
+        yield Way("displacement", name, "sampled", sizes.integrators, work, error)
+
+
+def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Way]:
+    motion, exact = where.board.motion, where.least().prime_radius
+    yield _drawn("least radius", sizes.graphical, where, "minimum_radius", convergence.least_radius_error)
+    solvers = (
+        ("HalfspaceIntersection", rivals.by_half_planes, sizes.half_planes),
+        ("SLSQP", rivals.by_optimiser, sizes.optimiser),
+    )
+    for name, solve, counts in solvers:
+
+        def work(n: int, solve: rivals.Solver = solve) -> float:
+            return solve(rivals.translating_lines(motion, LIMIT, n), INSIDE)
+
+        yield Way("least radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1))
+
+
+def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Way]:
+    cam = where.cam
+    yield _drawn("profile", sizes.profile, where, "working_profile", convergence.profile_error)
+
+    def work(n: int) -> Floats:
+        return rivals.buffered(cam.pitch_curve(turn(n)), where.sizes.roller_radius)
+
+    def error(n: int) -> float:
+        corners = convergence.as_complex(work(n))
+        some = corners[:: max(1, corners.size // 2000)]
+        off = convergence.distance_from_profile(cam, some, convergence.nearest_angles(cam, some))
+        return float(off.max()) / where.sizes.prime_radius
+
+    if rivals.optional("shapely"):
+        yield Way("profile", "shapely buffer", "sampled", sizes.buffer, work, error)
+
+
+def _exact(fixed: TestScene, free: TestScene) -> Iterator[Way]:
+    motion, cam = fixed.board.motion, fixed.cam
+    exact: list[tuple[str, Callable[[int], object], float | None]] = [
+        ("displacement", lambda n: motion(turn(n)), exact_displacement_error(fixed)),
+        ("least radius", lambda _: free.least(), exact_least_radius_error(free)),
+        ("profile", lambda n: cam.profile(turn(n)), exact_profile_error(fixed)),
     ]
     for question, work, error in exact:
         # Without a reference of more digits the exact side's own rounding cannot be seen: one eps stands for it.
         shown = reference.EPS if error is None else error
-        found.append(Method(question, "exact", "exact", (STATIONS,), (timer.seconds(work) / pair,), (shown,)))
-    return found
+        yield Way(question, "exact", "exact", (STATIONS,), work, lambda _, shown=shown: shown)
 
 
 def turn(n: int) -> Floats:
@@ -154,19 +178,3 @@ def exact_profile_error(where: TestScene) -> float | None:
 def inner_places() -> Floats:
     """Places inside a phase, the same in every run."""
     return np.random.default_rng(0).uniform(0.01, 0.99, CHECKED)
-
-
-def _half_planes_off(where: TestScene, n: int) -> float:
-    return abs(by_half_planes(translating_lines(where.board.motion, LIMIT, n), INSIDE) / where.least().prime_radius - 1)
-
-
-def _optimiser_off(where: TestScene, n: int) -> float:
-    return abs(by_optimiser(translating_lines(where.board.motion, LIMIT, n), INSIDE) / where.least().prime_radius - 1)
-
-
-def _buffer_off(where: TestScene, n: int) -> float:
-    corners = as_complex(buffered(where.cam.pitch_curve(turn(n)), where.sizes.roller_radius))
-    some = corners[:: max(1, corners.size // 2000)]
-    return (
-        float(distance_from_profile(where.cam, some, nearest_angles(where.cam, some)).max()) / where.sizes.prime_radius
-    )

@@ -4,7 +4,6 @@ Knows marks and paper, no cams.  In order of use:
 
 - :func:`graphcam.sheets.layout.compose` makes a :class:`~graphcam.sheets.model.Drawing` of steps and tables; how large
   a profile may be is told beforehand by :func:`graphcam.sheets.layout.profile_room`;
-- :func:`graphcam.sheets.overlaps.overlaps` finds texts that are in the way;
 - :mod:`graphcam.sheets.matplotlib_renderer` writes PDF, SVG and PNG, :mod:`graphcam.sheets.dxf_renderer` DXF.
 
 The renderers load matplotlib and ezdxf, so they are imported where something is rendered, not before.

@@ -34,6 +34,12 @@ class Box:
         """The lower left corner."""
         return complex(self.left, self.bottom)
 
+    @property
+    def corners(self) -> tuple[complex, complex, complex, complex]:
+        """The four corners, counter-clockwise from the lower left one."""
+        right, top = self.right, self.top
+        return self.corner, complex(right, self.bottom), complex(right, top), complex(self.left, top)
+
     def moved(self, by: complex) -> Box:
         """The box moved ``by`` x + iy."""
         return Box(self.left + by.real, self.bottom + by.imag, self.right + by.real, self.top + by.imag)
@@ -48,13 +54,13 @@ class Box:
         >>> Box(0, 0, 2, 2).meets(Box(1, 1, 3, 3)), Box(0, 0, 2, 2).meets(Box(2, 0, 3, 2))
         (True, False)
         """
-        return (self.left < other.right and other.left < self.right
-                and self.bottom < other.top and other.bottom < self.top)  # fmt: skip
+        across = self.left < other.right and other.left < self.right
+        return across and self.bottom < other.top and other.bottom < self.top
 
     def holds(self, other: Box) -> bool:
         """Whether the other lies inside, edges included."""
-        return (self.left <= other.left and other.right <= self.right
-                and self.bottom <= other.bottom and other.top <= self.top)  # fmt: skip
+        across = self.left <= other.left and other.right <= self.right
+        return across and self.bottom <= other.bottom and other.top <= self.top
 
 
 def around_all(boxes: Iterable[Box]) -> Box:
@@ -63,6 +69,5 @@ def around_all(boxes: Iterable[Box]) -> Box:
     >>> around_all([Box(0, 0, 1, 1), Box(5, -2, 6, 0)])
     Box(left=0, bottom=-2, right=6, top=1)
     """
-    boxes = list(boxes)
-    return Box(min(b.left for b in boxes), min(b.bottom for b in boxes),
-               max(b.right for b in boxes), max(b.top for b in boxes))  # fmt: skip
+    lefts, bottoms, rights, tops = zip(*((box.left, box.bottom, box.right, box.top) for box in boxes), strict=True)
+    return Box(min(lefts), min(bottoms), max(rights), max(tops))

@@ -10,23 +10,16 @@ from __future__ import annotations
 import cmath
 import math
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from graphcam.sheets.dxf_renderer import (
-    ALIGNED,
-    BETWEEN_PAGES,
-    LETTERS,
-    draw,
-    draw_pages,
-    layer,
-    repeatable,
-    sheet_document,
-)
+from graphcam.sheets import dxf_renderer as dxf
+from graphcam.sheets.dxf_renderer import LETTERS, draw, layer, set_text, xy
 from graphcam.sheets.expand import GAP, OVERRUN
 from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
+    from ezdxf.layouts import Modelspace
 
 STYLE = "GRAPHCAM"
 """The name of the style of dimensions."""
@@ -36,27 +29,21 @@ HEAD = 3.5
 
 def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     """All pages of a drawing, side by side in the model space, each with a layout in paper space that shows it 1:1."""
-    with repeatable():
-        document = sheet_document(drawing)
+    with dxf.repeatable():
+        document = dxf.sheet_document(drawing)
         _add_style(document)
-        draw_pages(document, drawing, _draw_group)
+        dxf.draw_pages(document, drawing, _draw_group)
         _add_layouts(document, drawing)
         document.saveas(path)
 
 
 def _add_style(document: Document) -> None:
-    document.dimstyles.add(
-        STYLE,
-        dxfattribs={
-            "dimtxsty": LETTERS, "dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimtad": 1,
-            "dimscale": 1.0, "dimlfac": 1.0,
-        },
-    )  # fmt: skip
+    lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
+    document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
 
 
 def _add_layouts(document: Document, drawing: Drawing) -> None:
-    left = 0.0
-    for number, page in enumerate(drawing.pages, 1):
+    for number, (left, page) in enumerate(dxf.side_by_side(drawing), 1):
         name = f"Sheet {number}"
         if number == 1:
             document.layouts.rename("Layout1", name)
@@ -64,23 +51,24 @@ def _add_layouts(document: Document, drawing: Drawing) -> None:
         size, middle = (page.width, page.height), (page.width / 2, page.height / 2)
         layout.page_setup(size=size, margins=(0, 0, 0, 0), units="mm")
         layout.add_viewport(middle, size, (left + middle[0], middle[1]), page.height)
-        left += page.width + BETWEEN_PAGES
 
 
 def _draw_group(document: Document, group: Group, prefix: str, left: float) -> None:
     if group.name == "frame":
         _draw_frame(document, group, prefix, left)
         return
-    lines = {line for e in group.entities if isinstance(e, Text) and e.of and _measurable(e.of) for line in e.of.lines}
+    space = document.modelspace()
+    texts = [e for e in group.entities if isinstance(e, Text)]
+    lines = {line for text in texts if text.of and _measurable(text.of) for line in text.of.lines}
     for entity in group.entities:
         on = layer(document, group, prefix, entity.role)
         match entity:
             case Text(of=Length() as measured):
-                _add_length(document, entity, measured, on, left)
+                _add_length(space, entity, measured, on, left)
             case Text(of=Angle() as measured) if _measurable(measured):
-                _add_angle(document, entity, measured, on, left)
+                _add_angle(space, entity, measured, on, left)
             case _ if entity not in lines:
-                draw(document.modelspace(), entity, on, left)
+                draw(space, entity, on, left)
             case _:
                 pass
 
@@ -101,41 +89,30 @@ def _draw_frame(document: Document, group: Group, prefix: str, left: float) -> N
             # An entry that is broken into lines, or stands in two places, has an attribute for each.
             tag += f"_{1 + sum(other.startswith(tag) for other in entries)}" * (tag in entries)
             entries[tag] = entity.text
-            attribute = block.add_attdef(tag, text=entity.text, height=entity.height,
-                                         rotation=math.degrees(entity.angle),
-                                         dxfattribs={"layer": on, "style": LETTERS})  # fmt: skip
-            attribute.set_placement((entity.at.real, entity.at.imag), align=ALIGNED[entity.align])
+            set_text(block.add_attdef(tag, text=entity.text), entity, on)
         else:
-            draw(block, entity, on, 0.0)
+            draw(block, entity, on)
     placed = document.modelspace().add_blockref(block.name, (left, 0.0), dxfattribs={"layer": "0"})
     placed.add_auto_attribs(entries)
 
 
-def _add_length(document: Document, text: Text, measured: Length, on: str, left: float) -> None:
-    document.modelspace().add_linear_dim(
-        base=_xy(measured.foot, left), p1=_xy(measured.start, left), p2=_xy(measured.end, left),
-        location=_xy(_middle(text), left), text=text.text, text_rotation=math.degrees(text.angle),
-        angle=math.degrees(cmath.phase(measured.end - measured.start)), dimstyle=STYLE,
-        override={"dimtxt": text.height}, dxfattribs={"layer": on},
-    ).render()  # fmt: skip
+def _add_length(space: Modelspace, text: Text, measured: Length, on: str, left: float) -> None:
+    start, end, foot = (xy(point + left) for point in (measured.start, measured.end, measured.foot))
+    slope = math.degrees(cmath.phase(measured.end - measured.start))
+    space.add_linear_dim(foot, start, end, angle=slope, **_lettering(text, on, left)).render()
 
 
-def _add_angle(document: Document, text: Text, measured: Angle, on: str, left: float) -> None:
-    first, last = (measured.centre + cmath.rect(measured.radius, way) for way in (measured.start, measured.end))
-    between = measured.centre + cmath.rect(measured.radius, (measured.start + measured.end) / 2)
-    centre = _xy(measured.centre, left)
+def _add_angle(space: Modelspace, text: Text, measured: Angle, on: str, left: float) -> None:
+    ways = measured.start, measured.end, (measured.start + measured.end) / 2
+    first, last, between = (xy(measured.centre + cmath.rect(measured.radius, way) + left) for way in ways)
+    centre = xy(measured.centre + left)
     # Between two lines: LibreCAD passes over the kind that has a centre and two points.
-    document.modelspace().add_angular_dim_2l(
-        base=_xy(between, left), line1=(centre, _xy(first, left)), line2=(centre, _xy(last, left)),
-        location=_xy(_middle(text), left), text=text.text, text_rotation=math.degrees(text.angle), dimstyle=STYLE,
-        override={"dimtxt": text.height}, dxfattribs={"layer": on},
-    ).render()  # fmt: skip
+    lines = (centre, first), (centre, last)
+    space.add_angular_dim_2l(between, *lines, **_lettering(text, on, left)).render()
 
 
-def _middle(text: Text) -> complex:
-    """The middle of the letters of a centred text."""
-    return text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2)
-
-
-def _xy(point: complex, left: float) -> tuple[float, float]:
-    return point.real + left, point.imag
+def _lettering(text: Text, on: str, left: float) -> dict[str, Any]:
+    """What a dimension says and where, in the middle of the letters of a centred text; its style and its layer."""
+    middle = xy(text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2) + left)
+    said = {"text": text.text, "location": middle, "text_rotation": math.degrees(text.angle)}
+    return said | {"dimstyle": STYLE, "override": {"dimtxt": text.height}, "dxfattribs": {"layer": on}}

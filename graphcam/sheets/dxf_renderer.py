@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 from graphcam.drafting.ink import Points
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
-from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES, Style
+from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
+    from ezdxf.entities import Text as DXFText
     from ezdxf.layouts import BaseLayout
 
 BETWEEN_PAGES = 40.0
@@ -40,9 +41,6 @@ POINT_STYLE, POINT_SIZE = 34, 3.0
 """A POINT is shown as a cross in a circle, so many mm wide."""
 COLOURS = {GREY: 8, ACCENT: 1}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
-ALIGNED = {
-    "left": TextEntityAlignment.LEFT, "center": TextEntityAlignment.CENTER, "right": TextEntityAlignment.RIGHT,
-}  # fmt: skip
 
 DrawGroup = Callable[["Document", Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
@@ -67,11 +65,10 @@ def write_dxf(
 
 def _mark_origins(document: Document, drawing: Drawing, origins: Mapping[str, str]) -> None:
     for name, view in origins.items():
-        for left, page in _side_by_side(drawing):
+        for left, page in side_by_side(drawing):
             if view in page.origins:
                 document.layers.add(name, color=COLOURS[ACCENT])
-                at = page.origins[view]
-                document.modelspace().add_point((at.real + left, at.imag), dxfattribs={"layer": name})
+                document.modelspace().add_point(xy(page.origins[view] + left), dxfattribs={"layer": name})
                 document.header["$PDMODE"], document.header["$PDSIZE"] = POINT_STYLE, POINT_SIZE
 
 
@@ -135,13 +132,13 @@ def sheet_document(drawing: Drawing) -> Document:
 
 def draw_pages(document: Document, drawing: Drawing, draw_group: DrawGroup) -> None:
     """Every group of every page, the pages side by side."""
-    for number, (left, page) in enumerate(_side_by_side(drawing), 1):
+    for number, (left, page) in enumerate(side_by_side(drawing), 1):
         for group in page.groups:
             prefix = f"p{number}-" if len(drawing.pages) > 1 else ""
             draw_group(document, group, prefix, left)
 
 
-def _side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
+def side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
     """The pages, each with how far to the right it stands [mm]."""
     left = 0.0
     for page in drawing.pages:
@@ -167,16 +164,12 @@ def layer(document: Document, group: Group, prefix: str, role: str) -> str:
     name = prefix + re.sub(r"[^\w-]+", "-", group.name) + f"-{role}"
     if name not in document.layers:
         style = STYLES[role]
-        document.layers.add(name, color=COLOURS.get(style.colour, 7), linetype=_linetype(style),
-                            lineweight=round(100 * style.width))  # fmt: skip
+        colour, linetype = COLOURS.get(style.colour, 7), LINETYPES.get(style.pattern, ("CONTINUOUS",))[0]
+        document.layers.add(name, color=colour, linetype=linetype, lineweight=round(100 * style.width))
     return name
 
 
-def _linetype(style: Style) -> str:
-    return LINETYPES[style.pattern][0] if style.pattern else "CONTINUOUS"
-
-
-def draw(space: BaseLayout, entity: Entity, layer: str, left: float) -> None:
+def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> None:
     """One entity of the drawing, moved ``left`` mm to the right, as what CAD programs know."""
     on = {"layer": layer}
     match entity:
@@ -192,16 +185,18 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float) -> None:
             for centre in _xy(centres, left):
                 space.add_circle(centre, radius, dxfattribs=on)
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
-            space.add_arc(
-                (centre.real + left, centre.imag), radius, math.degrees(start), math.degrees(end), dxfattribs=on
-            )
+            space.add_arc(xy(centre + left), radius, math.degrees(start), math.degrees(end), dxfattribs=on)
         case Heads(corners=corners):
             for triangle in corners:
                 space.add_solid(_xy(triangle, left), dxfattribs=on)
         case Text():
-            text = space.add_text(entity.text, height=entity.height, rotation=math.degrees(entity.angle),
-                                  dxfattribs=on | {"style": LETTERS})  # fmt: skip
-            text.set_placement((entity.at.real + left, entity.at.imag), align=ALIGNED[entity.align])
+            set_text(space.add_text(entity.text), entity, layer, left)
+
+
+def set_text(made: DXFText, text: Text, layer: str, left: float = 0.0) -> None:
+    """Give a text of the document its layer, letters and place."""
+    made.dxf.update({"layer": layer, "style": LETTERS, "height": text.height, "rotation": math.degrees(text.angle)})
+    made.set_placement(xy(text.at + left), align=TextEntityAlignment[text.align.upper()])
 
 
 def _add_spline(
@@ -213,5 +208,10 @@ def _add_spline(
     spline.dxf.flags = 0
 
 
+def xy(point: complex) -> tuple[float, float]:
+    """The coordinates of a point."""
+    return point.real, point.imag
+
+
 def _xy(points: Points, left: float) -> list[tuple[float, float]]:
-    return [(point.real + left, point.imag) for point in points.tolist()]
+    return [xy(point + left) for point in points.tolist()]

@@ -16,7 +16,7 @@ from graphcam.sheets.formats import Lettering
 from graphcam.sheets.hatching import hatch
 from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
 from graphcam.sheets.styles import STYLES
-from graphcam.sheets.writing import Writing, along, around, outside, over
+from graphcam.sheets.writing import Writing, along, around, outside, over, unit
 
 DOT = 0.75
 """Radius of the small open circle that marks a plotted point, mm."""
@@ -26,6 +26,10 @@ SAME = 1e-6
 """Points so close together are one, mm."""
 GAP, OVERRUN = 1.0, 2.0
 """Extension lines begin so far from what they measure and run so far beyond the dimension line, mm."""
+ROOMY, TAIL = 9.0, 6.0
+"""A shorter dimension line has its heads outside, on tails of this length, mm."""
+NEAREST = 6.0
+"""A dimension line comes no nearer to what it measures when it is shown reduced, mm."""
 
 
 @dataclass(frozen=True)
@@ -50,40 +54,35 @@ Drawn = tuple[list[Entity], list[Writing]]
 
 def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering) -> Drawn:
     """The entities of marks, and the texts that still have to find their place."""
-    entities: list[Entity] = []
-    writings: list[Writing] = []
-    for mark in step_marks:
-        match mark:
-            case marks.Line():
-                entities += _line(mark, place)
-            case marks.Segments():
-                starts, ends = place(mark.starts), place(mark.ends)
-                long = np.abs(ends - starts) > SAME
-                if np.any(long):
-                    entities.append(Strokes(starts[long], ends[long], mark.role))
-            case marks.Circle():
-                entities.append(
-                    Circles(np.array([place.point(mark.centre)]), mark.radius * place.factor, mark.role))  # fmt: skip
-            case marks.Arc():
-                entities += _arc(mark, place)
-            case marks.Dots():
-                entities.append(Circles(np.atleast_1d(place(mark.points)), DOT, mark.role, opaque=True))
-            case marks.Arrow():
-                entities += arrow(place.point(mark.start), place.point(mark.end), mark.role)
-            case marks.Label():
-                height = letters.small if mark.small else letters.label
-                writings.append(around(place.point(mark.at), str(mark.text), height, mark.towards))
-            case marks.Dimension():
-                drawn, text = _dimension(mark, place, letters.label)
-                entities += drawn
-                writings.append(text)
-            case marks.AngleMark():
-                drawn, text = _angle(mark, place, letters.label)
-                entities += drawn
-                writings.append(text)
-            case marks.Region():
-                entities.append(hatch(place(mark.boundary)))
-    return entities, writings
+    drawn = [_expanded(mark, place, letters) for mark in step_marks]
+    return [e for entities, _ in drawn for e in entities], [writing for _, writings in drawn for writing in writings]
+
+
+def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
+    match mark:
+        case marks.Line():
+            return _line(mark, place), []
+        case marks.Segments():
+            starts, ends = place(mark.starts), place(mark.ends)
+            long = np.abs(ends - starts) > SAME
+            return [Strokes(starts[long], ends[long], mark.role)] if np.any(long) else [], []
+        case marks.Circle():
+            return [Circles(np.array([place.point(mark.centre)]), mark.radius * place.factor, mark.role)], []
+        case marks.Arc():
+            return _arc(mark, place), []
+        case marks.Dots():
+            return [Circles(np.atleast_1d(place(mark.points)), DOT, mark.role, opaque=True)], []
+        case marks.Arrow():
+            return arrow(place.point(mark.start), place.point(mark.end), mark.role), []
+        case marks.Label():
+            height = letters.small if mark.small else letters.label
+            return [], [around(place.point(mark.at), str(mark.text), height, mark.towards)]
+        case marks.Dimension():
+            return _dimension(mark, place, letters.label)
+        case marks.AngleMark():
+            return _angle(mark, place, letters.label)
+        case marks.Region():
+            return [hatch(place(mark.boundary))], []
 
 
 def _line(mark: marks.Line, place: Placement) -> list[Entity]:
@@ -98,24 +97,24 @@ def _line(mark: marks.Line, place: Placement) -> list[Entity]:
     return [Stroke(points, mark.role, mark.closed)]
 
 
+def _head_length(role: str) -> float:
+    return 3.0 + 3.0 * STYLES[role].width
+
+
 def head(tip: complex, direction: complex, role: str) -> Heads:
     """A slim arrow head with its ``tip``, pointing in the ``direction``; longer on bolder lines."""
-    length = 3.0 + 3.0 * STYLES[role].width
-    back = -length * direction / abs(direction)
+    back = -_head_length(role) * direction / abs(direction)
     return Heads(np.array([[tip, tip + back * (1 + 0.16j), tip + back * (1 - 0.16j)]]), role)
-
-
-def _shaft_end(tip: complex, direction: complex, role: str) -> complex:
-    """Where the line behind a head stops, so that a bold one does not blunt the tip."""
-    return tip - 1.5 * STYLES[role].width * direction / abs(direction)
 
 
 def arrow(start: complex, end: complex, role: str) -> list[Entity]:
     """A line with a head at its end; without length it is nothing."""
-    if abs(end - start) == 0 or not cmath.isfinite(end - start):
+    way = end - start
+    if way == 0 or not cmath.isfinite(way):
         return []
-    tip = _shaft_end(end, end - start, role)
-    return [Strokes(np.array([start]), np.array([tip]), role), head(end, end - start, role)]
+    # The line stops behind the tip, so that a bold one does not blunt it.
+    tip = end - 1.5 * STYLES[role].width * way / abs(way)
+    return [Strokes(np.array([start]), np.array([tip]), role), head(end, way, role)]
 
 
 def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
@@ -129,47 +128,42 @@ def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
 def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) -> Heads:
     """A head at the direction ``at`` of an arc.  It lies on the chord, so that it does not leave the arc."""
     sense = 1 if end == "end" else -1
-    half = min(1.0, (3.0 + 3.0 * STYLES[role].width) / (2 * radius))
+    half = min(1.0, _head_length(role) / (2 * radius))
     return head(centre + cmath.rect(radius, at), sense * 1j * cmath.rect(1.0, at - sense * half), role)
 
 
-def _dimension(mark: marks.Dimension, place: Placement, height: float) -> tuple[list[Entity], Writing]:
+def _dimension(mark: marks.Dimension, place: Placement, height: float) -> Drawn:
     """Extension lines, the dimension line with its heads (from outside where there is no room), and its text."""
     start, end = place.point(mark.start), place.point(mark.end)
-    direction = (end - start) / abs(end - start) if end != start else 1.0 + 0j
+    direction, length = unit(end - start), abs(end - start)
     # Shown reduced, the line comes nearer too, but not so near that its text would touch what it measures.
-    distance = math.copysign(min(abs(mark.aside), max(6.0, place.factor * abs(mark.aside))), mark.aside)
+    distance = math.copysign(min(abs(mark.aside), max(NEAREST, place.factor * abs(mark.aside))), mark.aside)
     aside = 1j * direction * distance
-    foot, tip, length = start + aside, end + aside, abs(end - start)
+    foot, tip = start + aside, end + aside
     drawn: list[Entity] = []
     if abs(distance) > GAP:
-        away = aside / abs(aside)
-        origins = np.array([start, end])
+        away, origins = aside / abs(aside), np.array([start, end])
         drawn.append(Strokes(origins + GAP * away, origins + aside + OVERRUN * away, Role.DIMENSION))
-    if length >= 9.0:
-        heads = [head(foot, -direction, Role.DIMENSION), head(tip, direction, Role.DIMENSION)]
-        before, after = 0.0, 0.0
-    else:
-        heads = [head(foot, direction, Role.DIMENSION), head(tip, -direction, Role.DIMENSION)]
-        before, after = 6.0, 6.0
-    line = foot - before * direction, tip + after * direction
-    drawn += [Strokes(np.array(line[:1]), np.array(line[1:]), Role.DIMENSION), *heads]
+    tail, outwards = (0.0, direction) if length >= ROOMY else (TAIL, -direction)
+    line = np.array([foot - tail * direction, tip + tail * direction])
+    drawn.append(Strokes(line[:1], line[1:], Role.DIMENSION))
+    drawn += [head(foot, -outwards, Role.DIMENSION), head(tip, outwards, Role.DIMENSION)]
     text = str(mark.text)
     standing = along if extent(text, height)[0] + 1.0 <= length else over
-    return drawn, replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))
+    return drawn, [replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))]
 
 
-def _angle(mark: marks.AngleMark, place: Placement, height: float) -> tuple[list[Entity], Writing]:
+def _angle(mark: marks.AngleMark, place: Placement, height: float) -> Drawn:
     """An arc with heads at both ends (from outside where there is no room) and its text beyond the middle."""
     centre, radius = place.point(mark.centre), mark.radius * place.factor
     start, end = sorted((mark.start, mark.end))
-    wide = (end - start) * radius >= 9.0
-    tails = 0.0 if wide else 6.0 / radius
-    heads = [
-        _arc_head(centre, radius, start, "start" if wide else "end", Role.DIMENSION),
-        _arc_head(centre, radius, end, "end" if wide else "start", Role.DIMENSION),
+    tail, at_start, at_end = (0.0, "start", "end")
+    if (end - start) * radius < ROOMY:
+        tail, at_start, at_end = TAIL / radius, "end", "start"
+    drawn: list[Entity] = [
+        ArcEntity(centre, radius, start - tail, end + tail, Role.DIMENSION),
+        _arc_head(centre, radius, start, at_start, Role.DIMENSION),
+        _arc_head(centre, radius, end, at_end, Role.DIMENSION),
     ]
-    arcs: list[Entity] = [ArcEntity(centre, radius, start - tails, end + tails, Role.DIMENSION)]
-    drawn = [*arcs, *heads]
     writing = outside(centre, radius, start, end, str(mark.text), height)
-    return drawn, replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))
+    return drawn, [replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import count, product
@@ -12,7 +12,7 @@ from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
 from graphcam.sheets.packing import Preference, Room
-from graphcam.sheets.panels import Panel, apart, clusters, stand
+from graphcam.sheets.panels import Panel, apart, clusters, shares, stand
 from graphcam.sheets.preferences import bottom_left, bottom_right, high, left, middle, top, top_left, top_right
 from graphcam.sheets.tables import Block
 
@@ -28,6 +28,20 @@ ONE_PAGE = ("A1",)
 """Formats on which diagrams one under the other are never parted, and those side by side only to keep full size."""
 
 
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Views that stand together on a page, at their origins."""
+
+    views: Sequence[Panel]
+    origins: Sequence[complex]
+
+    @property
+    def footprint(self) -> list[Box]:
+        """The boxes that together cover the views."""
+        standing = zip(self.views, self.origins, strict=True)
+        return [box.moved(origin) for panel, origin in standing for box in panel.footprint]
+
+
 @dataclass(eq=False)
 class Leaf:
     """A page while it is being filled: its free room, and the empty parts of diagrams, where tables may stand."""
@@ -41,19 +55,23 @@ class Leaf:
         """The same page, to be filled in another way."""
         return Leaf(self.room.copy(), [part.copy() for part in self.parts], dict(self.views), list(self.blocks))
 
-    def put_views(self, run: Sequence[Panel], origins: Sequence[complex]) -> None:
-        """Put views at their origins."""
-        for box in _footprint(run, origins):
-            self.take(box)
-        for panel, origin in zip(run, origins, strict=True):
-            self.views[panel.view.name] = panel, origin
-            if len(run) > 1:
-                self.parts.append(panel.empty(origin))
+    def put_views(self, run: Run, by: complex) -> None:
+        """Put views that stand together, moved ``by`` x + iy."""
+        for box in run.footprint:
+            self.take(box.moved(by))
+        for panel, origin in zip(run.views, run.origins, strict=True):
+            self.views[panel.view.name] = panel, origin + by
+            if len(run.views) > 1:
+                self.parts.append(panel.empty(origin + by))
 
     def put_block(self, block: Block, by: complex) -> None:
         """Put a table or notes."""
         self.take(block.box.moved(by))
         self.blocks.append((block, by))
+
+    def shares(self, views: Iterable[Panel]) -> bool:
+        """Whether one of the views shares an axis with one on the page."""
+        return any(shares(view, (panel for panel, _ in self.views.values())) for view in views)
 
     def inside(self, boxes: Sequence[Box]) -> complex | None:
         """By how much to move boxes into an empty part of a diagram; None if there is none."""
@@ -96,94 +114,82 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
 
 def _centred(sheet: Format, leaf: Leaf) -> Leaf:
     """The page with all that stands on it moved together, so that what is left empty lies around it."""
-    boxes = [box for panel, origin in leaf.views.values() for box in _footprint([panel], [origin])]
-    boxes += [block.box.moved(at) for block, at in leaf.blocks]
+    views = [Run([panel], [origin]) for panel, origin in leaf.views.values()]
+    boxes = [box for view in views for box in view.footprint] + [block.box.moved(at) for block, at in leaf.blocks]
     centred = _blank(sheet)
     by = centred.room.find(boxes, middle) if boxes else None
     if by is None:
         return leaf
-    for panel, origin in leaf.views.values():
-        centred.put_views([panel], [origin + by])
+    for view in views:
+        centred.put_views(view, by)
     for block, at in leaf.blocks:
         centred.put_block(block, at + by)
     return centred
 
 
 def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
-    """All views and blocks on as few pages as they need."""
+    """All views and blocks on as few pages as they need, the emptiest of them as full as it can be."""
     # The largest first; the small ones find room between.
-    groups = sorted(clusters(views), key=lambda group: -sum(p.box.width * p.box.height for p in group))
+    groups = sorted(clusters(views), key=lambda group: -sum(map(_area, group)))
     runs = [run for group in groups for run in _runs(sheet, group)]
-    # Which of the gaps each run has room for, the widest first; tries that come to the same are made once.
-    fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
-    spreads = list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
-    best: list[Leaf] = []
+    spreads = _spreads(sheet, runs)
 
     @cache
     def viewed(way: Way) -> list[Leaf]:
         return _with_views(sheet, runs, way)
 
-    for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
-        way = Way(gaps, within=within)
-        leaves = _with_blocks(sheet, viewed(way), blocks, way)
+    def tries(within: int, pages: int = 0) -> Iterator[list[Leaf]]:
+        for blocks, gaps in product(ways_of_blocks, spreads):
+            way = Way(gaps, pages, within)
+            yield _with_blocks(sheet, viewed(way), blocks, way)
+
+    best: list[Leaf] = []
+    for leaves in (leaves for within in WITHIN for leaves in tries(within)):
         if not best or len(leaves) < len(best):
             best = leaves
         if len(best) == 1:
             return best
-    return _evened(sheet, viewed, ways_of_blocks, spreads, best)
-
-
-def _evened(
-    sheet: Format,
-    viewed: Callable[[Way], list[Leaf]],
-    ways_of_blocks: Sequence[Sequence[Block]],
-    spreads: Sequence[tuple[float, ...]],
-    best: list[Leaf],
-) -> list[Leaf]:
-    """The same on as many pages, the emptiest of them as full as it can be.
-
-    viewed : puts the views on pages in a way
-    """
-    for blocks, gaps in product(ways_of_blocks, spreads):
-        way = Way(gaps, pages=len(best))
-        leaves = _with_blocks(sheet, viewed(way), blocks, way)
+    for leaves in tries(0, pages=len(best)):
         if len(leaves) <= len(best) and _emptiest(leaves) < _emptiest(best) - 1e-9:
             best = leaves
     return best
+
+
+def _spreads(sheet: Format, runs: Sequence[Sequence[Panel]]) -> list[tuple[float, ...]]:
+    """The gaps of all runs, from wide to narrow; a run without room for a gap has the widest that it has room for."""
+    fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
+    # Tries that come to the same are made once.
+    return list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
+
+
+def _area(panel: Panel) -> float:
+    return panel.box.width * panel.box.height
 
 
 def _emptiest(leaves: Sequence[Leaf]) -> float:
     return max(leaf.empty for leaf in leaves)
 
 
-def _with_views(sheet: Format, runs: Sequence[list[Panel]], way: Way) -> list[Leaf]:
+def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way) -> list[Leaf]:
     """Put runs of views on as many pages as it takes."""
     leaves = [_blank(sheet) for _ in range(way.pages)]
-    alone = [run for run in runs if len(run) == 1]
-    largest = max(alone, key=lambda run: run[0].box.width * run[0].box.height, default=None)
+    largest = max((run[0] for run in runs if len(run) == 1), key=_area, default=None)
     within = way.within
-    for run, gap in zip(runs, way.gaps, strict=True):
-        origins = stand(run, gap)
-        boxes = _footprint(run, origins)
+    for views, gap in zip(runs, way.gaps, strict=True):
+        run = Run(views, stand(views, gap))
         # Views that share an axis stand on it or on different pages; what was parted on a large page finds room there.
-        allowed = [
-            leaf
-            for leaf in leaves
-            if sheet.name in ONE_PAGE or not any(_shares(p, (v for v, _ in leaf.views.values())) for p in run)
-        ]
-        if within and len(run) == 1 and run is not largest and (found := _inside(allowed, boxes)):
-            leaf, by = found
+        allowed = [leaf for leaf in leaves if sheet.name in ONE_PAGE or not leaf.shares(views)]
+        found = _inside(allowed, run.footprint) if within and len(views) == 1 and views[0] is not largest else None
+        if found:
             within -= 1
         else:
             # Aside it leaves more room for tables.
             lone = len(runs) == 1 and not way.within
-            preference = middle if lone else _preferred(sheet, run, largest)
+            preference = middle if lone else _preferred(sheet, views, largest)
             # The first sheet of a large format is the cam's; only tables go to where there is more room.
             turn = allowed if sheet.name in ONE_PAGE else _in_turn(allowed, way)
-            leaf, by = _find(sheet, turn, boxes, preference)
-        if leaf not in leaves:
-            leaves.append(leaf)
-        leaf.put_views(run, [origin + by for origin in origins])
+            found = _find(sheet, turn, run.footprint, preference)
+        _taken(leaves, found[0]).put_views(run, found[1])
     return leaves
 
 
@@ -192,10 +198,15 @@ def _with_blocks(sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block],
     leaves = [leaf.copy() for leaf in viewed]
     for block in blocks:
         leaf, by = _place_block(sheet, _in_turn(leaves, way), block, way)
-        if leaf not in leaves:
-            leaves.append(leaf)
-        leaf.put_block(block, by)
+        _taken(leaves, leaf).put_block(block, by)
     return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
+
+
+def _taken(leaves: list[Leaf], leaf: Leaf) -> Leaf:
+    """A page, which is now one of the pages."""
+    if leaf not in leaves:
+        leaves.append(leaf)
+    return leaf
 
 
 def _in_turn(leaves: Sequence[Leaf], way: Way) -> list[Leaf]:
@@ -235,11 +246,11 @@ def _blank(sheet: Format) -> Leaf:
     return Leaf(Room(sheet.content.grown(-BORDER), taken(sheet, BORDER)))
 
 
-def _preferred(sheet: Format, run: Sequence[Panel], largest: Sequence[Panel] | None) -> Preference:
+def _preferred(sheet: Format, run: Sequence[Panel], largest: Panel | None) -> Preference:
     """Where views would rather stand: diagrams at the upper left, the largest drawing where it leaves most room."""
     if len(run) > 1:
         return top_left
-    if run is not largest:
+    if run[0] is not largest:
         return bottom_right
     if sheet.name in ONE_PAGE:
         return bottom_left if sheet.upright else top_right
@@ -279,7 +290,7 @@ def _joined(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
     runs: list[list[Panel]] = []
     for panel in group:
         # The last run first, so that neighbours stay neighbours.
-        joined = (run for run in reversed(runs) if _shares(panel, run))
+        joined = (run for run in reversed(runs) if shares(panel, run))
         if (run := next((run for run in joined if _fits(sheet, [*run, panel], GAPS[-1])), None)) is not None:
             run.append(panel)
         else:
@@ -287,17 +298,8 @@ def _joined(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
     return runs
 
 
-def _shares(panel: Panel, others: Iterable[Panel]) -> bool:
-    """Whether a view shares an axis with one of the others."""
-    return any(panel.view.across == other.view.across or panel.view.up == other.view.up for other in others)
-
-
-def _fits(sheet: Format, run: Sequence[Panel], gap: float) -> bool:
-    origins = stand(run, gap)
+def _fits(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
+    run = Run(views, stand(views, gap))
     # The margins of neighbours may overlap where room is scarce.
-    boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(run, origins, strict=True)]
-    return apart(boxes) and _blank(sheet).room.find(_footprint(run, origins), top_left) is not None
-
-
-def _footprint(run: Sequence[Panel], origins: Sequence[complex]) -> list[Box]:
-    return [box.moved(origin) for panel, origin in zip(run, origins, strict=True) for box in panel.footprint]
+    boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(views, run.origins, strict=True)]
+    return apart(boxes) and _blank(sheet).room.find(run.footprint, top_left) is not None

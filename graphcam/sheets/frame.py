@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-import math
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
 
@@ -43,10 +43,7 @@ def taken(paper: Format, border: float) -> list[Box]:
 
 def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell = str) -> Group:
     """All that a sheet carries before anything is drawn on it."""
-    inside = paper.content
-    outline = np.array([inside.corner, complex(inside.right, inside.bottom), complex(inside.right, inside.top),
-                        complex(inside.left, inside.top)])  # fmt: skip
-    entities: list[Entity] = [Stroke(outline, "frame", closed=True)]
+    entities: list[Entity] = [Stroke(np.array(paper.content.corners), "frame", closed=True)]
     entities += _binding_column(paper, title, tell) if paper.frame == "gost" else _references(paper)
     entities += title_block(paper.frame, title_box(paper).corner, title, sheet, sheets, tell)
     entities += gauge(_gauge_at(paper), tell)
@@ -71,34 +68,27 @@ def _binding_column(paper: Format, title: TitleBlock, tell: Tell) -> list[Entity
     corner = paper.content.corner - 12
     ends = np.cumsum([0.0, 25.0, 35.0, 25.0, 25.0, 35.0])
     captions = (say("Orig. no."), say("Signed, date"), say("Replaces no."), say("Copy no."), say("Signed, date"))
-    entities: list[Entity] = [
-        rules(corner, [(0, 0, 0, 145), (5, 0, 5, 145), *((0, y, 12, y) for y in ends)], "frame")]  # fmt: skip
-    for caption, low, high in zip(captions, ends[:-1], ends[1:], strict=True):
+    lines: list[Ruling] = [(0, 0, 0, 145), (5, 0, 5, 145), *((0, y, 12, y) for y in ends)]
+    entities: list[Entity] = [rules(corner, lines, "frame")]
+    for caption, (low, high) in zip(captions, pairwise(ends), strict=True):
         # Written from below upwards: the field lies on its side.
-        for text in fitted(tell(caption), (0, 0, high - low, 5), 2.5):
-            at = corner + 5 + 1j * low + 1j * text.at
-            entities.append(Text(at, text.text, text.height, text.align, math.pi / 2))
-    box = _number_box(paper)
-    aside = _turned_aside(paper)
+        entities += _turned(fitted(tell(caption), (0, 0, high - low, 5), 2.5), corner + 5 + 1j * low, 1j)
+    box, aside = _number_box(paper), _turned_aside(paper)
     inner: list[Ruling] = [(0, 0, 14, 0), (0, 0, 0, 70)] if aside else [(0, 0, 70, 0), (70, 0, 70, 14)]
     entities.append(rules(box.corner, inner, "frame"))
     start, turn = (box.corner + 14, 1j) if aside else (box.corner + (70 + 14j), -1 + 0j)
-    entities += [
-        replace(text, at=start + turn * text.at, angle=cmath.phase(turn))
-        for text in entry(title, "number", (0, 0, 70, 14), 5.0)
-    ]
-    return entities
+    return entities + _turned(entry(title, "number", (0, 0, 70, 14), 5.0), start, turn)
+
+
+def _turned(texts: Iterable[Text], start: complex, turn: complex) -> list[Entity]:
+    return [replace(text, at=start + turn * text.at, angle=cmath.phase(turn)) for text in texts]
 
 
 def _references(paper: Format) -> list[Entity]:
     """ISO 5457: centring marks, and a border of 5 mm with fields of 50 mm counted from them."""
     inside, (width, height) = paper.content, paper.size
-    outer = inside.grown(5)
-    border = np.array([outer.corner, complex(outer.right, outer.bottom), complex(outer.right, outer.top),
-                       complex(outer.left, outer.top)])  # fmt: skip
-    starts, ends = _centring(paper)
-    entities: list[Entity] = [
-        Stroke(border, "ruling", closed=True), Strokes(starts, ends, "frame")]  # fmt: skip
+    border = np.array(inside.grown(5).corners)
+    entities: list[Entity] = [Stroke(border, "ruling", closed=True), Strokes(*_centring(paper), "frame")]
     across, up = _fields(width / 2, inside.left, inside.right), _fields(height / 2, inside.bottom, inside.top)
     for edge, way in ((inside.bottom, -5), (inside.top, 5)):
         cuts = np.array(across[1:-1]) + 1j * edge

@@ -89,12 +89,12 @@ def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> 
     paper = Occupancy(inside)
     for entity in drawn:
         paper.take_entity(entity)
-    order = sorted(range(len(writings)), key=lambda k: not writings[k].bound)
-    chosen = [0] * len(writings)
-    for k in order:
-        chosen[k] = _choose(writings[k], paper)
-        _occupy(writings[k], chosen[k], paper)
-    return [_set(writing, k) for writing, k in zip(writings, chosen, strict=True)]
+    placed: dict[int, list[Entity]] = {}
+    for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
+        placed[k] = _set(writings[k], _choose(writings[k], paper))
+        for entity in placed[k]:
+            paper.take_entity(entity)
+    return [placed[k] for k in range(len(writings))]
 
 
 def _choose(writing: Writing, paper: Occupancy) -> int:
@@ -106,8 +106,8 @@ def _choose(writing: Writing, paper: Occupancy) -> int:
         part = slice(start, start + 24)
         if writing.cost[part].min() >= least:
             continue
-        cost = writing.cost[part] + paper.cost(
-            writing.centres[part, None] + around * np.exp(1j * writing.angles[part])[:, None])  # fmt: skip
+        turned = around * np.exp(1j * writing.angles[part])[:, None]
+        cost = writing.cost[part] + paper.cost(writing.centres[part, None] + turned)
         cost += _leader_cost(writing, part, paper)
         k = int(np.argmin(cost))
         if cost[k] < least:
@@ -139,8 +139,3 @@ def _set(writing: Writing, k: int) -> list[Entity]:
         end = _leader_end(writing, writing.centres[k : k + 1], writing.anchors[k : k + 1])
         drawn.append(Strokes(writing.anchors[k : k + 1], end, Role.DIMENSION))
     return drawn
-
-
-def _occupy(writing: Writing, k: int, paper: Occupancy) -> None:
-    for entity in _set(writing, k):
-        paper.take_entity(entity)

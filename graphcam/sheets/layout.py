@@ -11,7 +11,8 @@ agrees line for line.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphcam.drafting.ink import Step
@@ -90,9 +91,9 @@ def compose_parts(
     """
     parts = [part.told(tell) for part in parts]
     laid_out = [(part, leaf) for part in parts for leaf in _in_order(part, _leaves(sheet, part, tell))]
-    of = len(laid_out)
-    pages = [_page(sheet, leaf, part, empty_sheet(sheet, title, k, of, tell), upto)
-             for k, (part, leaf) in enumerate(laid_out, 1)]  # fmt: skip
+    sheets = [empty_sheet(sheet, title, k, len(laid_out), tell) for k in range(1, len(laid_out) + 1)]
+    shown = math.inf if upto is None else upto
+    pages = [_page(sheet, leaf, part, empty, shown) for (part, leaf), empty in zip(laid_out, sheets, strict=True)]
     return Drawing(title.name, tuple(pages))
 
 
@@ -147,37 +148,49 @@ def _in_order(part: Part, leaves: Sequence[Leaf]) -> list[Leaf]:
     return sorted(leaves, key=first)
 
 
-def _is_found(part: Part, construction: str, upto: int) -> bool:
-    """Whether a construction is drawn to its end."""
-    return upto >= max((number for number, name, _ in part.steps if name == construction), default=0)
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """What a step draws at once, and from which step on it is shown: what is given from the start."""
+
+    step: int
+    since: int
+    drawn: Drawn
 
 
-def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: int | None) -> Page:
-    """Draw all that a page holds; the labels last, when every line stands."""
-    titles = Group("titles", tuple(e for panel, origin in leaf.views.values() for e in panel.title(origin)))
-    answered = [e for block, at in leaf.blocks for e in block.drawn(at)]
-    # Of every step what is given, and what is not; of each its number, and whether it is shown.
-    drawn: list[Drawn] = []
-    of: list[tuple[int, bool]] = []
+def _pieces(part: Part, leaf: Leaf) -> Iterator[Piece]:
+    """What the steps of a part draw on a page."""
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
-            for marks, shown in ((step.given, bool(step.given)), (step.own, upto is None or number <= upto)):
-                drawn.append(expand(marks, Placement(origin, panel.factor), panel.letters))
-                of.append((number, shown))
-    finished = lettered(drawn, [*empty.entities, *answered, *titles.entities], sheet.content)
-    tables = answered if upto is None else [e for block, at in leaf.blocks for e in block.drawn(at, answered=False)]
-    if upto is not None:
-        titles = Group("titles", tuple(
-            e for panel, origin in leaf.views.values()
-            for e in panel.title(origin, answered=_is_found(part, panel.view.found_by, upto))
-        ))  # fmt: skip
-    shown = [(number, entities) for (number, shown), entities in zip(of, finished, strict=True) if shown]
-    entities: dict[int, list[Entity]] = {}
-    for (number, _), parted in zip(shown, shading_parted([some for _, some in shown]), strict=True):
-        entities.setdefault(number, []).extend(parted)
+            for marks, since in ((step.given, 0), (step.own, number)):
+                if marks or since:
+                    yield Piece(number, since, expand(marks, Placement(origin, panel.factor), panel.letters))
+
+
+def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: float) -> Page:
+    """Draw all that a page holds; the labels when every line of the finished page stands."""
+    pieces = list(_pieces(part, leaf))
+    finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
+    placed = zip(pieces, lettered([piece.drawn for piece in pieces], finished, sheet.content), strict=True)
+    shown = [(piece.step, entities) for piece, entities in placed if piece.since <= upto]
+    steps: dict[int, list[Entity]] = {}
+    for (number, _), entities in zip(shown, shading_parted([some for _, some in shown]), strict=True):
+        steps.setdefault(number, []).extend(entities)
+    tables = _tables(leaf, upto)
+    groups = [empty, *([Group("tables", tables)] if tables else []), Group("titles", _titles(leaf, part, upto))]
     names = {number: f"step-{number:02d} {name}" for number, name, _ in part.steps}
-    groups = [empty, *([Group("tables", tuple(tables))] if tables else []), titles]
-    groups += [Group(names[number], tuple(of_step)) for number, of_step in entities.items()]
+    groups += [Group(names[number], tuple(entities)) for number, entities in steps.items()]
     origins = {name: origin for name, (panel, origin) in leaf.views.items() if panel.factor == 1}
     return Page(*sheet.size, sheet.content, tuple(groups), origins)
+
+
+def _tables(leaf: Leaf, upto: float) -> tuple[Entity, ...]:
+    """The tables and notes of a page; those of an unfinished sheet have no answers."""
+    return tuple(e for block, at in leaf.blocks for e in block.drawn(at, answered=upto == math.inf))
+
+
+def _titles(leaf: Leaf, part: Part, upto: float) -> tuple[Entity, ...]:
+    """The titles of the views of a page, with what has been found up to a step."""
+    last = {name: number for number, name, _ in part.steps}
+    views = leaf.views.values()
+    return tuple(e for p, origin in views for e in p.title(origin, answered=upto >= last.get(p.view.found_by, 0)))

@@ -13,7 +13,6 @@ import re
 from collections.abc import Sequence
 from functools import cache
 from io import StringIO
-from itertools import groupby
 from pathlib import Path as File
 from typing import IO, TYPE_CHECKING, Any, cast
 
@@ -77,9 +76,8 @@ def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float =
     """One page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
     with mpl.rc_context(_SETTINGS):
         # Lines on white: a harder compression takes longer and saves nothing.
-        _figure(page).savefig(
-            path, format="png", dpi=dpi, metadata={"Software": "graphcam"}, pil_kwargs={"compress_level": 1}
-        )
+        quick, about = {"compress_level": 1}, {"Software": "graphcam"}
+        _figure(page).savefig(path, format="png", dpi=dpi, metadata=about, pil_kwargs=quick)
 
 
 def _figure(page: Page) -> Figure:
@@ -102,27 +100,13 @@ class _GroupArtist(Artist):
         assert figure is not None
         to_device = Affine2D().scale(1 / INCH) + figure.dpi_scale_trans
         renderer.open_group("group", gid=self.group.key)
-        # Neighbours of one kind and role make one path; a text goes alone.
-        for (kind, role), run in groupby(self.group.entities, key=_kind):
+        for kind, role, run in self.group.runs():
             if kind == "text":
                 for text in run:
                     _draw_text(renderer, cast(Text, text), to_device)
             else:
-                _draw_path(renderer, list(run), kind, role, to_device)
+                _draw_path(renderer, run, kind, role, to_device)
         renderer.close_group("group")
-
-
-def _kind(entity: Entity) -> tuple[str, str]:
-    match entity:
-        case Text():
-            kind = "text"
-        case Heads():
-            kind = "filled"
-        case Circles(opaque=True):
-            kind = "opaque"
-        case _:
-            kind = "line"
-    return kind, entity.role
 
 
 def _draw_path(renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str, to_device: Any) -> None:

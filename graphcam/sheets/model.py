@@ -6,8 +6,9 @@ every output holds the same ones.  Points are complex numbers, x to the right an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.box import Box
@@ -147,6 +148,23 @@ class Group:
         'step-03'
         """
         return self.name.split(" ", 1)[0]
+
+    def runs(self) -> Iterator[tuple[str, str, list[Entity]]]:
+        """Neighbours of one kind ("line", "filled", "opaque" or "text") and role, which one path can draw."""
+        for (kind, role), run in groupby(self.entities, key=lambda entity: (_kind(entity), entity.role)):
+            yield kind, role, list(run)
+
+
+def _kind(entity: Entity) -> str:
+    match entity:
+        case Text():
+            return "text"
+        case Heads():
+            return "filled"
+        case Circles(opaque=True):
+            return "opaque"
+        case _:
+            return "line"
 
 
 @dataclass(frozen=True)

@@ -49,8 +49,8 @@ class Room:
     def _cells(self, box: Box) -> tuple[int, int, int, int]:
         """The cells that a box touches: left, bottom, and the first ones beyond it."""
         box = box.moved(-self.corner)
-        return (math.floor(box.left / MESH + EDGE), math.floor(box.bottom / MESH + EDGE),
-                math.ceil(box.right / MESH - EDGE), math.ceil(box.top / MESH - EDGE))  # fmt: skip
+        left, bottom = math.floor(box.left / MESH + EDGE), math.floor(box.bottom / MESH + EDGE)
+        return left, bottom, math.ceil(box.right / MESH - EDGE), math.ceil(box.top / MESH - EDGE)
 
     def take(self, box: Box) -> None:
         """Occupy a box."""
@@ -84,8 +84,9 @@ class Room:
         free = np.ones((rows, columns), dtype=bool)
         for left, bottom, right, top in (cells - np.tile(least, 2)).tolist():
             below, above = sums[bottom : bottom + rows], sums[top : top + rows]
-            full = (above - below)[:, right : right + columns] - (above - below)[:, left : left + columns]
-            free &= full == 0
+            # The cells between the two rows and left of each column: as many at the left as at the right, if free.
+            between = above - below
+            free &= between[:, right : right + columns] == between[:, left : left + columns]
         if not free.any():
             return None
         y, x = (cell.astype(np.float64) for cell in np.nonzero(free))

@@ -117,9 +117,10 @@ class Panel:
     def title(self, origin: complex, *, answered: bool = True) -> list[Entity]:
         """The title's texts on the page, with what is only found by drawing or a blank to write it in."""
         corner, answer = origin + self.title_box.corner, str(self.view.answer or "")
-        texts = [text if answered or not answer else replace(text, text=text.text.replace(answer, BLANK))
-                 for text in self.heading if text.text]  # fmt: skip
-        return [replace(text, at=corner + text.at, view=self.view.name) for text in texts]
+        texts = [replace(text, at=corner + text.at, view=self.view.name) for text in self.heading if text.text]
+        if answered or not answer:
+            return [*texts]
+        return [replace(text, text=text.text.replace(answer, BLANK)) for text in texts]
 
 
 def panels(steps: Iterable[Step], letters: Lettering, tell: Tell = str) -> list[Panel]:
@@ -136,9 +137,14 @@ def clusters(views: Sequence[Panel]) -> list[list[Panel]]:
     """Panels that share an axis, directly or through others, together."""
     found: list[list[Panel]] = []
     for panel in views:
-        sharing = [c for c in found if any(panel.view.across == p.view.across or panel.view.up == p.view.up for p in c)]
+        sharing = [cluster for cluster in found if shares(panel, cluster)]
         found = [c for c in found if c not in sharing] + [[*(p for c in sharing for p in c), panel]]
     return found
+
+
+def shares(panel: Panel, others: Iterable[Panel]) -> bool:
+    """Whether a view shares an axis with one of the others."""
+    return any(panel.view.across == other.view.across or panel.view.up == other.view.up for other in others)
 
 
 def stand(group: Sequence[Panel], gap: float) -> list[complex]:

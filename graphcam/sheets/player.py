@@ -12,7 +12,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
@@ -97,17 +96,16 @@ def player(
     slides : one for each step of the drawing, in order
     mechanism : what turns, see ``data/player/mechanism.js``; None for a drawing that nothing turns in
     words : what the page itself says, by the names of :data:`WORDS`
-    """  # fmt: skip
+    """
     from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
-    environment = Environment(
-        loader=PackageLoader("graphcam", "data/player"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
+    loader = PackageLoader("graphcam", "data/player")
+    environment = Environment(autoescape=True, loader=loader, undefined=StrictUndefined)
+    environment.trim_blocks = environment.lstrip_blocks = True
 
     def whole(name: str) -> Markup:
-        return Markup((_FOLDER / name).read_text(encoding="utf-8"))
+        return Markup(loader.get_source(environment, name)[0])
 
     data = {"steps": _places(drawing, slides), "mechanism": mechanism, "words": dict(words)}
     said = [drawing.title, *words.values(), *(text for slide in slides for text in _texts(slide))]
@@ -127,51 +125,38 @@ def player(
     )
 
 
-_FOLDER = Path(__file__).parents[1] / "data" / "player"
-
-
 def _page(page: Page) -> dict[str, Any]:
     from markupsafe import Markup
 
-    groups = [(group.key, _is_step(group), _view(group), Markup(group_svg(group, page.height)))
-              for whole in page.groups for group in _by_view(whole)]  # fmt: skip
+    groups = [
+        (group.key, group.key.startswith("step-"), view, Markup(group_svg(group, page.height)))
+        for whole in page.groups
+        for view, group in _by_view(whole)
+    ]
     return {"width": f"{page.width:g}", "height": f"{page.height:g}", "groups": groups}
 
 
-def _by_view(group: Group) -> list[Group]:
+def _by_view(group: Group) -> list[tuple[str, Group]]:
     """The titles of several views as a group each, so that each can appear with its view; other groups as they are."""
-    views = dict.fromkeys(e.view for e in group.entities if isinstance(e, Text) and e.view)
-    if not views:
-        return [group]
-    return [
-        Group(f"{group.key}-{view}", tuple(e for e in group.entities if isinstance(e, Text) and e.view == view))
-        for view in views
-    ]
-
-
-def _view(group: Group) -> str:
-    """The view that a group holds the title of."""
-    return next((e.view for e in group.entities if isinstance(e, Text)), "")
-
-
-def _is_step(group: Group) -> bool:
-    return group.key.startswith("step-")
+    titles: dict[str, list[Entity]] = {}
+    for text in group.entities:
+        if isinstance(text, Text) and text.view:
+            titles.setdefault(text.view, []).append(text)
+    return [(view, Group(f"{group.key}-{view}", tuple(own))) for view, own in titles.items()] or [("", group)]
 
 
 def _places(drawing: Drawing, slides: Sequence[Slide]) -> list[dict[str, Any]]:
     """For each step its group, its page, and the box of its view there: x, y from the upper left corner, size [mm]."""
+    views = {f"step-{k:02d}": slide.view for k, slide in enumerate(slides, 1)}
     found: list[dict[str, Any]] = []
-    for k, slide in enumerate(slides, 1):
-        key = f"step-{k:02d}"
-        number = next(n for n, page in enumerate(drawing.pages) if any(group.key == key for group in page.groups))
-        page = drawing.pages[number]
-        same = {f"step-{n:02d}" for n, other in enumerate(slides, 1) if other.view == slide.view}
-        boxes = [box_of(group.entities) for group in page.groups if group.key in same]
+    for key, view in views.items():
+        number, page = next((n, p) for n, p in enumerate(drawing.pages) if any(group.key == key for group in p.groups))
+        boxes = [box_of(group.entities) for group in page.groups if views.get(group.key) == view]
         box = around_all([box for box in boxes if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
         left, top = max(0.0, box.left), max(0.0, page.height - box.top)
         width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
         around = [round(x, 1) for x in (left, top, width, height)]
-        found.append({"group": key, "page": number, "view": slide.view, "box": around})
+        found.append({"group": key, "page": number, "view": view, "box": around})
     return found
 
 

@@ -6,17 +6,19 @@ one kind and role make one path, of which every sub-path is one entity of the dr
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable
-from itertools import groupby
 from typing import cast
 from xml.sax.saxutils import escape
+
+import numpy as np
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.fonts import points_size
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import STYLES
+from graphcam.sheets.styles import STYLES, Style
 
 MM_PER_POINT = 25.4 / 72
 ANCHORS = {"left": "", "center": " middle", "right": " end"}
@@ -29,31 +31,18 @@ def group_svg(group: Group, height: float) -> str:
     >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
     <path class="line axis" d="M0 297L10 297M0 292L10 292"/>
     """
-    runs = groupby(group.entities, key=lambda entity: (_kind(entity), entity.role))
-    return "".join(_run(kind, role, run, height) for (kind, role), run in runs)
+    return "".join(_run(kind, role, run, height) for kind, role, run in group.runs())
 
 
 def roles_css() -> str:
     """The width, the line type and the ink in print of every role, as variables of its class."""
-    rules: list[str] = []
-    for role, style in STYLES.items():
-        if " " in role:  # of a drawing in progress: the style sheet knows what is former and what current
-            continue
-        dashes = f"stroke-dasharray:{' '.join(f'{mm:g}' for mm in style.pattern)};" if style.pattern else ""
-        rules.append(f".page .{role}{{--width:{style.width:g}px;--print:{style.colour};{dashes}}}")
-    return "\n".join(rules)
+    # Roles of a drawing in progress have two words: the style sheet knows what is former and what current.
+    return "\n".join(_role_css(role, style) for role, style in STYLES.items() if " " not in role)
 
 
-def _kind(entity: Entity) -> str:
-    match entity:
-        case Text():
-            return "text"
-        case Heads():
-            return "filled"
-        case Circles(opaque=True):
-            return "opaque"
-        case _:
-            return "line"
+def _role_css(role: str, style: Style) -> str:
+    dashes = f"stroke-dasharray:{' '.join(f'{mm:g}' for mm in style.pattern)};" if style.pattern else ""
+    return f".page .{role}{{--width:{style.width:g}px;--print:{style.colour};{dashes}}}"
 
 
 def _run(kind: str, role: str, run: Iterable[Entity], height: float) -> str:
@@ -82,7 +71,10 @@ def _path(entity: Entity, height: float) -> str:
             start, *control = _xy(bezier(points), height)
             return f"M{start}C{' '.join(control)}Z"
         case Circles(centres=centres, radius=radius):
-            return "".join(_circle(centre, radius, height) for centre in centres.tolist())
+            # Two half turns: an arc of a whole turn is none in SVG.
+            r, d = _number(radius), _number(2 * radius)
+            starts = _xy(centres - radius, height)
+            return "".join(f"M{start}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z" for start in starts)
         case ArcEntity():
             return _arc(entity, height)
         case Heads(corners=corners):
@@ -91,22 +83,11 @@ def _path(entity: Entity, height: float) -> str:
             raise AssertionError("a text has no path")
 
 
-def _circle(centre: complex, radius: float, height: float) -> str:
-    """Two half turns: an arc of a whole turn is none in SVG."""
-    r, d = _number(radius), _number(2 * radius)
-    start = f"{_number(centre.real - radius)} {_number(height - centre.imag)}"
-    return f"M{start}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z"
-
-
 def _arc(arc: ArcEntity, height: float) -> str:
     # In two halves, so that the angle that each turns is never in doubt.
-    turns = (arc.start, (arc.start + arc.end) / 2, arc.end)
-    start, middle, end = (
-        f"{_number(arc.centre.real + arc.radius * math.cos(a))} "
-        f"{_number(height - arc.centre.imag - arc.radius * math.sin(a))}"
-        for a in turns
-    )
-    r = _number(arc.radius)
+    turns = arc.start, (arc.start + arc.end) / 2, arc.end
+    points = np.array([arc.centre + cmath.rect(arc.radius, turn) for turn in turns])
+    (start, middle, end), r = _xy(points, height), _number(arc.radius)
     return f"M{start}A{r} {r} 0 0 0 {middle}A{r} {r} 0 0 0 {end}"
 
 

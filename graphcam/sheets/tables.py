@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.model import Entity, Text, moved
-from graphcam.sheets.title_block import Ruling, rules
+from graphcam.sheets.title_block import Ruling, outline, rules, stacked
 from graphcam.words import Tell, Words
 
 ROW = 2.2
@@ -57,47 +58,53 @@ def table_block(table: Table, height: float) -> Block:
 
     A header that is wider than what stands under it is broken into lines, and so is a long name.
     """
-    title, header = str(table.title), [str(cell) for cell in table.header]
-    rows = [[_lines(str(cell), height, name=k == 0) for k, cell in enumerate(line)] for line in table.rows]
-    headed = any(header)
-    bodies = [max((width(line, height) for row in rows for line in row[k]), default=0.0) for k in range(len(header))]
-    under = zip(header, bodies, strict=True)
-    headers = [wrap(cell, height, max(body, 0.6 * width(cell, height))) for cell, body in under]
-    widths = [max([body, *(width(line, height) for line in lines)]) + MARGIN * height
-              for body, lines in zip(bodies, headers, strict=True)]  # fmt: skip
+    title, rows = str(table.title), [_broken(row, height) for row in table.rows]
+    headers = [_header(str(cell), [row[k] for row in rows], height) for k, cell in enumerate(table.header)]
+    headed = int(any(headers))
+    widths = [max(_widest(row[k], height) for row in (headers, *rows)) + MARGIN * height for k in range(len(headers))]
     # The title must not stand over the edge.
     widths[-1] += max(0.0, width(title, height) - sum(widths))
-    ends = [sum(widths[:k]) for k in range(len(widths) + 1)]
-    grid = [headers, *rows] if headed else rows
+    grid = [headers, *rows][1 - headed :]
     heights = [(ROW + (max(map(len, row)) - 1) * LEADING) * height for row in grid]
-    # From the upper edge down to the lower one.
+    # Columns end from the left edge on, rows from the upper edge down.
+    ends = [sum(widths[:k]) for k in range(len(widths) + 1)]
     levels = [sum(heights[j:]) for j in range(len(grid) + 1)]
-    total, top, body_top = ends[-1], levels[0], levels[int(headed)]
-
-    def cells(row: list[list[str]], upper: float, lower: float) -> Iterator[list[Entity]]:
-        for k, lines in enumerate(row):
-            first = (upper + lower) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
-            x, align = (MARGIN / 2 * height, "left") if k == 0 else ((ends[k] + ends[k + 1]) / 2, "center")
-            yield [Text(complex(x, first - j * LEADING * height), line, height, align)
-                   for j, line in enumerate(lines) if line]  # fmt: skip
-
-    ruled: list[Ruling] = [(0, y, total, y) for y in levels[int(headed) + 1 : -1]]
-    ruled += [(x, 0, x, top) for x in ends[1:-1]]
-    bold: list[Ruling] = [(0, 0, total, 0), (total, 0, total, top), (total, top, 0, top), (0, top, 0, 0)]
-    entities: list[Entity] = [rules(0j, [*bold, (0, body_top, total, body_top)] if headed else bold, "table")]
-    entities += [rules(0j, ruled, "ruling")] if ruled else []
-    entities.append(Text(complex(0, top + 0.7 * height), title, height))
+    wide, high = ends[-1], levels[0]
+    across: list[Ruling] = [(0, y, wide, y) for y in levels[1:]]
+    thin = [*across[headed:-1], *((x, 0, x, high) for x in ends[1:-1])]
+    entities: list[Entity] = [rules(0j, outline(wide, high) + across[:headed], "table")]
+    entities += [rules(0j, thin, "ruling")] if thin else []
+    entities.append(Text(complex(0, high + 0.7 * height), title, height))
     answers: list[Entity] = []
-    for j, (row, upper, lower) in enumerate(zip(grid, levels, levels[1:], strict=False), -int(headed)):
-        for k, texts in enumerate(cells(row, upper, lower)):
+    for j, (row, (upper, lower)) in enumerate(zip(grid, pairwise(levels), strict=True), -headed):
+        for k, (lines, (left, right)) in enumerate(zip(row, pairwise(ends), strict=True)):
+            texts = _cell(lines, Box(left, lower, right, upper), height)
             (answers if (j, k) in table.answers else entities).extend(texts)
-    return Block(tuple(entities), tuple(answers), Box(0, 0, total, top + 2.0 * height))
+    return Block(tuple(entities), tuple(answers), Box(0, 0, wide, high + 2.0 * height))
 
 
-def _lines(text: str, height: float, *, name: bool) -> list[str]:
-    """What stands in a cell; a long name is broken into lines."""
+def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
+    """Lines in the middle of a cell; in the first column they begin at the left."""
+    y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
+    x, align = ((box.left + box.right) / 2, "center") if box.left else (MARGIN / 2 * height, "left")
+    return stacked(lines, complex(x, y), LEADING, height, align)
+
+
+def _broken(row: Iterable[Words], height: float) -> list[list[str]]:
+    """The cells of a row in lines; only a long name, at the left, has more than one."""
+    name, *others = map(str, row)
     longest = LONGEST * height
-    return wrap(text, height, longest) if name and width(text, height) > longest else [text]
+    return [wrap(name, height, longest) if width(name, height) > longest else [name], *([cell] for cell in others)]
+
+
+def _header(cell: str, below: Iterable[list[str]], height: float) -> list[str]:
+    """A header's cell in lines about as wide as what stands below it, but in no more than two or three."""
+    widest = max((_widest(lines, height) for lines in below), default=0.0)
+    return wrap(cell, height, max(widest, 0.6 * width(cell, height)))
+
+
+def _widest(lines: Iterable[str], height: float) -> float:
+    return max((width(line, height) for line in lines), default=0.0)
 
 
 def notes_block(notes: Sequence[str], height: float, room: float) -> Block:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.model import Entity, Strokes, Text
-from graphcam.words import Caption, Tell, Words, say
+from graphcam.words import Caption, Tell, say
 
 CAPTION, NARROW = 2.5, 2.0
 """Heights of the captions of fields, and of narrow ones, mm."""
@@ -16,6 +17,8 @@ LOWER = 0.95
 """An entry that has to be broken into lines is lowered by this factor until they fit."""
 ONE_LINE = 0.7
 """An entry is rather lowered by this factor than broken into lines."""
+LEADING = 1.6
+"""From base line to base line of an entry, in heights of its letters."""
 SIZES = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}
 """Width and height of the block of each frame, mm."""
 
@@ -38,12 +41,24 @@ class TitleBlock:
 
 Ruling = tuple[float, float, float, float]
 """A ruled line x1, y1, x2, y2, mm from the lower left corner of the block."""
+Form = tuple[list[Ruling], list[Ruling], list[Text]]
+"""Bold lines, thin lines and texts of a block without its outline."""
 
 
 def rules(corner: complex, lines: list[Ruling], role: str) -> Strokes:
     """Ruled lines of a block with its lower left ``corner``."""
     ends = np.array(lines, dtype=np.float64)
     return Strokes(corner + ends[:, 0] + 1j * ends[:, 1], corner + ends[:, 2] + 1j * ends[:, 3], role)
+
+
+def outline(wide: float, high: float) -> list[Ruling]:
+    """The four sides of a block."""
+    return [(0, 0, wide, 0), (wide, 0, wide, high), (wide, high, 0, high), (0, high, 0, 0)]
+
+
+def stacked(lines: list[str], first: complex, leading: float, height: float, align: str) -> list[Text]:
+    """Lines of text one under the other, the base line of the first one at ``first``; empty ones are left out."""
+    return [Text(first - 1j * (k * leading * height), line, height, align) for k, line in enumerate(lines) if line]
 
 
 def fitted(text: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
@@ -60,22 +75,14 @@ def fitted(text: str, field: Ruling, height: float, align: str = "center") -> li
         height = one_line
     else:
         lines = wrap(text, height, room)
-        while max(width(line, height) for line in lines) > room or _stacked(len(lines), height) > tall:
+        # The last line counts whole: its letters have tails.
+        while max(width(line, height) for line in lines) > room or LEADING * len(lines) * height > tall:
             height *= LOWER
             lines = wrap(text, height, room)
     x = (left + right) / 2 if align == "center" else left + 1.0
     # The first base line, so that the block of lines stands in the middle.
-    y = (bottom + top) / 2 + (len(lines) - 1) * 0.8 * height - height / 2
-    return [Text(complex(x, y - k * 1.6 * height), line, height, align) for k, line in enumerate(lines) if line]
-
-
-def _stacked(lines: int, height: float) -> float:
-    """How high so many lines are, mm, with room for the tails of letters."""
-    return 1.6 * lines * height
-
-
-def _shifted(texts: list[Text], corner: complex) -> list[Text]:
-    return [replace(text, at=corner + text.at) for text in texts]
+    y = (bottom + top) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
+    return stacked(lines, complex(x, y), LEADING, height, align)
 
 
 def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
@@ -89,31 +96,27 @@ def title_block(
     """The block of a frame ("gost" or "iso") with its lower left ``corner``, on one sheet of several."""
     form = _gost if frame == "gost" else _iso
     bold, thin, texts = form(title, sheet, sheets, tell)
-    return [rules(corner, bold, "frame"), rules(corner, thin, "ruling"), *_shifted(texts, corner)]
+    placed = [replace(text, at=corner + text.at) for text in texts]
+    return [rules(corner, outline(*SIZES[frame]) + bold, "frame"), rules(corner, thin, "ruling"), *placed]
 
 
-def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[Ruling], list[Ruling], list[Text]]:
+def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
     bold: list[Ruling] = [
-        (0, 0, 185, 0), (185, 0, 185, 55), (185, 55, 0, 55), (0, 55, 0, 0),
-        (7, 30, 7, 55), (17, 0, 17, 55), (40, 0, 40, 55), (55, 0, 55, 55), (65, 0, 65, 55),
-        (0, 30, 65, 30), (0, 35, 65, 35), (65, 15, 185, 15), (65, 40, 185, 40), (135, 0, 135, 40),
-        (135, 35, 185, 35), (135, 20, 185, 20), (150, 20, 150, 40), (167, 20, 167, 40), (155, 15, 155, 20),
-    ]  # fmt: skip
+        *((7, 30, 7, 55), (17, 0, 17, 55), (40, 0, 40, 55), (55, 0, 55, 55), (65, 0, 65, 55), (0, 30, 65, 30)),
+        *((0, 35, 65, 35), (65, 15, 185, 15), (65, 40, 185, 40), (135, 0, 135, 40), (135, 35, 185, 35)),
+        *((135, 20, 185, 20), (150, 20, 150, 40), (167, 20, 167, 40), (155, 15, 155, 20)),
+    ]
     thin: list[Ruling] = [(0, y, 65, y) for y in (5, 10, 15, 20, 25, 40, 45, 50)]
     thin += [(140, 20, 140, 35), (145, 20, 145, 35)]
     texts: list[Text] = []
-    columns = ((0, 7, say("Ch.")), (7, 17, say("Sheet")), (17, 40, say("Document no.")), (40, 55, say("Signed")),
-               (55, 65, say("Date")))  # fmt: skip
-    for left, right, caption in columns:
+    columns = (say("Ch."), say("Sheet"), say("Document no."), say("Signed"), say("Date"))
+    for (left, right), caption in zip(pairwise((0, 7, 17, 40, 55, 65)), columns, strict=True):
         texts += fitted(tell(caption), (left, 30, right, 35), NARROW)
-    rows: tuple[tuple[Words, str], ...] = (
-        (say("Drawn"), "author"), (say("Checked"), "checked"), (say("Tech."), ""), ("", ""),
-        (say("Norms"), ""), (say("Approved"), "approved"),
-    )  # fmt: skip
-    for k, (caption, name) in enumerate(rows):
-        texts += fitted(tell(caption), (0, 25 - 5 * k, 17, 30 - 5 * k), CAPTION, align="left")
-        if name:
-            texts += entry(title, name, (17, 25 - 5 * k, 40, 30 - 5 * k), CAPTION, align="left")
+    captions = (say("Drawn"), say("Checked"), say("Tech."), "", say("Norms"), say("Approved"))
+    signers = ("author", "checked", "", "", "", "approved")
+    for bottom, caption, name in zip(range(25, -1, -5), captions, signers, strict=True):
+        texts += fitted(tell(caption), (0, bottom, 17, bottom + 5), CAPTION, align="left")
+        texts += entry(title, name, (17, bottom, 40, bottom + 5), CAPTION, align="left") if name else []
     for left, right, caption in ((135, 150, say("Stage")), (150, 167, say("Mass")), (167, 185, say("Scale"))):
         texts += fitted(tell(caption), (left, 35, right, 40), CAPTION)
     texts += entry(title, "number", (65, 40, 185, 55), 7.0)
@@ -124,12 +127,11 @@ def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[
     texts += entry(title, "scale", (167, 20, 185, 35), 3.5)
     texts += fitted(tell(say("Sheet {number}", number=sheet)), (135, 15, 155, 20), CAPTION)
     texts += fitted(tell(say("Sheets {number}", number=sheets)), (155, 15, 185, 20), CAPTION)
-    owner = " ".join(filter(None, (title.organisation, title.group)))
-    texts += [replace(text, field="organisation") for text in fitted(owner, (135, 0, 185, 15), 3.5)]
-    return bold, thin, texts
+    owner = replace(title, organisation=" ".join(filter(None, (title.organisation, title.group))))
+    return bold, thin, [*texts, *entry(owner, "organisation", (135, 0, 185, 15), 3.5)]
 
 
-def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[Ruling], list[Ruling], list[Text]]:
+def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
     fields: tuple[tuple[Caption, str, Ruling], ...] = (
         (say("Responsible department"), "", (0, 27, 48, 36)),
         (say("Checked by"), "checked", (48, 27, 84, 36)),
@@ -151,11 +153,11 @@ def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> tuple[list[R
     thin: list[Ruling] = []
     texts: list[Text] = []
     for caption, name, (left, bottom, right, top) in fields:
-        thin += [(left, bottom, right, bottom), (left, bottom, left, top)]
+        # The outer sides are bold already.
+        thin += [(left, bottom, right, bottom)] if bottom else []
+        thin += [(left, bottom, left, top)] if left else []
         texts += fitted(tell(caption), (left, top - 3.6, right, top - 0.2), 1.8, align="left")
-        if name:
-            texts += entry(title, name, (left, bottom, right, top - 3.2), 5.0 if name == "name" else 3.5)
+        height = 5.0 if name == "name" else 3.5
+        texts += entry(title, name, (left, bottom, right, top - 3.2), height) if name else []
     texts += fitted(f"{sheet}/{sheets}", (164, 0, 180, 9 - 3.2), 3.5)
-    bold: list[Ruling] = [(0, 0, 180, 0), (180, 0, 180, 36), (180, 36, 0, 36), (0, 36, 0, 0)]
-    # The outer sides are bold already.
-    return bold, [line for line in thin if not (line[1] == line[3] == 0 or line[0] == line[2] == 0)], texts
+    return [], thin, texts

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,8 +50,7 @@ class Writing:
     @property
     def size(self) -> complex:
         """Width and height of the text's box, as x + iy."""
-        wide, below, above = extent(self.text, self.height)
-        return complex(wide, below + above)
+        return _size(self.text, self.height)
 
     def set_at(self, k: int) -> Text:
         """The text in its place ``k``."""
@@ -60,12 +59,35 @@ class Writing:
         base = self.centres[k] - cmath.rect((above - below) / 2, angle + math.pi / 2)
         return Text(complex(base), self.text, self.height, "center", angle, of=self.of)
 
+    def on_line(self, centres: Points, angle: float, cost: Floats, dearer: float) -> Writing:
+        """The text of a line, with places on it before these, which cost so much more."""
+        return replace(
+            self,
+            centres=np.concatenate([centres, self.centres]),
+            angles=np.concatenate([np.full(len(centres), angle), self.angles]),
+            cost=np.concatenate([cost, dearer + self.cost]),
+            anchors=np.concatenate([np.full(len(centres), complex("nan")), self.anchors]),
+            bound=True,
+        )
+
+
+def unit(vector: complex) -> complex:
+    """The direction of a vector; 1 of none.
+
+    >>> unit(5j), unit(0j)
+    (1j, (1+0j))
+    """
+    return vector / abs(vector) if vector else 1.0 + 0j
+
+
+def _size(text: str, height: float) -> complex:
+    wide, below, above = extent(text, height)
+    return complex(wide, below + above)
+
 
 def around(anchor: complex, text: str, height: float, towards: complex) -> Writing:
     """Level places around a point, first near it in the direction ``towards``."""
-    wide, below, above = extent(text, height)
-    half = complex(wide, below + above) / 2
-    favourite = towards / abs(towards) if towards else 1.0 + 0j
+    half, favourite = _size(text, height) / 2, unit(towards)
     # The preferred direction itself comes first, then the compass.
     directions: Points = np.concatenate([[favourite], DIRECTIONS])
     # The box touches the point with a corner or with the middle of a side, and everything between.
@@ -83,43 +105,27 @@ def around(anchor: complex, text: str, height: float, towards: complex) -> Writi
 
 def outside(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> Writing:
     """Level places along an arc: beyond its middle, then elsewhere along it, then inside; far away with a leader."""
-    wide, below, above = extent(text, height)
-    half = complex(wide, below + above) / 2
+    half = _size(text, height) / 2
     shares = np.array([0.5, 0.42, 0.58, 0.34, 0.66, 0.25, 0.75])
     rays: Points = np.exp(1j * (start + shares * (end - start)))
     reach = np.abs(half.real * rays.real) + np.abs(half.imag * rays.imag) + 1.2
     spread = 6.0 * np.abs(shares - 0.5)
     middle = around(complex(centre + radius * rays[0]), text, height, complex(rays[0]))
-    return Writing(
-        text, height,
-        np.concatenate([centre + (radius + reach) * rays, centre + (radius - reach) * rays, middle.centres]),
-        np.concatenate([np.zeros(2 * len(rays)), middle.angles]),
-        np.concatenate([spread, 2 + spread, 3 + middle.cost]),
-        np.concatenate([np.full(2 * len(rays), complex("nan")), middle.anchors]),
-        bound=True,
-    )  # fmt: skip
+    beside = np.concatenate([centre + (radius + reach) * rays, centre + (radius - reach) * rays])
+    return middle.on_line(beside, 0.0, np.concatenate([spread, 2 + spread]), dearer=3)
 
 
 def along(start: complex, end: complex, text: str, height: float) -> Writing:
     """Places along a dimension line, readable from below or from the right, above the line before below it."""
-    _, below, above = extent(text, height)
-    direction = (end - start) / abs(end - start) if end != start else 1.0 + 0j
+    direction = unit(end - start)
     # A base line that runs to the left would stand on its head; one that runs straight up is read from the right.
     if direction.real < -1e-9 or (abs(direction.real) <= 1e-9 and direction.imag < 0):
         start, end, direction = end, start, -direction
-    lift = (below + above) / 2 + 0.8
-    on_line = start + SHARES * (end - start)
-    centres = np.concatenate([on_line + 1j * direction * lift, on_line - 1j * direction * lift])
-    cost = np.concatenate([4 * np.abs(SHARES - 0.5), 3 + 4 * np.abs(SHARES - 0.5)])
+    on_line, cost = start + SHARES * (end - start), 4 * np.abs(SHARES - 0.5)
     free = around(complex(on_line[0]), text, height, 1j * direction)
-    return Writing(
-        text, height,
-        np.concatenate([centres, free.centres]),
-        np.concatenate([np.full(len(centres), cmath.phase(direction)), free.angles]),
-        np.concatenate([cost, 12 + free.cost]),
-        np.concatenate([np.full(len(centres), complex("nan")), free.anchors]),
-        bound=True,
-    )  # fmt: skip
+    lift = free.size.imag / 2 + 0.8
+    centres = np.concatenate([on_line + 1j * direction * lift, on_line - 1j * direction * lift])
+    return free.on_line(centres, cmath.phase(direction), np.concatenate([cost, 3 + cost]), dearer=12)
 
 
 def over(start: complex, end: complex, text: str, height: float) -> Writing:

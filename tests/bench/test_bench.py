@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from graphcam.bench import measuring as reports
+from graphcam.bench import bench_report as reports
 from graphcam.bench import peers as other_packages
-from graphcam.bench.bench_folder import FILES
+from graphcam.bench.bench_files import FILES
 from graphcam.bench.convergence import (
     FITTED,
     convergence,
@@ -211,7 +211,7 @@ def test_a_folder_that_cannot_be_written_is_told_before_anything_is_measured(tmp
     def measured(*_):
         raise AssertionError
 
-    monkeypatch.setattr("graphcam.bench.bench_folder.measure", measured)
+    monkeypatch.setattr("graphcam.bench.bench_files.measure", measured)
     (tmp_path / "file").write_text("in the way")
     result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "file")])
     assert result.exit_code == WRONG_INPUT

@@ -7,13 +7,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+from overlaps import overlaps
 from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.report.documents import sheet_of, worksheet
 from graphcam.sheets.model import Drawing, Entity, Group, Text
-from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.panels import BLANK
 from graphcam.sheets.sampling import outline
 from graphcam.solving.solution import Solution

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from overlaps import overlaps
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS
 from graphcam.sheets.model import Page, Text
-from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import outline, sampled
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.task import Task

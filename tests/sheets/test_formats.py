@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from overlaps import overlaps
 from scene import TITLE
 
 from graphcam.errors import DesignError
@@ -14,7 +15,6 @@ from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.frame import frame, title_box
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Stroke, Strokes, Text
-from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.title_block import SIZES as BLOCKS
 from graphcam.sheets.title_block import title_block
 

@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from overlaps import overlaps
 from scene import TABLE, TITLE, drawing, steps
 
 import graphcam as gc
@@ -16,7 +17,6 @@ from graphcam.report.sheet_contents import sheet
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Stroke, Strokes, Text
-from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import box_of
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import TranslatingTable

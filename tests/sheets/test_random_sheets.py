@@ -9,13 +9,13 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from overlaps import overlaps
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of, worksheet
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES
 from graphcam.sheets.model import Drawing, Strokes, Text
-from graphcam.sheets.overlaps import overlaps
 from graphcam.sheets.sampling import box_of
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.arcs_task import ArcsTask

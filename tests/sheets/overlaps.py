@@ -56,10 +56,8 @@ def _pairs(boxes: list[Points]) -> list[tuple[int, int]]:
     centres = np.array([box.mean() for box in boxes])
     reach = np.array([np.abs(box - box.mean()).max() for box in boxes])
     near = np.abs(centres[:, None] - centres) < reach[:, None] + reach
-    return [
-        (j, k) for j, k in combinations(range(len(boxes)), 2)
-        if near[j, k] and not _apart(boxes[j], boxes[k]) and not _apart(boxes[k], boxes[j])
-    ]  # fmt: skip
+    pairs = [(j, k) for j, k in combinations(range(len(boxes)), 2) if near[j, k]]
+    return [(j, k) for j, k in pairs if not _apart(boxes[j], boxes[k]) and not _apart(boxes[k], boxes[j])]
 
 
 def _apart(one: Points, other: Points) -> bool:

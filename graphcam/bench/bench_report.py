@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
@@ -38,25 +38,14 @@ class Effort:
 STEP_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
 STEP_BY_THREE = (12, 36, 120, 360, 1080, 3240, 9720, 29160)
-QUICK = Effort(
-    *(PARTS, LAWS, 1000, PENCIL_PARTS),
-    TimedSizes(
-        STEP_BY_FOUR[:8],
-        STEP_BY_FOUR[:6],
-        STEP_BY_FOUR[:9],
-        STEP_BY_THREE[:6],
-        STEP_BY_THREE[:4],
-        (24, 96, 360, 1440, 5760),
-    ),
-    *(100_000, 1_000_000, 0.02),
-)
+CORNERS = (24, 96, 360, 1440, 5760, 23040)
 FULL = Effort(
     *(PARTS, LAWS, 2000, PENCIL_PARTS),
-    TimedSizes(
-        STEP_BY_FOUR, STEP_BY_FOUR[:7], STEP_BY_FOUR, STEP_BY_THREE, STEP_BY_THREE[:4], (24, 96, 360, 1440, 5760, 23040)
-    ),
+    TimedSizes(STEP_BY_FOUR, STEP_BY_FOUR[:7], STEP_BY_FOUR, STEP_BY_THREE, STEP_BY_THREE[:4], CORNERS),
     *(100_000, 1_000_000, 0.2),
 )
+FEWER = replace(FULL.sizes, graphical=STEP_BY_FOUR[:8], profile=STEP_BY_FOUR[:6], integrators=STEP_BY_FOUR[:9])
+QUICK = replace(FULL, hands=1000, budget=0.02, sizes=replace(FEWER, half_planes=STEP_BY_THREE[:6], buffer=CORNERS[:5]))
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from graphcam import __version__
+from graphcam.bench.bench_report import Effort, Report, measure
 from graphcam.bench.bench_tables import markdown, numbers
-from graphcam.bench.measuring import Effort, Report, measure
 from graphcam.bench.timing import Timer
 from graphcam.files import whole_folder
 from graphcam.report.sheet_contents import sheet
