@@ -40,6 +40,11 @@ class Quantity:
     tolerance_paper: float
 
     @property
+    def exists(self) -> bool:
+        """Whether the follower has the quantity."""
+        return math.isfinite(self.drawn) or math.isfinite(self.exact)
+
+    @property
     def error(self) -> float:
         """Drawn less exact [unit]."""
         return self.drawn - self.exact
@@ -170,7 +175,7 @@ class Source:
 
     def per_mm(self, chain: Drawings) -> float:
         """The scale of the paper it is read from [unit/mm]."""
-        return self.factor * float(np.ravel(chain[self.construction].readings[self.reading].scale)[0])
+        return self.factor * chain[self.construction].readings[self.reading].per_mm
 
 
 _DEGREES = math.degrees(1.0)

@@ -215,6 +215,11 @@ class Reading:
         # A scale per sample stands before the axes of one drawing.
         return self.paper * scale.reshape(scale.shape + (1,) * (np.ndim(self.paper) - scale.ndim))
 
+    @property
+    def per_mm(self) -> float:
+        """The scale in the first sample [unit/mm]."""
+        return float(np.ravel(self.scale)[0])
+
 
 def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> Reading:
     """A :class:`Reading` of what is on the paper.

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphcam.drafting.ink import Step
+from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import Part, compose_parts
@@ -18,12 +19,14 @@ from graphcam.words import Tell
 class Contents:
     """What stands on the sheets of a solution.
 
+    drawn : the constructions by name
     steps : (name of the construction, step), in order
     givens, results : tables that stand with the first construction, and with the last
     notes : sentences that are numbered on the sheet
     tell : says all texts in the language of the sheets
     """
 
+    drawn: Mapping[str, Construction]
     steps: tuple[tuple[str, Step], ...]
     givens: tuple[Table, ...]
     results: tuple[Table, ...]
@@ -81,13 +84,15 @@ def _whole(contents: Contents) -> Part:
 
 def _parts(contents: Contents) -> list[Part]:
     """A part for each construction that draws something."""
+    drawing = list(dict.fromkeys(name for name, step in contents.steps if step.marks))
+    return [_part(contents, name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]
+
+
+def _part(contents: Contents, construction: str, *, first: bool, last: bool) -> Part:
+    """A construction, with what was drawn before in its views."""
     steps = _numbered(contents)
-    drawing = [name for name in contents.constructions if any(step.marks for _, of, step in steps if of == name)]
-    parts: list[Part] = []
-    for name in drawing:
-        views = {step.view.name for _, of, step in steps if of == name and step.marks}
-        last = max(number for number, of, _ in steps if of == name)
-        shown = tuple(s for s in steps if s[0] <= last and s[2].view.name in views)
-        tables = (contents.givens if name == drawing[0] else ()) + (contents.results if name == drawing[-1] else ())
-        parts.append(Part(shown, tables, contents.notes if name == drawing[-1] else ()))
-    return parts
+    own = [(number, step) for number, name, step in steps if name == construction]
+    views = {step.view.name for _, step in own if step.marks}
+    shown = tuple(row for row in steps if row[0] <= own[-1][0] and row[2].view.name in views)
+    tables = (contents.givens if first else ()) + (contents.results if last else ())
+    return Part(shown, tables, contents.notes if last else ())

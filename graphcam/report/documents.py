@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeVar
+
 from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.contents import Contents, drawing
+from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
 from graphcam.report.sheet_contents import contents
 from graphcam.sheets.model import Drawing
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.solution import Solution
+
+Document = TypeVar("Document")
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
@@ -21,11 +28,6 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     DesignError : there is no such step or construction
     """
     return drawing(contents_of(solution), upto, per_construction=per_construction)
-
-
-def contents_of(solution: AnySolution) -> Contents:
-    """What stands on the sheets."""
-    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else contents(solution)
 
 
 def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawing:
@@ -42,6 +44,23 @@ def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawi
     return sheet_of(solution, 0, per_construction=per_construction)
 
 
+def contents_of(solution: AnySolution) -> Contents:
+    """What stands on the sheets."""
+    return _by_kind(solution, contents, arcs_contents)
+
+
 def note_of(solution: AnySolution) -> str:
     """The note in Markdown."""
-    return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)
+    return _by_kind(solution, note, arcs_note)
+
+
+def scene_of(solution: AnySolution) -> MechanismScene:
+    """The mechanism over a turn."""
+    return _by_kind(solution, cam_scene, arcs_scene)
+
+
+def _by_kind(
+    solution: AnySolution, of_motion: Callable[[Solution], Document], of_arcs: Callable[[ArcsSolution], Document]
+) -> Document:
+    """What is made of a solution by the kind of its task, which is asked for here alone."""
+    return of_arcs(solution) if isinstance(solution, ArcsSolution) else of_motion(solution)

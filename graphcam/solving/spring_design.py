@@ -81,6 +81,11 @@ class SpringDesign:
             return None
         return force_plan(self.chain.pressure_angle, self.load, self.chain.pencil)
 
+    @property
+    def lost(self) -> list[Caption]:
+        """Between which cam angles contact is lost."""
+        return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: N and degrees."""
         least, greatest = self.contact.least_force(), self.greatest_normal
@@ -100,7 +105,7 @@ class SpringDesign:
     def table(self) -> Table:
         """The load and its results for the sheet."""
         least, greatest, load = self.contact.least_force(), self.greatest_normal, self.load
-        lost = [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+        lost = sequence(self.lost, "; ")
         rows = (
             (say("moving mass"), say("{mass:g} kg", mass=load.mass), ""),
             (say("stiffness c"), say("{stiffness:g} N/mm", stiffness=load.stiffness), ""),
@@ -108,7 +113,7 @@ class SpringDesign:
             (say("least preload"), _newtons(self.needed), say("at {phi}", phi=degrees(self.least.phi))),
             (say("least contact force"), _newtons(_clean(least.value)), at_side(least)),
             (say("greatest normal force"), _newtons(greatest.value), at_side(greatest)),
-            (say("contact"), say("lost, {where}", where=sequence(lost, "; ")) if lost else say("kept"), ""),
+            (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), ""),
         )
         given = 2 if self.open_preload else 3
         found = frozenset((row, column) for row in range(given, len(rows)) for column in (1, 2))
@@ -151,7 +156,7 @@ def contact_view(contact: Contact) -> Step:
         Line(points, Role.RESULT),
         Dots(np.array([bottom]), Role.LIMIT),
         Label(bottom, _newtons(_clean(least.value)), towards=-UP),
-    ]  # fmt: skip
+    ]
     for start, end in contact.lost():
         marks += [Line(np.array([a, b]) / mu_phi + 0j, Role.LIMIT) for a, b in _in_turn(start, end)]
     caption = (
