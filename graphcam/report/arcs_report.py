@@ -16,7 +16,7 @@ from graphcam.report.contents import Contents
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.note import against_exact, as_drawn, drawn_how, heading, markdown_table, told_jumps, whole_note
 from graphcam.report.note_tables import station_table
-from graphcam.report.sheet_contents import diagram_titles, on_sheets, titled
+from graphcam.report.sheet_contents import diagram_titles, title_block, titled
 from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution
@@ -42,14 +42,14 @@ DRAWN = say("drawn")
 
 def arcs_contents(solution: ArcsSolution) -> Contents:
     """What stands on its sheets: the arcs, the roller on them, the diagrams, the data, drawn against exact values."""
-    titles = _titles(solution)
-    steps = [(name, titled(step, titles)) for name, c in solution.drawn.items() for step in c.steps()]
+    titles, quantities = _titles(solution), solution.comparison.quantities
+    steps = tuple((name, titled(step, titles)) for name, c in solution.drawn.items() for step in c.steps())
     # In two tables, so that they fit on the smallest format.
-    quantities = solution.comparison.quantities
     of_arcs = {name: q for name, q in quantities.items() if name in OF_ARCS}
     of_motion = {name: q for name, q in quantities.items() if name not in OF_ARCS}
-    tables = (_data(solution),), (comparison(of_arcs), comparison(of_motion))
-    return on_sheets(solution, solution.drawn, steps, tables, solution.chain.board.mu_l)
+    results = comparison(of_arcs), comparison(of_motion)
+    block = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
+    return Contents(solution, block, solution.drawn, steps, (_data(solution),), results)
 
 
 def _titles(solution: ArcsSolution) -> dict[str, Caption]:

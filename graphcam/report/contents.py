@@ -12,7 +12,7 @@ from graphcam.sheets.layout import Part, compose_parts
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
-from graphcam.words import Tell
+from graphcam.solving.arcs_solution import AnySolution
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,18 +22,19 @@ class Contents:
     drawn : the constructions by name
     steps : (name of the construction, step), in order
     givens, results : tables that stand with the first construction, and with the last
-    notes : sentences that are numbered on the sheet
-    tell : says all texts in the language of the sheets
     """
 
+    solution: AnySolution
+    title: TitleBlock
     drawn: Mapping[str, Construction]
     steps: tuple[tuple[str, Step], ...]
     givens: tuple[Table, ...]
     results: tuple[Table, ...]
-    notes: tuple[str, ...]
-    title: TitleBlock
-    sheet: Format
-    tell: Tell
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The sentences that are numbered on the sheet."""
+        return tuple(self.solution.warnings)
 
     @property
     def constructions(self) -> tuple[str, ...]:
@@ -55,7 +56,9 @@ def drawing(contents: Contents, upto: int | str | None = None, *, per_constructi
     """
     last = None if upto is None else last_step(contents, upto)
     parts = _parts(contents) if per_construction else [_whole(contents)]
-    return compose_parts(parts, contents.title, contents.sheet, last, contents.tell)
+    paper = contents.solution.task.drawing
+    sheet = Format(paper.format, paper.frame, paper.orientation)
+    return compose_parts(parts, contents.title, sheet, last, paper.tell)
 
 
 def last_step(contents: Contents, upto: int | str) -> int:

@@ -1,9 +1,6 @@
-"""The documents that a solution gets, whichever kind of task it solves."""
+"""The documents that a solution gets, whichever kind of task it solves: here alone the kind is asked for."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
-from typing import TypeVar
 
 from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.contents import Contents, drawing
@@ -12,9 +9,6 @@ from graphcam.report.note import note
 from graphcam.report.sheet_contents import contents
 from graphcam.sheets.model import Drawing
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
-from graphcam.solving.solution import Solution
-
-Document = TypeVar("Document")
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
@@ -46,21 +40,14 @@ def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawi
 
 def contents_of(solution: AnySolution) -> Contents:
     """What stands on the sheets."""
-    return _by_kind(solution, contents, arcs_contents)
+    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else contents(solution)
 
 
 def note_of(solution: AnySolution) -> str:
     """The note in Markdown."""
-    return _by_kind(solution, note, arcs_note)
+    return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)
 
 
 def scene_of(solution: AnySolution) -> MechanismScene:
     """The mechanism over a turn."""
-    return _by_kind(solution, cam_scene, arcs_scene)
-
-
-def _by_kind(
-    solution: AnySolution, of_motion: Callable[[Solution], Document], of_arcs: Callable[[ArcsSolution], Document]
-) -> Document:
-    """What is made of a solution by the kind of its task, which is asked for here alone."""
-    return of_arcs(solution) if isinstance(solution, ArcsSolution) else of_motion(solution)
+    return arcs_scene(solution) if isinstance(solution, ArcsSolution) else cam_scene(solution)

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 from graphcam.constructions.differentiation import VIEWS as DIFFERENTIATED
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, say
+from graphcam.drafting.ink import Caption, Reading, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
-from graphcam.report.contents import Contents, drawing
+from graphcam.report.contents import Contents
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
-from graphcam.sheets.formats import Format
-from graphcam.sheets.model import Drawing
-from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
-from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
@@ -29,11 +25,6 @@ UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
 
-def sheet(solution: Solution) -> Drawing:
-    """The finished sheet."""
-    return drawing(contents(solution))
-
-
 def contents(solution: Solution) -> Contents:
     """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
     titles, spring, drawn = _titles(solution), solution.spring, dict(solution.drawn)
@@ -43,32 +34,8 @@ def contents(solution: Solution) -> Contents:
         steps += spring.steps()
         results.append(spring.table())
         drawn |= {"force_plan": spring.force_plan} if spring.force_plan else {}
-    givens = data(solution), phases_at_speed(solution)
-    return on_sheets(solution, drawn, steps, (givens, results), solution.chain.profile_scale)
-
-
-def on_sheets(
-    solution: AnySolution,
-    drawn: Mapping[str, Construction],
-    steps: Iterable[tuple[str, Step]],
-    tables: tuple[Iterable[Table], Iterable[Table]],
-    scale: Scale,
-) -> Contents:
-    """What was drawn, its steps and tables (givens, results), with what stands on the sheets of every solution.
-
-    scale : of the profile
-    """
-    paper, (givens, results) = solution.task.drawing, tables
-    return Contents(
-        drawn,
-        tuple(steps),
-        tuple(givens),
-        tuple(results),
-        notes=tuple(solution.warnings),
-        title=title_block(solution.task.title, scale, paper.tell),
-        sheet=Format(paper.format, paper.frame, paper.orientation),
-        tell=paper.tell,
-    )
+    block = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
+    return Contents(solution, block, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
 
 
 def title_name(title: TitleTable, tell: Tell) -> str:

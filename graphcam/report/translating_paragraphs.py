@@ -114,19 +114,14 @@ def _centre(region: Construction) -> list[Caption]:
 
 def _adopted(solution: Solution) -> Caption:
     """The prime radius and the offset that are built, and why these."""
-    chain, board = solution.chain, solution.chain.board
-    least = float(solution.drawn["minimum_radius"].value("prime_radius"))
+    chain, board, least = solution.chain, solution.chain.board, solution.drawn["minimum_radius"].value("prime_radius")
     said: list[Caption] = []
     if board.follower.place is None:
-        said.append(
-            say(
-                "The offset is adopted as $e = {e:g}$ mm, a multiple of {rounding:g} mm.",
-                e=chain.place, rounding=chain.rounding,
-            )
-        )  # fmt: skip
+        offset = {"e": chain.place, "rounding": chain.rounding}
+        said.append(say("The offset is adopted as $e = {e:g}$ mm, a multiple of {rounding:g} mm.", **offset))
     if board.prime_radius is None:
         said += _rounded_up(solution)
-    elif board.prime_radius < least - LAST_DIGIT:
+    elif board.prime_radius < float(least) - LAST_DIGIT:
         smaller = say(
             "The task gives $r_0 = {r0:g}$ mm, which is smaller: the permitted pressure angles cannot be kept.",
             r0=board.prime_radius,
@@ -142,17 +137,16 @@ def _rounded_up(solution: Solution) -> list[Caption]:
     chain, board = solution.chain, solution.chain.board
     there = replace(chain.perfect, board=replace(board, follower=DrawnTranslating(chain.place)))
     radius = number(float(there.minimum_radius.value("prime_radius")))
-    said: list[Caption] = []
-    if board.follower.place is None:
-        said.append(say("The combined diagram, read again at this offset, gives {radius} mm.", radius=radius))
-    elif not chain.pencil.perfect:
-        said.append(say("A hand without error reads {radius} mm.", radius=radius))
     adopted = say(
         "Rounded up to a multiple of {rounding:g} mm the prime radius is adopted as $r_0 = {r0:g}$ mm.",
         rounding=chain.rounding,
         r0=chain.prime_radius,
     )
-    return [*said, adopted]
+    if board.follower.place is None:
+        return [say("The combined diagram, read again at this offset, gives {radius} mm.", radius=radius), adopted]
+    if chain.pencil.perfect:
+        return [adopted]
+    return [say("A hand without error reads {radius} mm.", radius=radius), adopted]
 
 
 def _sensitivity(solution: Solution) -> Words:
