@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
-from graphcam.sheets.formats import Format
-from graphcam.sheets.layout import Part, compose_parts
-from graphcam.sheets.model import Drawing
+from graphcam.sheets.layout import Part
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.arcs_solution import AnySolution
@@ -42,25 +40,6 @@ class Contents:
         return tuple(dict.fromkeys(name for name, _ in self.steps))
 
 
-def drawing(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
-    """The sheets.
-
-    upto : the last step that is drawn, its number or the name of the construction that it ends; of what follows only
-        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet, None for a
-        finished sheet.
-    per_construction : every construction on sheets of its own, with what was drawn before in the same views
-
-    Raises
-    ------
-    DesignError : there is no such step or construction
-    """
-    last = None if upto is None else last_step(contents, upto)
-    parts = _parts(contents) if per_construction else [_whole(contents)]
-    paper = contents.solution.task.drawing
-    sheet = Format(paper.format, paper.frame, paper.orientation)
-    return compose_parts(parts, contents.title, sheet, last, paper.tell)
-
-
 def last_step(contents: Contents, upto: int | str) -> int:
     """The number of the last step that is drawn.
 
@@ -81,11 +60,12 @@ def _numbered(contents: Contents) -> tuple[tuple[int, str, Step], ...]:
     return tuple((number, name, step) for number, (name, step) in enumerate(contents.steps, 1))
 
 
-def _whole(contents: Contents) -> Part:
+def whole(contents: Contents) -> Part:
+    """All of it as one part."""
     return Part(_numbered(contents), contents.givens + contents.results, contents.notes)
 
 
-def _parts(contents: Contents) -> list[Part]:
+def parts(contents: Contents) -> list[Part]:
     """A part for each construction that draws something."""
     drawing = list(dict.fromkeys(name for name, step in contents.steps if step.marks))
     return [_part(contents, name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]

@@ -15,7 +15,7 @@ from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
-from graphcam.report.paragraphs import OF_ALL, OF_ROLLERS, Paragraph, g5, g6, warning
+from graphcam.report.paragraphs import OF_ALL, OF_ROLLERS, Paragraph, general, warning
 from graphcam.report.sheet_contents import title_name
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
 from graphcam.report.translating_paragraphs import OF_TRANSLATING
@@ -169,14 +169,14 @@ def _at_speed(solution: Solution) -> str:
         for k, p in enumerate(speeds)
     ]
     k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, Moving))
-    omega, law = g5(2 * math.pi * rpm / 60), first.normalised
+    omega, law = general(2 * math.pi * rpm / 60, 5), first.normalised
     values = {
         "s": unit("s"),
         "per_s": unit({"mm": "m/s", "rad": "rad/s"}[of_lift]),
-        "angle": g5(first.angle),
-        "lift": g6(first.lift / PER_SPEED[of_lift]),
-        "cv": g5(law.peak_velocity),
-        "ca": g5(law.peak_acceleration),
+        "angle": general(first.angle, 5),
+        "lift": general(first.lift / PER_SPEED[of_lift]),
+        "cv": general(law.peak_velocity, 5),
+        "ca": general(law.peak_acceleration, 5),
         "time": number(speeds[k].time, 4),
         "v": number(speeds[k].max_velocity, 3),
         "a": number(speeds[k].max_acceleration, 3),

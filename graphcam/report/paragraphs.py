@@ -40,14 +40,9 @@ def warning(sentence: Words) -> Caption:
     return say("**{sentence}**", sentence=sentence)
 
 
-def g6(value: float) -> Caption:
-    """A number with six digits, without needless zeros."""
-    return say("{value:.6g}", value=value)
-
-
-def g5(value: float) -> Caption:
-    """A number with five digits, without needless zeros."""
-    return say("{value:.5g}", value=value)
+def general(value: float, digits: int = 6) -> Caption:
+    """A number with so many digits, without needless zeros."""
+    return say("{value:.{digits}g}", value=value, digits=digits)
 
 
 def lengths(values: Iterable[float]) -> Words:
@@ -64,7 +59,7 @@ def acceleration(solution: Solution) -> str:
     phases, index = moving_phases(motion, stations), stations.phase[stations.last].tolist()
     greatest, first = diagram.first("greatest"), next(k for k, phase in enumerate(phases) if phase.direction > 0)
     k1, factors = f"{index[first] + 1}", [_factor(phase) for phase in phases]
-    alike = {"chosen": g6(greatest[first]), "first": factors[first], "mm": unit("mm")}
+    alike = {"chosen": general(greatest[first]), "first": factors[first], "mm": unit("mm")}
     ordinates = [
         formula(ORDINATE, k=f"{i + 1}", factor=factor, y=number(y), **alike)
         for k, (i, factor, y) in enumerate(zip(index, factors, greatest, strict=True))
@@ -103,13 +98,13 @@ def acceleration(solution: Solution) -> str:
 
 def _peak_and_lift(phase: Moving) -> tuple[Caption, Caption]:
     """The law's factor C and the lift h."""
-    return g6(phase.normalised.peak_acceleration), g6(phase.lift)
+    return general(phase.normalised.peak_acceleration), general(phase.lift)
 
 
 def _factor(phase: Moving) -> Caption:
     """What the greatest ordinate of a phase goes as."""
     c, h = _peak_and_lift(phase)
-    return formula(r"<c> \cdot <h>/<phi>^2", c=c, h=h, phi=g6(math.degrees(phase.angle)))
+    return formula(r"<c> \cdot <h>/<phi>^2", c=c, h=h, phi=general(math.degrees(phase.angle)))
 
 
 SCALES = (
@@ -161,10 +156,10 @@ def _integrated(solution: Solution) -> dict[str, Caption]:
     return {
         **numbers(y=middles.first("middles")[0], width=x[1] - x[0], chord=chord, left_s=c.first("closing_s")),
         **numbers(v=c.first("max_v"), a=c.first("max_a"), paper=lift / c.readings["s"].per_mm),
-        **{name: g5(c.readings[name[-1]].per_mm) for name in ("mu_s", "mu_v", "mu_a")},
+        **{name: general(c.readings[name[-1]].per_mm, 5) for name in ("mu_s", "mu_v", "mu_a")},
         **{name: say("{h:g}", h=h) for name, h in zip(("h1", "h2"), c.givens["poles"], strict=True)},
         "mu_phi": number(solution.chain.board.mu_phi.per_mm, 6),
-        "lift": g6(lift),
+        "lift": general(lift),
         "unit": of_lift,
         "of_s": say("{unit}/mm", unit=of_lift),
         "of_v": say("({unit}/rad)/mm", unit=of_lift),

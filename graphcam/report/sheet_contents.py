@@ -25,7 +25,7 @@ UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
 
-def contents(solution: Solution) -> Contents:
+def motion_contents(solution: Solution) -> Contents:
     """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
     titles, spring, drawn = _titles(solution), solution.spring, dict(solution.drawn)
     steps = [(name, _scaled(step, titles)) for name, c in drawn.items() for step in c.steps()]

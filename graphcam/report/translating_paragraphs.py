@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from graphcam.constructions.axes import degrees, station_names, turning
 from graphcam.constructions.drawn_translating import DrawnTranslating
@@ -16,35 +16,12 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.limits import Limits
 from graphcam.report.markdown import blocks, formula, number, numbers
-from graphcam.report.paragraphs import LAST_DIGIT, Paragraph, g6, warning
+from graphcam.report.paragraphs import LAST_DIGIT, Paragraph, general, warning
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
 ONE_DEGREE = math.radians(1)
 TAN = say("\\tan")
-
-
-@dataclass(frozen=True)
-class Condition:
-    """A line that bounds the region: s0 tan(angle) + side sigma e >= v - s tan(angle), where it touches at (s, v)."""
-
-    name: str
-    angle: float
-    side: int
-    s: float
-    v: float
-
-    @property
-    def least(self) -> float:
-        """The right-hand side [mm]."""
-        return self.v - self.s * math.tan(self.angle)
-
-    def told(self) -> Caption:
-        """The condition as a formula."""
-        tangent = formula(r"<tan> <angle>^\circ", tan=TAN, angle=g6(math.degrees(self.angle)))
-        left = formula(r"s_0 <tangent> <sign> \sigma e", tangent=tangent, sign="+" if self.side > 0 else "-")
-        values = numbers(v=self.v, s=self.s, least=self.least)
-        return replace(CONDITIONS[self.name], values={"left": left, "tangent": tangent, **values})
 
 
 CONDITIONS = {
@@ -60,14 +37,17 @@ CONDITIONS = {
 }
 
 
-def _conditions(region: Construction) -> list[Condition]:
+def _conditions(region: Construction) -> Iterator[Caption]:
+    """The lines that bound the region: s0 tan(angle) + side sigma e >= v - s tan(angle), each touching at (s, v)."""
     limits, mu = region.givens["limits"], region.readings["prime_radius"].per_mm
-    found: list[Condition] = []
-    for name, angle, side in (("rise", limits.rise, 1), ("return", limits.return_, -1), ("rest", limits.rise, -1)):
+    for name, angle, side in (("rise", limits.rise, "+"), ("return", limits.return_, "-"), ("rest", limits.rise, "-")):
         if name in region.points and angle is not None:
             touch = complex(region.first(name)) * mu
-            found.append(Condition(name, angle, side, touch.imag, abs(touch.real)))
-    return found
+            s, v = touch.imag, abs(touch.real)
+            tangent = formula(r"<tan> <angle>^\circ", tan=TAN, angle=general(math.degrees(angle)))
+            left = formula(r"s_0 <tangent> <side> \sigma e", tangent=tangent, side=side)
+            read = numbers(v=v, s=s, least=v - s * math.tan(angle))
+            yield replace(CONDITIONS[name], values={"left": left, "tangent": tangent, **read})
 
 
 def least_radius(solution: Solution) -> str:
@@ -83,7 +63,7 @@ def least_radius(solution: Solution) -> str:
     )
     return blocks(
         conditions,
-        "\n".join(tell(condition.told()) for condition in _conditions(region)),
+        "\n".join(map(tell, _conditions(region))),
         *_centre(region),
         "" if board.limits.return_ is not None else spring,
         _adopted(solution),
