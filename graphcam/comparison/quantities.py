@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -66,9 +67,10 @@ class Comparison:
     def least(self) -> tuple[float, float]:
         """The exact least prime radius of the task and its place [mm]; NaN where no place keeps all the limits."""
         board = self.drawn.board
-        follower, built = board.follower, board.follower.built(board.follower.place, 0.0)
+        follower = board.follower.built(board.follower.place, 0.0)
+        conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
         try:
-            least = minimum_radius(board.motion, built, board.rotation, **asdict(board.limits), **follower.conditions)
+            least = minimum_radius(board.motion, follower, board.rotation, **conditions)
         except DesignError:  # an arm at a given distance; the cam itself may be given all the same
             return math.nan, math.nan
         return least.prime_radius, least.place

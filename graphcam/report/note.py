@@ -57,20 +57,19 @@ def note(solution: Solution) -> str:
     """
     written = OF_FOLLOWERS[solution.task.follower.kind]
     told = [name for name in solution.drawn if name in TITLES]
-    chapters = [(TITLES[name], written.get(name, partial(as_drawn, name))) for name in told]
+    chapters = [(TITLES[name], written.get(name, partial(as_drawn, name))(solution)) for name in told]
     if solution.task.speed_rpm:
-        chapters.append((say("Times, velocities and accelerations"), _at_speed))
-    chapters.append((say("Kind of impact"), _impact))
+        chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
+    chapters.append((say("Kind of impact"), _impact(solution)))
     if spring := solution.spring:
-        chapters.append((say("Spring"), lambda _: _spring(spring, solution.tell)))
+        chapters.append((say("Spring"), _spring(spring, solution.tell)))
     chapters += [
-        (say("Result"), _result),
-        (say("Values at the stations"), _stations),
-        (say("Polar coordinates"), _polar),
-        (say("Drawn against exact"), against_exact),
+        (say("Result"), _result(solution)),
+        (say("Values at the stations"), _stations(solution)),
+        (say("Polar coordinates"), _polar(solution)),
+        (say("Drawn against exact"), against_exact(solution)),
     ]
-    told = [(title, write(solution)) for title, write in chapters]
-    return whole_note(_head(solution), told, solution)
+    return whole_note(_head(solution), chapters, solution)
 
 
 def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: AnySolution) -> str:
@@ -134,14 +133,12 @@ def drawn_how(pencil: Pencil) -> Caption:
     said = [say("Everything below was found on the drawing board, as lengths in millimetres of paper times a scale.")]
     if pencil.perfect:
         return sequence([*said, say("The hand that drew was without error.")], " ")
-    errors: list[Caption] = []
-    if pencil.line:
-        errors.append(say("{error:g} mm in a line", error=pencil.line))
-    if pencil.dividers:
-        errors.append(say("{error:g} mm in a setting of the dividers", error=pencil.dividers))
-    if pencil.protractor:
-        errors.append(say("{error:g}° in an angle", error=math.degrees(pencil.protractor)))
-    if errors:
+    deviations = (
+        (pencil.line, say("{error:g} mm in a line", error=pencil.line)),
+        (pencil.dividers, say("{error:g} mm in a setting of the dividers", error=pencil.dividers)),
+        (pencil.protractor, say("{error:g}° in an angle", error=math.degrees(pencil.protractor))),
+    )
+    if errors := [told for deviation, told in deviations if deviation]:
         said.append(say("The hand that drew errs by a standard deviation of {errors}.", errors=joined(errors)))
     if pencil.division:
         said.append(say("Readings are rounded to {division:g} mm.", division=pencil.division))

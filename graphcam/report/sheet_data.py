@@ -107,19 +107,13 @@ def _limits(solution: Solution) -> list[Row]:
 def phases(solution: Solution) -> Table:
     """The phases of the motion; an arm's lift is an angle."""
     motion, swings = solution.cam.motion, solution.chain.board.follower.unit == "rad"
+    lifts = [degrees(phase.lift) if swings else say("{lift:g}", lift=phase.lift) for phase in motion.phases]
     rows = tuple(
-        (phase_title(motion, k), degrees(phase.angle), _lift(phase.lift, swings=swings), law_title(motion, k))
+        (phase_title(motion, k), degrees(phase.angle), lifts[k] if phase.lift else "", law_title(motion, k))
         for k, phase in enumerate(motion.phases)
     )
     lift = say("lift") if swings else say("lift, mm")
     return Table(say("Motion"), (say("phase"), say("angle"), lift, say("law")), rows)
-
-
-def _lift(lift: float, *, swings: bool) -> Words:
-    """The lift of a phase, nothing for a dwell."""
-    if not lift:
-        return ""
-    return degrees(lift) if swings else say("{lift:g}", lift=lift)
 
 
 def phases_at_speed(solution: Solution) -> Table:
