@@ -18,6 +18,7 @@ from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Values
 from graphcam.words import say, sequence
 
+POINTS = ("C1", "C2", "C3", "F")
 JOINTS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
 """The accelerations at the two ends of every arc, in order."""
 
@@ -44,7 +45,6 @@ class ArcsComparison:
     def _exact(self) -> dict[str, float]:
         cam, motion = self.cam, self.motion
         steepest, radii = math.degrees(motion.max_pressure_angle()[0]), (cam.rho1, cam.rho2, cam.rho3)
-        points = {name: getattr(cam, name) for name in ("C1", "C2", "C3", "F")}
         _, (_, _, joints, _) = motion.at(np.repeat([0, 1, 2], 2), np.tile([0.0, 1.0], 3))
         return {
             "max_v": motion.max_velocity()[0],
@@ -52,12 +52,9 @@ class ArcsComparison:
             "max_pressure_angle_rise_deg": steepest,
             "max_pressure_angle_return_deg": -steepest,
             "min_pitch_curvature_radius": min(motion.prime_radius, *(rho + motion.roller_radius for rho in radii)),
-            "roller_radius": motion.roller_radius,
-            "lift": motion.lift,
-            "prime_radius": motion.prime_radius,
-            "rho2": cam.rho2,
-            "rho3": cam.rho3,
-            **{f"{name}_{axis}": float(point[k]) for name, point in points.items() for k, axis in enumerate("xy")},
+            **{name: getattr(motion, name) for name in ("roller_radius", "lift", "prime_radius")},
+            **{name: getattr(cam, name) for name in ("rho2", "rho3")},
+            **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINTS for k, axis in enumerate("xy")},
             **{f"phi_{name}_deg": math.degrees(motion.edges[k]) for k, name in enumerate("GFD", 1)},
             **dict(zip(JOINTS, joints.tolist(), strict=True)),
         }
@@ -77,11 +74,7 @@ class ArcsComparison:
 
 
 OF_ARCS: Mapping[str, Source] = {
-    **{
-        f"{name}_{axis}": Source(sequence([name, axis]), "three_arcs", f"{name}_{axis}")
-        for name in ("C1", "C2", "C3", "F")
-        for axis in "xy"
-    },
+    **{f"{p}_{axis}": Source(sequence([p, axis]), "three_arcs", f"{p}_{axis}") for p in POINTS for axis in "xy"},
     "rho2": Source(say("ρ₂"), "three_arcs", "rho2"),
     "rho3": Source(say("ρ₃"), "three_arcs", "rho3"),
 }

@@ -158,23 +158,10 @@ class Source:
         """The drawn value beside the exact one; NaN where the follower has no such quantity."""
         if not self.stands_on(chain):
             return Quantity(name, self.title, math.nan, math.nan, self.unit, math.nan, math.nan)
-        unit = self.unit or chain[self.construction].readings[self.reading].unit
-        drawn, bound = self.drawn(chain), self.bound(bounds)
-        return Quantity(name, self.title, drawn, exact, unit, self.per_mm(chain), bound)
-
-    def bound(self, bounds: Bounds) -> float:
-        """How far the drawn value may be off [mm of paper]."""
-        if self.candidates:
-            return bounds.of_choice(self.construction, self.reading, self.candidates, self.rank)
-        return bounds.of(self.construction, self.reading)
-
-    def drawn(self, chain: Drawings) -> float:
-        """The drawn value, in the quantity's unit."""
-        return self.factor * float(chain[self.construction].value(self.reading))
-
-    def per_mm(self, chain: Drawings) -> float:
-        """The scale of the paper it is read from [unit/mm]."""
-        return self.factor * chain[self.construction].readings[self.reading].per_mm
+        construction, where = chain[self.construction], (self.construction, self.reading)
+        read, drawn = construction.readings[self.reading], self.factor * float(construction.value(self.reading))
+        bound = bounds.of_choice(*where, self.candidates, self.rank) if self.candidates else bounds.of(*where)
+        return Quantity(name, self.title, drawn, exact, self.unit or read.unit, self.factor * read.per_mm, bound)
 
 
 DEGREES = math.degrees(1.0)

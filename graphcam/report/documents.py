@@ -17,32 +17,24 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     """The sheets: finished, or drawn up to a step.
 
     upto : the last step that is drawn, its number or the name of the construction that it ends; of what follows only
-        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet, None for a
-        finished sheet.
+        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet,
+        which may be laid over the finished sheet.
     per_construction : every construction on sheets of its own, with what was drawn before in the same views
 
     Raises
     ------
     DesignError : there is no such step or construction
+
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> blank, finished = sheet_of(solve(builtin_task()), 0), sheet_of(solve(builtin_task()))
+    >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
+    (True, True)
     """
     contents, paper = contents_of(solution), solution.task.drawing
     last = None if upto is None else last_step(contents, upto)
     drawn = parts(contents) if per_construction else [whole(contents)]
     return compose_parts(drawn, contents.title, Format(paper.format, paper.frame, paper.orientation), last, paper.tell)
-
-
-def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawing:
-    """The blank sheet for students: frame, title block, what the task gives, scales and axes, and room to draw.
-
-    Everything stands where it stands on the finished sheet, so that one may be laid over the other.
-
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> blank, finished = worksheet(solve(builtin_task())), sheet_of(solve(builtin_task()))
-    >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
-    (True, True)
-    """
-    return sheet_of(solution, 0, per_construction=per_construction)
 
 
 def contents_of(solution: AnySolution) -> Contents:
