@@ -70,7 +70,7 @@ def test_scales_are_left_blank_until_they_are_found() -> None:
 
 def test_the_diagrams_of_a_measured_motion_do_not_tell_the_scales_either() -> None:
     """They are drawn at the scales that the integrations find."""
-    said = [text for text in texts(worksheet(gc.solve(builtin_task("measured")))) if text.startswith("μ")]
+    said = [text for text in texts(sheet_of(gc.solve(builtin_task("measured")), 0)) if text.startswith("μ")]
     assert [BLANK in text for text in said if "°" not in text] == [True] * 7
 
 
