@@ -33,7 +33,7 @@ from graphcam.notebooks import (
     show_steps,
     table,
 )
-from graphcam.report.sheet_contents import sheet
+from graphcam.report.documents import sheet_of
 
 # %% [markdown]
 # ## Background: the chain
@@ -58,7 +58,7 @@ from graphcam.report.sheet_contents import sheet
 # %%
 task = gc.builtin_task()
 solution = gc.solve(task)
-picture_of_page(sheet(solution).pages[0], "The finished coursework sheet: three diagrams one under the other with their poles, beside the displacement the combined "
+picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: three diagrams one under the other with their poles, beside the displacement the combined "
                 "diagram with the shaded region, the cam profile with its inversion lines, tables and title block.", "The finished sheet")
 
 # %% [markdown]

@@ -12,8 +12,8 @@ import pytest
 from golden import FILE, TASKS, differences, solved
 
 READINGS, MARKS, FITTED = 1e-12, 1e-9, 1e-9
-"""Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points; a fitted motion is
-the solution of a system of equations, which differs in more than the last digits between builds of one library."""
+"""Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points; a fitted motion
+solves a system of equations, whose solution differs in more than the last digits between builds of one library."""
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 
 

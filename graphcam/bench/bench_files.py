@@ -13,7 +13,7 @@ from graphcam.bench.bench_report import Effort, Report, measure
 from graphcam.bench.bench_tables import markdown, numbers
 from graphcam.bench.timing import Timer
 from graphcam.files import whole_folder
-from graphcam.report.sheet_contents import sheet
+from graphcam.report.documents import sheet_of
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
 
@@ -55,10 +55,10 @@ def _rendering(timer: Timer) -> Mapping[str, float]:
 
     once = Timer(timer.budget, least_runs=1)
     solution = solve(builtin_task())
-    drawing = sheet(solution)
+    drawing = sheet_of(solution)
     with TemporaryDirectory() as folder:
         return {
-            "layout": once.seconds(lambda: sheet(solution)),
+            "layout": once.seconds(lambda: sheet_of(solution)),
             "PDF": once.seconds(lambda: write_pdf(drawing, Path(folder, "sheet.pdf"))),
             "PNG": once.seconds(lambda: write_png(drawing.pages[0], Path(folder, "sheet.png"))),
         }

@@ -10,18 +10,17 @@ from functools import cached_property
 import numpy as np
 
 from graphcam.comparison.bounds import Bounds
-from graphcam.comparison.quantities import Quantity, Source
+from graphcam.comparison.quantities import DEGREES, Quantity, Source, greatest
 from graphcam.constructions.arc_chain import ArcChain
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Values
-from graphcam.words import Caption, say, sequence
+from graphcam.words import say, sequence
 
-_DEGREES = math.degrees(1.0)
-JOINTS = {"a_A": (0, 0.0), "a_G_before": (0, 1.0), "a_G_after": (1, 0.0), "a_F_before": (1, 1.0), "a_F_after": (2, 0.0),
-          "a_D": (2, 1.0)}  # fmt: skip
-"""Which arc, and where on it, the acceleration on a side of a joint is."""
+POINTS = ("C1", "C2", "C3", "F")
+JOINTS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
+"""The accelerations at the two ends of every arc, in order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,22 +45,18 @@ class ArcsComparison:
     def _exact(self) -> dict[str, float]:
         cam, motion = self.cam, self.motion
         steepest, radii = math.degrees(motion.max_pressure_angle()[0]), (cam.rho1, cam.rho2, cam.rho3)
-        points = {name: getattr(cam, name) for name in ("C1", "C2", "C3", "F")}
-        joints = {name: float(motion.at(np.array(arc), np.array(u))[1][2]) for name, (arc, u) in JOINTS.items()}
+        _, (_, _, joints, _) = motion.at(np.repeat([0, 1, 2], 2), np.tile([0.0, 1.0], 3))
         return {
             "max_v": motion.max_velocity()[0],
             "max_a": motion.max_acceleration()[0],
             "max_pressure_angle_rise_deg": steepest,
             "max_pressure_angle_return_deg": -steepest,
             "min_pitch_curvature_radius": min(motion.prime_radius, *(rho + motion.roller_radius for rho in radii)),
-            "roller_radius": motion.roller_radius,
-            "lift": motion.lift,
-            "prime_radius": motion.prime_radius,
-            "rho2": cam.rho2,
-            "rho3": cam.rho3,
-            **{f"{name}_{axis}": float(point[k]) for name, point in points.items() for k, axis in enumerate("xy")},
+            **{name: getattr(motion, name) for name in ("roller_radius", "lift", "prime_radius")},
+            **{name: getattr(cam, name) for name in ("rho2", "rho3")},
+            **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINTS for k, axis in enumerate("xy")},
             **{f"phi_{name}_deg": math.degrees(motion.edges[k]) for k, name in enumerate("GFD", 1)},
-            **joints,
+            **dict(zip(JOINTS, joints.tolist(), strict=True)),
         }
 
     @cached_property
@@ -78,46 +73,35 @@ class ArcsComparison:
         return {name: self.drawn["arc_roller"].value(name) for name in ("s", "v", "a", "alpha", "x", "y")}
 
 
-def _top(title: Caption, name: str, factor: float = 1.0, unit: str = "") -> Source:
-    """The greatest of a quantity, read off its diagram."""
-    return Source(title, "arc_diagrams", f"max_{name}", unit, factor, f"{name}_candidates", np.abs)
-
-
 OF_ARCS: Mapping[str, Source] = {
-    **{
-        f"{name}_{axis}": Source(sequence([name, axis]), "three_arcs", f"{name}_{axis}")
-        for name in ("C1", "C2", "C3", "F")
-        for axis in "xy"
-    },
+    **{f"{p}_{axis}": Source(sequence([p, axis]), "three_arcs", f"{p}_{axis}") for p in POINTS for axis in "xy"},
     "rho2": Source(say("ρ₂"), "three_arcs", "rho2"),
     "rho3": Source(say("ρ₃"), "three_arcs", "rho3"),
 }
 SOURCES: Mapping[str, Source] = {
-    "max_v": _top(say("greatest v"), "v"),
-    "max_a": _top(say("greatest a"), "a"),
+    "max_v": greatest(say("greatest v"), "arc_diagrams", "v"),
+    "max_a": greatest(say("greatest a"), "arc_diagrams", "a"),
     # The least radius is not asked for: these are here because every solution has them.
     "minimum_prime_radius": Source(say("least radius r₀"), "three_arcs", "minimum_prime_radius", "mm"),
     "minimum_offset": Source(say("its offset e"), "three_arcs", "minimum_offset", "mm"),
-    "max_pressure_angle_rise_deg": _top(say("greatest α, rise"), "alpha", _DEGREES, "deg"),
-    "max_pressure_angle_return_deg": _top(say("greatest α, return"), "alpha", -_DEGREES, "deg"),
+    "max_pressure_angle_rise_deg": greatest(say("greatest α, rise"), "arc_diagrams", "alpha", DEGREES, "deg"),
+    "max_pressure_angle_return_deg": greatest(say("greatest α, return"), "arc_diagrams", "alpha", -DEGREES, "deg"),
     "min_pitch_curvature_radius": Source(say("least ρ"), "arc_roller", "rho"),
     "roller_radius": Source(say("roller radius"), "arc_roller", "roller_radius"),
     "lift": Source(say("lift"), "arc_roller", "lift"),
     "prime_radius": Source(say("prime radius r₀"), "arc_roller", "prime_radius"),
     **OF_ARCS,
     **{
-        f"phi_{name}_deg": Source(say("φ at {point}", point=name), "arc_roller", reading, "deg", _DEGREES)
+        f"phi_{name}_deg": Source(say("φ at {point}", point=name), "arc_roller", reading, "deg", DEGREES)
         for name, reading in (("G", "phi_G"), ("F", "phi_F"), ("D", "rise"))
     },
     "a_A": Source(say("a in {point}", point="A"), "arc_roller", "a_A"),
     **{
-        name: Source(say("a in {point}, {side}", point=point, side=side), "arc_roller", name)
-        for name, point, side in (
-            ("a_G_before", "G", say("before")),
-            ("a_G_after", "G", say("after")),
-            ("a_F_before", "F", say("before")),
-            ("a_F_after", "F", say("after")),
+        f"a_{point}_{key}": Source(
+            say("a in {point}, {side}", point=point, side=side), "arc_roller", f"a_{point}_{key}"
         )
+        for point in "GF"
+        for key, side in (("before", say("before")), ("after", say("after")))
     },
     "a_D": Source(say("a in {point}", point="D"), "arc_roller", "a_D"),
 }

@@ -106,7 +106,7 @@ class Bounds:
         return self._of(construction, reading, stations=True)
 
     def _per_mm(self, construction: str, reading: str) -> float:
-        return float(np.ravel(self.drawn[construction].readings[reading].scale)[0])
+        return self.drawn[construction].readings[reading].per_mm
 
     def _of(self, construction: str, reading: str, *, stations: bool = False) -> Floats:
         """The bound in machine units, shaped like one drawing's reading; NaN where nothing finer is readable."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -40,6 +41,11 @@ class Quantity:
     tolerance_paper: float
 
     @property
+    def exists(self) -> bool:
+        """Whether the follower has the quantity."""
+        return math.isfinite(self.drawn) or math.isfinite(self.exact)
+
+    @property
     def error(self) -> float:
         """Drawn less exact [unit]."""
         return self.drawn - self.exact
@@ -61,12 +67,10 @@ class Comparison:
     def least(self) -> tuple[float, float]:
         """The exact least prime radius of the task and its place [mm]; NaN where no place keeps all the limits."""
         board = self.drawn.board
-        follower, limits = board.follower, board.limits
+        follower = board.follower.built(board.follower.place, 0.0)
+        conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
         try:
-            least = minimum_radius(
-                board.motion, follower.built(follower.place, 0.0), board.rotation, rise=limits.rise,
-                return_=limits.return_, rest=limits.rest, **follower.conditions,
-            )  # fmt: skip
+            least = minimum_radius(board.motion, follower, board.rotation, **conditions)
         except DesignError:  # an arm at a given distance; the cam itself may be given all the same
             return math.nan, math.nan
         return least.prime_radius, least.place
@@ -120,11 +124,11 @@ class Comparison:
     def drawn_stations(self) -> Mapping[str, Floats]:
         """What was read at the stations: s, v, a, pressure angle [rad], pitch x and y."""
         count = self.drawn.board.stations.u.size
-        sources = {"s": "integration", "v": "integration", "a": "integration", "alpha": "pressure_angle",
-                   "x": "inversion", "y": "inversion"}  # fmt: skip
+        sources = {"integration": ("s", "v", "a"), "pressure_angle": ("alpha",), "inversion": ("x", "y")}
         return {
             name: self.drawn[construction].value(name) if construction in self.drawn else np.full(count, np.nan)
-            for name, construction in sources.items()
+            for construction, names in sources.items()
+            for name in names
         }
 
 
@@ -154,38 +158,28 @@ class Source:
         """The drawn value beside the exact one; NaN where the follower has no such quantity."""
         if not self.stands_on(chain):
             return Quantity(name, self.title, math.nan, math.nan, self.unit, math.nan, math.nan)
-        unit = self.unit or chain[self.construction].readings[self.reading].unit
-        drawn, bound = self.drawn(chain), self.bound(bounds)
-        return Quantity(name, self.title, drawn, exact, unit, self.per_mm(chain), bound)
-
-    def bound(self, bounds: Bounds) -> float:
-        """How far the drawn value may be off [mm of paper]."""
-        if self.candidates:
-            return bounds.of_choice(self.construction, self.reading, self.candidates, self.rank)
-        return bounds.of(self.construction, self.reading)
-
-    def drawn(self, chain: Drawings) -> float:
-        """The drawn value, in the quantity's unit."""
-        return self.factor * float(chain[self.construction].value(self.reading))
-
-    def per_mm(self, chain: Drawings) -> float:
-        """The scale of the paper it is read from [unit/mm]."""
-        return self.factor * float(np.ravel(chain[self.construction].readings[self.reading].scale)[0])
+        construction, where = chain[self.construction], (self.construction, self.reading)
+        read, drawn = construction.readings[self.reading], self.factor * float(construction.value(self.reading))
+        bound = bounds.of_choice(*where, self.candidates, self.rank) if self.candidates else bounds.of(*where)
+        return Quantity(name, self.title, drawn, exact, self.unit or read.unit, self.factor * read.per_mm, bound)
 
 
-_DEGREES = math.degrees(1.0)
+DEGREES = math.degrees(1.0)
+
+
+def greatest(title: Caption, construction: str, name: str, factor: float = 1.0, unit: str = "") -> Source:
+    """The greatest of a quantity, read off its diagram."""
+    return Source(title, construction, f"max_{name}", unit, factor, f"{name}_candidates", np.abs)
+
+
 SOURCES: Mapping[str, Source] = {
     "max_v": Source(say("greatest v"), "integration", "max_v"),
     "max_a": Source(say("greatest a"), "integration", "max_a"),
     "minimum_prime_radius": Source(say("least radius r₀"), "minimum_radius", "prime_radius", "mm"),
     "minimum_offset": Source(say("its offset e"), "minimum_radius", "offset", "mm"),
     "minimum_distance": Source(say("its centre distance c"), "minimum_radius", "distance", "mm"),
-    "max_pressure_angle_rise_deg": Source(
-        say("pressure angle, rise"), "angle_diagram", "max_rise", "deg", _DEGREES, "rise_candidates", np.abs
-    ),
-    "max_pressure_angle_return_deg": Source(
-        say("pressure angle, return"), "angle_diagram", "max_return", "deg", _DEGREES, "return_candidates", np.abs
-    ),
+    "max_pressure_angle_rise_deg": greatest(say("pressure angle, rise"), "angle_diagram", "rise", DEGREES, "deg"),
+    "max_pressure_angle_return_deg": greatest(say("pressure angle, return"), "angle_diagram", "return", DEGREES, "deg"),
     "min_pitch_curvature_radius": Source(
         say("least curvature radius ρ"), "curvature", "rho", "mm", candidates="rho_candidates"
     ),
@@ -193,8 +187,5 @@ SOURCES: Mapping[str, Source] = {
     "face_left": Source(say("face to the left"), "inversion", "face_left", "mm"),
     "face_right": Source(say("face to the right"), "inversion", "face_right", "mm"),
 }
-ALWAYS = (
-    "max_v", "max_a", "minimum_prime_radius", "minimum_offset", "max_pressure_angle_rise_deg",
-    "max_pressure_angle_return_deg", "min_pitch_curvature_radius", "roller_radius",
-)  # fmt: skip
+ALWAYS = tuple(name for name in SOURCES if name not in ("minimum_distance", "face_left", "face_right"))
 """The quantities that every solution names, though a follower may not have them."""

@@ -19,6 +19,11 @@ class PhaseAtSpeed:
     max_velocity: float
     max_acceleration: float
 
+    @property
+    def greatest(self) -> tuple[float, float]:
+        """The greatest velocity and acceleration."""
+        return self.max_velocity, self.max_acceleration
+
 
 def at_speed(motion: Motion, speed_rpm: float, unit: str = "mm") -> list[PhaseAtSpeed]:
     """The phases of a motion at a speed of the cam [rpm]: t = F/omega, v = C_v h omega/F, a = C_a h (omega/F)^2.

@@ -2,57 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphcam.drafting.ink import Step
+from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
-from graphcam.sheets.formats import Format
-from graphcam.sheets.layout import Part, compose_parts
-from graphcam.sheets.model import Drawing
+from graphcam.sheets.layout import Part
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
-from graphcam.words import Tell
+from graphcam.solving.arcs_solution import AnySolution
 
 
 @dataclass(frozen=True, eq=False)
 class Contents:
     """What stands on the sheets of a solution.
 
+    drawn : the constructions by name
     steps : (name of the construction, step), in order
     givens, results : tables that stand with the first construction, and with the last
-    notes : sentences that are numbered on the sheet
-    tell : says all texts in the language of the sheets
     """
 
+    solution: AnySolution
+    title: TitleBlock
+    drawn: Mapping[str, Construction]
     steps: tuple[tuple[str, Step], ...]
     givens: tuple[Table, ...]
     results: tuple[Table, ...]
-    notes: tuple[str, ...]
-    title: TitleBlock
-    sheet: Format
-    tell: Tell
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The sentences that are numbered on the sheet."""
+        return tuple(self.solution.warnings)
 
     @property
     def constructions(self) -> tuple[str, ...]:
         """The names of the constructions, in order."""
         return tuple(dict.fromkeys(name for name, _ in self.steps))
-
-
-def drawing(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
-    """The sheets.
-
-    upto : the last step that is drawn, its number or the name of the construction that it ends; of what follows only
-        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet, None for a
-        finished sheet.
-    per_construction : every construction on sheets of its own, with what was drawn before in the same views
-
-    Raises
-    ------
-    DesignError : there is no such step or construction
-    """
-    last = None if upto is None else last_step(contents, upto)
-    parts = _parts(contents) if per_construction else [_whole(contents)]
-    return compose_parts(parts, contents.title, contents.sheet, last, contents.tell)
 
 
 def last_step(contents: Contents, upto: int | str) -> int:
@@ -75,19 +60,22 @@ def _numbered(contents: Contents) -> tuple[tuple[int, str, Step], ...]:
     return tuple((number, name, step) for number, (name, step) in enumerate(contents.steps, 1))
 
 
-def _whole(contents: Contents) -> Part:
+def whole(contents: Contents) -> Part:
+    """All of it as one part."""
     return Part(_numbered(contents), contents.givens + contents.results, contents.notes)
 
 
-def _parts(contents: Contents) -> list[Part]:
+def parts(contents: Contents) -> list[Part]:
     """A part for each construction that draws something."""
+    drawing = list(dict.fromkeys(name for name, step in contents.steps if step.marks))
+    return [_part(contents, name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]
+
+
+def _part(contents: Contents, construction: str, *, first: bool, last: bool) -> Part:
+    """A construction, with what was drawn before in its views."""
     steps = _numbered(contents)
-    drawing = [name for name in contents.constructions if any(step.marks for _, of, step in steps if of == name)]
-    parts: list[Part] = []
-    for name in drawing:
-        views = {step.view.name for _, of, step in steps if of == name and step.marks}
-        last = max(number for number, of, _ in steps if of == name)
-        shown = tuple(s for s in steps if s[0] <= last and s[2].view.name in views)
-        tables = (contents.givens if name == drawing[0] else ()) + (contents.results if name == drawing[-1] else ())
-        parts.append(Part(shown, tables, contents.notes if name == drawing[-1] else ()))
-    return parts
+    own = [(number, step) for number, name, step in steps if name == construction]
+    views = {step.view.name for _, step in own if step.marks}
+    shown = tuple(row for row in steps if row[0] <= own[-1][0] and row[2].view.name in views)
+    tables = (contents.givens if first else ()) + (contents.results if last else ())
+    return Part(shown, tables, contents.notes if last else ())

@@ -1,11 +1,14 @@
-"""The documents that a solution gets, whichever kind of task it solves."""
+"""The documents that a solution gets, whichever kind of task it solves: here alone the kind is asked for."""
 
 from __future__ import annotations
 
 from graphcam.report.arcs_report import arcs_contents, arcs_note
-from graphcam.report.contents import Contents, drawing
+from graphcam.report.contents import Contents, last_step, parts, whole
+from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
-from graphcam.report.sheet_contents import contents
+from graphcam.report.sheet_contents import motion_contents
+from graphcam.sheets.formats import Format
+from graphcam.sheets.layout import compose_parts
 from graphcam.sheets.model import Drawing
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 
@@ -13,35 +16,37 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
     """The sheets: finished, or drawn up to a step.
 
-    upto : number of the last step that is drawn, or name of the construction that it ends; None draws all
-    per_construction : every construction on sheets of its own
+    upto : the last step that is drawn, its number or the name of the construction that it ends; of what follows only
+        axes, divisions and what the task gives stands there, in its place.  0 for a blank worksheet,
+        which may be laid over the finished sheet.
+    per_construction : every construction on sheets of its own, with what was drawn before in the same views
 
     Raises
     ------
     DesignError : there is no such step or construction
+
+    >>> from graphcam.solving.solve import solve
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> blank, finished = sheet_of(solve(builtin_task()), 0), sheet_of(solve(builtin_task()))
+    >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
+    (True, True)
     """
-    return drawing(contents_of(solution), upto, per_construction=per_construction)
+    contents, paper = contents_of(solution), solution.task.drawing
+    last = None if upto is None else last_step(contents, upto)
+    drawn = parts(contents) if per_construction else [whole(contents)]
+    return compose_parts(drawn, contents.title, Format(paper.format, paper.frame, paper.orientation), last, paper.tell)
 
 
 def contents_of(solution: AnySolution) -> Contents:
     """What stands on the sheets."""
-    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else contents(solution)
-
-
-def worksheet(solution: AnySolution, *, per_construction: bool = False) -> Drawing:
-    """The blank sheet for students: frame, title block, what the task gives, scales and axes, and room to draw.
-
-    Everything stands where it stands on the finished sheet, so that one may be laid over the other.
-
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> blank, finished = worksheet(solve(builtin_task())), sheet_of(solve(builtin_task()))
-    >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
-    (True, True)
-    """
-    return sheet_of(solution, 0, per_construction=per_construction)
+    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else motion_contents(solution)
 
 
 def note_of(solution: AnySolution) -> str:
     """The note in Markdown."""
     return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)
+
+
+def scene_of(solution: AnySolution) -> MechanismScene:
+    """The mechanism over a turn."""
+    return arcs_scene(solution) if isinstance(solution, ArcsSolution) else cam_scene(solution)

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 
-from graphcam.words import Caption, Tell, Words, say
+from graphcam.words import Caption, Tell, Words, say, sequence
 
 
 def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
@@ -18,6 +18,15 @@ def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
     if not math.isfinite(value):
         return say("–")
     return say("{value:{sign}.{digits}f}", value=round(value, digits) + 0.0, sign="+" if sign else "-", digits=digits)
+
+
+def numbers(**values: float) -> dict[str, Caption]:
+    """Numbers with two decimals, by name.
+
+    >>> str(say("r = {r}, e = {e}", **numbers(r=17, e=-10)))
+    'r = 17.00, e = -10.00'
+    """
+    return {name: number(float(value)) for name, value in values.items()}
 
 
 def text(plain: str) -> str:
@@ -38,13 +47,23 @@ def in_formulas(note: str) -> str:
     return re.sub(r"(?<!\\)\$\$?[^$]+\$\$?", lambda formula: re.sub(r"(?<=\d),(?=\d)", "{,}", formula[0]), note)
 
 
-def blocks(*parts: str) -> str:
+def formula(tex: str, **values: Words) -> Caption:
+    """A formula in TeX, which keeps its braces to itself: a value stands where its name does in angle brackets.
+
+    >>> str(formula("$\\frac{<s>}{2}$", s=number(3)))
+    '$\\frac{3.00}{2}$'
+    """
+    parts = re.split(r"<(\w+)>", tex)
+    return sequence([values[part] if k % 2 else part for k, part in enumerate(parts)], "")
+
+
+def blocks(*parts: Words, tell: Tell = str) -> str:
     """Paragraphs, tables and formulas one under the other; empty ones are left out.
 
-    >>> blocks("One.", "", "Two.")
+    >>> blocks("One.", "", say("Two."))
     'One.\\n\\nTwo.'
     """
-    return "\n\n".join(part for part in parts if part)
+    return "\n\n".join(tell(part) for part in parts if part)
 
 
 def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell = str) -> str:

@@ -20,7 +20,8 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.followers import kinematics
-from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.arcs_solution import ArcsSolution
+from graphcam.solving.solution import Solution
 
 POSITIONS = 720
 """In a turn, so that the cam angle goes in halves of a degree."""
@@ -68,20 +69,16 @@ class MechanismScene:
     face: tuple[float, float] = (0.0, 0.0)
 
 
-def scene(solution: AnySolution) -> MechanismScene:
+def cam_scene(solution: Solution) -> MechanismScene:
     """The mechanism of a solution.
 
     >>> from graphcam.solving.solve import solve
     >>> from graphcam.tasks.task_file import builtin_task
-    >>> found = scene(solve(builtin_task()))
+    >>> found = cam_scene(solve(builtin_task()))
     >>> found.kind, found.trace[0].round(4).item(), found.phi.size
     ('stem', (-10+42.8486j), 721)
     """
-    phi = np.linspace(0.0, 2 * math.pi, POSITIONS + 1)
-    return _of_arcs(solution, phi) if isinstance(solution, ArcsSolution) else _of_cam(solution.cam, phi)
-
-
-def _of_cam(cam: Cam, phi: Floats) -> MechanismScene:
+    cam, phi = solution.cam, _turn()
     follower, values = cam.follower, cam.motion(phi)
     exact = kinematics(follower, cam.prime_radius, cam.sigma, cam.motion.lift)
     trace, normal = exact.point(values), exact.normal(values)
@@ -99,23 +96,9 @@ def _of_cam(cam: Cam, phi: Floats) -> MechanismScene:
         TurnPhase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
         for k, (start, end) in enumerate(pairwise(starts))
     )
-    return MechanismScene(
-        kind,
-        cam.sigma,
-        cam.roller_radius,
-        _outline(cam, contact, phi),
-        phases,
-        phi,
-        trace,
-        contact,
-        motion,
-        normal,
-        cam.pressure_angle(phi),
-        values[0],
-        values[1],
-        pivot,
-        face,
-    )
+    profile, alpha = _outline(cam, contact, phi), cam.pressure_angle(phi)
+    points, (s, v, *_) = (trace, contact, motion, normal), values
+    return MechanismScene(kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, alpha, s, v, pivot, face)
 
 
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
@@ -127,9 +110,9 @@ def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
     return points[:, 0] + 1j * points[:, 1]
 
 
-def _of_arcs(solution: ArcsSolution, phi: Floats) -> MechanismScene:
-    """Seen so that the follower stands upright."""
-    moved = solution.motion
+def arcs_scene(solution: ArcsSolution) -> MechanismScene:
+    """The mechanism of a cam of arcs, seen so that the follower stands upright."""
+    moved, phi = solution.motion, _turn()
     s, v, _, _ = moved(phi)
     alpha = moved.pressure_angle(phi)
     normal = 1j * np.exp(1j * moved.sigma * alpha)
@@ -137,7 +120,12 @@ def _of_arcs(solution: ArcsSolution, phi: Floats) -> MechanismScene:
     contact = trace - moved.roller_radius * normal
     edges = [0.0, moved.rise, moved.rise + moved.dwell, 2 * moved.rise + moved.dwell, 2 * math.pi]
     names = (say("rise"), say("dwell"), say("return"), say("rest"))
-    phases = [TurnPhase(n, n, a, b) for n, a, b in zip(names, edges, edges[1:], strict=False) if b > a]
+    phases = tuple(TurnPhase(n, n, a, b) for n, (a, b) in zip(names, pairwise(edges), strict=True) if b > a)
     profile = (contact * np.exp(-1j * moved.sigma * phi))[:-1]
-    return MechanismScene("stem", moved.sigma, moved.roller_radius, profile, tuple(phases), phi, trace, contact,
-                 np.full(phi.shape, 1j), normal, alpha, s, v)  # fmt: skip
+    points = (trace, contact, np.full(phi.shape, 1j), normal)
+    return MechanismScene("stem", moved.sigma, moved.roller_radius, profile, phases, phi, *points, alpha, s, v)
+
+
+def _turn() -> Floats:
+    """The cam angles of the positions."""
+    return np.linspace(0.0, 2 * math.pi, POSITIONS + 1)

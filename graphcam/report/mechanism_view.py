@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from graphcam.drafting.ink import Caption, Points, say
+from graphcam.drafting.ink import Points, say
 from graphcam.given.laws import Floats
-from graphcam.report.mechanism_scene import MechanismScene
+from graphcam.report.mechanism_scene import MechanismScene, TurnPhase
 from graphcam.solving.json_values import plain_number
+from graphcam.words import Tell
 
 DECIMALS = 3
 """Of lengths [mm] and angles [degrees]: far more than a screen shows."""
@@ -24,7 +24,7 @@ LIVE = ("pressure_angle", "displacement", "velocity")
 """What is read off while the cam turns."""
 
 
-def mechanism_view(scene: MechanismScene, tell: Callable[[str | Caption], str], decimal: str = ".") -> dict[str, Any]:
+def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dict[str, Any]:
     """The data of ``mechanism.js``: lengths in mm, angles in degrees.
 
     tell : says a caption in the language of the page, whose decimals stand behind ``decimal``
@@ -33,38 +33,39 @@ def mechanism_view(scene: MechanismScene, tell: Callable[[str | Caption], str], 
     unit, swings = greatest / 28, scene.kind == "arm"
     ground, top = (_pivot(scene, unit), 0.0) if swings else _guide(scene, unit)
     degree = math.degrees(1.0) if swings else 1.0
+    pitch = _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
+    stem, face = top + 1.5 * unit - float(scene.trace.imag.min()), (scene.face[0] - 2 * unit, scene.face[1] + 2 * unit)
+    sizes = {"unit": unit, "roller": scene.roller, "reach": 0.55 * greatest, "stem": stem}
+    live = dict(zip(LIVE, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
+    units = "°", "°" if swings else f" {tell(say('mm'))}", f" {tell(say('rad/rad') if swings else say('mm/rad'))}"
     data: dict[str, Any] = {
         "kind": scene.kind,
         "about": tell(ABOUT[scene.kind]),
         "sigma": scene.sigma,
         "step": 360 / (scene.phi.size - 1),
-        "phases": [
-            {"name": tell(p.name), "symbol": tell(p.symbol), "start": round(math.degrees(p.start), DECIMALS),
-             "extent": round(math.degrees(p.end - p.start), DECIMALS)}
-            for p in scene.phases
-        ],
+        "phases": [_phase(phase, tell) for phase in scene.phases],
         "profile": _points(scene.profile),
-        "pitch": None if scene.kind == "face" else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1]),
+        "pitch": None if scene.kind == "face" else pitch,
         "mark": _point(0.92 * scene.profile[0]),
         "pivot": _point(scene.pivot),
         "ground": ground,
-        "sizes": {
-            "unit": _rounded(unit), "roller": _rounded(scene.roller), "reach": _rounded(0.55 * greatest),
-            "stem": _rounded(top + 1.5 * unit - float(scene.trace.imag.min())),
-            "face": [_rounded(scene.face[0] - 2 * unit), _rounded(scene.face[1] + 2 * unit)],
-        },
+        "sizes": {name: _rounded(size) for name, size in sizes.items()} | {"face": [_rounded(x) for x in face]},
         "arrays": {
-            "trace": _points(scene.trace), "contact": _points(scene.contact), "motion": _directions(scene.motion),
-            "normal": _directions(scene.normal), "pressure_angle": _numbers(np.degrees(scene.alpha)),
-            "displacement": _numbers(degree * scene.s), "velocity": _numbers(scene.v),
+            **{name: _points(getattr(scene, name)) for name in ("trace", "contact")},
+            **{name: _directions(getattr(scene, name)) for name in ("motion", "normal")},
+            **{name: _numbers(values) for name, values in live.items()},
         },
         "live": list(LIVE),
-        "units": {"pressure_angle": "°", "displacement": "°" if swings else " " + tell(say("mm")),
-                  "velocity": " " + tell(say("rad/rad") if swings else say("mm/rad"))},
-        "digits": {"pressure_angle": 2, "displacement": 2, "velocity": 3 if swings else 2},
+        "units": dict(zip(LIVE, units, strict=True)),
+        "digits": dict(zip(LIVE, (2, 2, 3 if swings else 2), strict=True)),
         "decimal": decimal,
-    }  # fmt: skip
+    }
     return data | {"box": _box(scene, data, unit)}
+
+
+def _phase(phase: TurnPhase, tell: Tell) -> dict[str, Any]:
+    start, extent = (round(math.degrees(angle), DECIMALS) for angle in (phase.start, phase.end - phase.start))
+    return {"name": tell(phase.name), "symbol": tell(phase.symbol), "start": start, "extent": extent}
 
 
 def _guide(scene: MechanismScene, unit: float) -> tuple[list[dict[str, Any]], float]:

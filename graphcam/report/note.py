@@ -13,9 +13,9 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
-from graphcam.report.markdown import blocks, in_formulas, number, table, text
+from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
-from graphcam.report.paragraphs import OF_ALL, OF_ROLLERS, Paragraph, g5, g6, warning
+from graphcam.report.paragraphs import OF_ALL, OF_ROLLERS, Paragraph, general, warning
 from graphcam.report.sheet_contents import title_name
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
 from graphcam.report.translating_paragraphs import OF_TRANSLATING
@@ -57,18 +57,19 @@ def note(solution: Solution) -> str:
     """
     written = OF_FOLLOWERS[solution.task.follower.kind]
     told = [name for name in solution.drawn if name in TITLES]
-    chapters = [(TITLES[name], written.get(name, partial(_as_drawn, name))) for name in told]
+    chapters = [(TITLES[name], written.get(name, partial(as_drawn, name))(solution)) for name in told]
     if solution.task.speed_rpm:
-        chapters.append((say("Times, velocities and accelerations"), _at_speed))
-    chapters.append((say("Kind of impact"), _impact))
+        chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
+    chapters.append((say("Kind of impact"), _impact(solution)))
     if spring := solution.spring:
-        chapters.append((say("Spring"), lambda _: _spring(spring, solution.tell)))
+        chapters.append((say("Spring"), _spring(spring, solution.tell)))
     chapters += [
-        (say("Result"), _result), (say("Values at the stations"), _stations), (say("Polar coordinates"), _polar),
-        (say("Drawn against exact"), against_exact),
-    ]  # fmt: skip
-    told = [(title, write(solution)) for title, write in chapters]
-    return whole_note(_head(solution), told, solution)
+        (say("Result"), _result(solution)),
+        (say("Values at the stations"), _stations(solution)),
+        (say("Polar coordinates"), _polar(solution)),
+        (say("Drawn against exact"), against_exact(solution)),
+    ]
+    return whole_note(_head(solution), chapters, solution)
 
 
 def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: AnySolution) -> str:
@@ -85,7 +86,7 @@ def comparison_file(solution: AnySolution) -> str:
     return in_formulas(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
 
 
-def _as_drawn(name: str, solution: Solution) -> str:
+def as_drawn(name: str, solution: AnySolution) -> str:
     """What the steps of a construction say, where no paragraph puts the numbers into formulas."""
     return " ".join(solution.tell(step.caption) for step in solution.drawn[name].steps())
 
@@ -114,16 +115,16 @@ MOVED = {
 
 
 def _head(solution: Solution) -> str:
-    tell, roller = solution.tell, solution.chain.board.roller_radius != 0
-    given = data(solution)
+    tell, roller, given = solution.tell, solution.chain.board.roller_radius != 0, data(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED else value) for name, value, by in given.rows)
     return blocks(
         heading(solution.task.title, tell),
-        tell(MOVED[solution.task.follower.kind][roller]),
+        MOVED[solution.task.follower.kind][roller],
         markdown_table(phases(solution), tell),
-        tell(say("These are the data.")),
+        say("These are the data."),
         markdown_table(Table(given.title, given.header[:2], rows), tell),
-        tell(drawn_how(solution.chain.pencil)),
+        drawn_how(solution.chain.pencil),
+        tell=tell,
     )
 
 
@@ -132,132 +133,128 @@ def drawn_how(pencil: Pencil) -> Caption:
     said = [say("Everything below was found on the drawing board, as lengths in millimetres of paper times a scale.")]
     if pencil.perfect:
         return sequence([*said, say("The hand that drew was without error.")], " ")
-    errors: list[Caption] = []
-    if pencil.line:
-        errors.append(say("{error:g} mm in a line", error=pencil.line))
-    if pencil.dividers:
-        errors.append(say("{error:g} mm in a setting of the dividers", error=pencil.dividers))
-    if pencil.protractor:
-        errors.append(say("{error:g}° in an angle", error=math.degrees(pencil.protractor)))
-    if errors:
+    deviations = (
+        (pencil.line, say("{error:g} mm in a line", error=pencil.line)),
+        (pencil.dividers, say("{error:g} mm in a setting of the dividers", error=pencil.dividers)),
+        (pencil.protractor, say("{error:g}° in an angle", error=math.degrees(pencil.protractor))),
+    )
+    if errors := [told for deviation, told in deviations if deviation]:
         said.append(say("The hand that drew errs by a standard deviation of {errors}.", errors=joined(errors)))
     if pencil.division:
         said.append(say("Readings are rounded to {division:g} mm.", division=pencil.division))
     return sequence(said, " ")
 
 
+IN_GENERAL = (
+    r"$$t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
+    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}.$$"
+)
+IN_NUMBERS = (
+    r"$$t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
+    r"\frac{<omega>}{<angle>} = <v>\ \text{<per_s>}, \qquad a_{\max} = <ca> \cdot <lift> \cdot "
+    r"\frac{<omega>^2}{<angle>^2} = <a>\ \text{<per_s>²}.$$"
+)
+"""Time, greatest velocity and greatest acceleration of a phase."""
+
+
 def _at_speed(solution: Solution) -> str:
     """Phase times, velocities and accelerations."""
-    motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm, solution.chain.board.follower.unit
-    at_speed = solution.comparison.phases(rpm)
+    motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm or 0.0, solution.chain.board.follower.unit
+    speeds = solution.comparison.phases(rpm)
     rows = [
-        (
-            phase_title(motion, k),
-            number(p.time, 4),
-            *(number(x or math.nan, 3) for x in (p.max_velocity, p.max_acceleration)),
-        )
-        for k, p in enumerate(at_speed)
+        (phase_title(motion, k), number(p.time, 4), *(number(x or math.nan, 3) for x in p.greatest))
+        for k, p in enumerate(speeds)
     ]
     k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, Moving))
-    law, tell = first.normalised, solution.tell
+    omega, law = general(2 * math.pi * rpm / 60, 5), first.normalised
     values = {
-        "angle": g5(first.angle), "omega": g5(2 * math.pi * (rpm or 0) / 60),
-        "lift": g6(first.lift / PER_SPEED[of_lift]),
-        "cv": g5(law.peak_velocity), "ca": g5(law.peak_acceleration), "time": number(at_speed[k].time, 4),
-        "v": number(at_speed[k].max_velocity, 3), "a": number(at_speed[k].max_acceleration, 3),
+        "s": unit("s"),
         "per_s": unit({"mm": "m/s", "rad": "rad/s"}[of_lift]),
-    }  # fmt: skip
+        "angle": general(first.angle, 5),
+        "lift": general(first.lift / PER_SPEED[of_lift]),
+        "cv": general(law.peak_velocity, 5),
+        "ca": general(law.peak_acceleration, 5),
+        "time": number(speeds[k].time, 4),
+        "v": number(speeds[k].max_velocity, 3),
+        "a": number(speeds[k].max_acceleration, 3),
+    }
     return blocks(
-        tell(
-            say(
-                "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase of the angle "
-                "$\\varphi$ takes the time $t$, and its greatest velocity and acceleration follow from the law's "
-                "factors $C_v$ and $C_a$:",
-                rpm=rpm, omega=values["omega"],
-            )
+        say(
+            "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase of the angle "
+            "$\\varphi$ takes the time $t$, and its greatest velocity and acceleration follow from the law's "
+            "factors $C_v$ and $C_a$:",
+            rpm=rpm,
+            omega=omega,
         ),
-        "$$t = \\frac{\\varphi}{\\omega}, \\qquad v_{\\max} = C_v\\,h\\,\\frac{\\omega}{\\varphi}, \\qquad "
-        "a_{\\max} = C_a\\,h\\,\\frac{\\omega^2}{\\varphi^2}.$$",
-        tell(say("For the phase {phase}", phase=phase_title(motion, k))),
-        tell(
-            say(
-                "$$t = \\frac{{{angle}}}{{{omega}}} = {time}\\ \\text{{s}}, \\qquad v_{{\\max}} = {cv} \\cdot {lift} "
-                "\\cdot \\frac{{{omega}}}{{{angle}}} = {v}\\ \\text{{{per_s}}}, \\qquad a_{{\\max}} = {ca} \\cdot "
-                "{lift} \\cdot \\frac{{{omega}^2}}{{{angle}^2}} = {a}\\ \\text{{{per_s}²}}.$$",
-                **values,
-            )
-        ),
-        tell(say("These are the time and the greatest velocity and acceleration of every phase.")),
-        table((say("phase"), *AT_SPEED[of_lift]), rows, tell),
-    )  # fmt: skip
+        IN_GENERAL,
+        say("For the phase {phase}", phase=phase_title(motion, k)),
+        formula(IN_NUMBERS, omega=omega, **values),
+        say("These are the time and the greatest velocity and acceleration of every phase."),
+        table((say("phase"), *AT_SPEED[of_lift]), rows, solution.tell),
+        tell=solution.tell,
+    )
 
 
 def _impact(solution: Solution) -> str:
     """Rigid, soft or none, and where."""
     motion, of_lift, tell = solution.cam.motion, solution.chain.board.follower.unit, solution.tell
-    rigid, soft = velocity_jumps(motion), acceleration_jumps(motion)
-    if rigid:
-        return tell(warning(say("The velocity jumps: the impact is rigid."))) + " " + told_jumps(
-            rigid, "v", f"{of_lift}/rad", tell
-        )  # fmt: skip
-    if soft:
+    if rigid := velocity_jumps(motion):
+        said = warning(say("The velocity jumps: the impact is rigid."))
+        return f"{tell(said)} {told_jumps(rigid, 'v', f'{of_lift}/rad', tell)}"
+    if soft := acceleration_jumps(motion):
         said = say(
             "The velocity is continuous and the acceleration jumps: the impact is soft. The force on the follower "
             "jumps with the acceleration."
         )
-        return tell(said) + " " + told_jumps(soft, "a", f"{of_lift}/rad²", tell)
+        return f"{tell(said)} {told_jumps(soft, 'a', f'{of_lift}/rad²', tell)}"
     return tell(say("Velocity and acceleration are continuous: there is no impact."))
 
 
 def _spring(spring: SpringDesign, tell: Tell) -> str:
     """The preload, the least contact force, and where contact is lost."""
-    load, needed, least = spring.load, spring.least, spring.contact.least_force()
-    preload = number(load.preload)
+    load, needed, least, lost = spring.load, spring.least, spring.contact.least_force(), joined(spring.lost)
+    keeps = say(
+        "A preload of at least {preload} N keeps contact over the whole turn; it is needed at φ = {phi}.",
+        preload=number(needed.preload),
+        phi=degrees(needed.phi),
+    )
+    adopted = say("The preload is adopted as $F_0 = {preload}$ N.", preload=number(load.preload))
+    given = say("The preload is given as $F_0 = {preload}$ N.", preload=number(load.preload))
     said = [
-        say(
-            "A preload of at least {preload} N keeps contact over the whole turn; it is needed at φ = {phi}.",
-            preload=number(needed.preload), phi=degrees(needed.phi),
-        )
-        if needed.preload > 0
-        else say("Contact is kept even without a preload."),
-        say("The preload is adopted as $F_0 = {preload}$ N.", preload=preload)
-        if spring.open_preload
-        else say("The preload is given as $F_0 = {preload}$ N.", preload=preload),
+        keeps if needed.preload > 0 else say("Contact is kept even without a preload."),
+        adopted if spring.open_preload else given,
         say("The least contact force is {force} N, {at}.", force=number(least.value), at=at_side(least)),
-    ]  # fmt: skip
-    lost = [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in spring.contact.lost()]
+    ]
+    too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
     return blocks(
-        tell(
-            say(
-                "A spring of $c = {stiffness:g}$ N/mm presses the moving mass of $m = {mass:g}$ kg on the cam. The cam "
-                "bears the follower with the force",
-                stiffness=load.stiffness, mass=load.mass,
-            )
+        say(
+            "A spring of $c = {stiffness:g}$ N/mm presses the moving mass of $m = {mass:g}$ kg on the cam. The cam "
+            "bears the follower with the force",
+            stiffness=load.stiffness,
+            mass=load.mass,
         ),
-        "$$\\xi = m\\,a\\,\\omega^2 + F_0 + c\\,s.$$",
-        tell(sequence(said, " ")),
-        tell(warning(say("Contact is lost, φ = {where}: the spring's preload is too small.", where=joined(lost))))
-        if lost
-        else "",
-    )  # fmt: skip
+        r"$$\xi = m\,a\,\omega^2 + F_0 + c\,s.$$",
+        sequence(said, " "),
+        warning(too_small) if lost else "",
+        tell=tell,
+    )
 
 
 def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str, tell: Tell) -> str:
     """Where a quantity jumps, from what to what."""
-    rows = [
-        (say("{phi}°", phi=number(math.degrees(jump.phi), 2)),
-         *(number(x) for x in (jump.before, jump.after, jump.size)))
-        for jump in jumps
-    ]  # fmt: skip
     header = ("φ", say("{symbol} before", symbol=symbol), say("{symbol} after", symbol=symbol), say("jump"))
-    return tell(say("These are the jumps, in {unit}.", unit=unit(of_symbol))) + "\n\n" + table(header, rows, tell)
+    rows = [
+        (say("{phi}°", phi=number(math.degrees(jump.phi))), *map(number, (jump.before, jump.after, jump.size)))
+        for jump in jumps
+    ]
+    return blocks(say("These are the jumps, in {unit}.", unit=unit(of_symbol)), table(header, rows, tell), tell=tell)
 
 
 def _result(solution: Solution) -> str:
     """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is built with these sizes: {sizes}.", sizes=joined(built))
-    return blocks(*map(solution.tell, [said, *map(warning, solution.warnings)]))
+    return blocks(said, *map(warning, solution.warnings), tell=solution.tell)
 
 
 def _stations(solution: Solution) -> str:
@@ -265,9 +262,9 @@ def _stations(solution: Solution) -> str:
     said = say(
         "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, as drawn and "
         "as they are exactly. The acceleration at both ends of a phase is the one inside the phase.",
-        s=unit(of_lift), v=unit(f"{of_lift}/rad"), a=unit(f"{of_lift}/rad²"),
-    )  # fmt: skip
-    return solution.tell(said) + "\n\n" + at_stations(solution)
+        **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
+    )
+    return blocks(said, at_stations(solution), tell=solution.tell)
 
 
 def _polar(solution: Solution) -> str:
@@ -275,7 +272,7 @@ def _polar(solution: Solution) -> str:
         "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted counter-clockwise from the "
         "horizontal, on the cam as it stands at φ = 0. A dash stands where no point of the profile is left."
     )
-    return solution.tell(said) + "\n\n" + polar_coordinates(solution)
+    return blocks(said, polar_coordinates(solution), tell=solution.tell)
 
 
 def against_exact(solution: AnySolution) -> str:
@@ -284,41 +281,44 @@ def against_exact(solution: AnySolution) -> str:
     meaning = say(
         "The bound is how far the drawn value may lie off the exact one on this paper: for the finite number of parts "
         "{factor:g} times the greatest change that is seen when every part is divided into {parts}.",
-        factor=CHANGE_TO_ERROR, parts=joined([str(k) for k in FINER]),
-    )  # fmt: skip
+        factor=CHANGE_TO_ERROR,
+        parts=joined([str(k) for k in FINER]),
+    )
     hands = say(
         "To it come, for the hand, the bias and {deviations:g} standard deviations of {count} drawings with the same "
         "pencil.",
-        deviations=DEVIATIONS, count=pencil.samples or HANDS,
-    )  # fmt: skip
-    said = [meaning, *([] if pencil.perfect else [hands]), *_verdict(solution)]
+        deviations=DEVIATIONS,
+        count=pencil.samples or HANDS,
+    )
     return blocks(
-        tell(say("The error is the drawn value less the exact one.")),
+        say("The error is the drawn value less the exact one."),
         compared(solution.comparison.quantities, tell),
-        tell(sequence(said, " ")),
+        sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution)], " "),
+        tell=tell,
     )
 
 
 def _verdict(solution: AnySolution) -> list[Caption]:
     """Which drawn values keep their bounds."""
     quantities = solution.comparison.quantities.values()
-    outside = [q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper]
-    unknown = [q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)]
+    outside = joined([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
+    unknown = joined([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
     if outside and solution.chain.pencil.perfect:
-        verdict = say("Outside the bound: {names}; such a value is to be drawn with more parts.", names=joined(outside))
+        verdict = say("Outside the bound: {names}; such a value is to be drawn with more parts.", names=outside)
     elif outside:
         verdict = say(
             "Outside the bound: {names}; this is the hand's scatter, which seldom exceeds {deviations:g} standard "
             "deviations.",
-            names=joined(outside), deviations=DEVIATIONS,
-        )  # fmt: skip
+            names=outside,
+            deviations=DEVIATIONS,
+        )
     elif unknown:
         verdict = say("Every drawn value lies within its bound, where there is one.")
     else:
         verdict = say("Every drawn value lies within its bound.")
     if not unknown:
         return [verdict]
-    return [verdict, say("No bound is known of {names}: more parts show what these do not.", names=joined(unknown))]
+    return [verdict, say("No bound is known of {names}: more parts show what these do not.", names=unknown)]
 
 
 def captions(solution: AnySolution) -> str:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +12,8 @@ from graphcam.constructions.axes import station_names
 from graphcam.drafting.units import unit
 from graphcam.given.laws import Floats
 from graphcam.report.markdown import number, table
-from graphcam.report.paragraphs import digits, scale_of
+from graphcam.report.paragraphs import digits
+from graphcam.report.sheet_data import on_paper
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Tell, say
 
@@ -22,64 +22,52 @@ EXACT_DIGITS = 4
 """Decimals of an exact value, at least."""
 
 
+Column = tuple[str, Floats, Floats, int]
+"""A quantity at the stations: its symbol, what was drawn, what it is exactly, and decimals of what was drawn."""
+
+
 def at_stations(solution: Solution) -> str:
     """s, v, a and the pressure angle at the stations, drawn and exact."""
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
     drawn, exact = compared.drawn_stations, compared.exact_stations
-    s, v, a, _ = exact.values
     columns = [
-        ("s", drawn["s"], s, digits(scale_of(integrated, "s"))),
-        ("v", drawn["v"], v, digits(scale_of(integrated, "v"))),
-        ("a", drawn["a"], a, digits(scale_of(integrated, "a"))),
-        ("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2),
+        (name, drawn[name], values, digits(integrated.readings[name].per_mm))
+        for name, values in zip(("s", "v", "a"), exact.values, strict=False)
     ]
+    columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
+    return station_table(station_names(stations), stations.phi, columns, solution.tell)
+
+
+def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], tell: Tell) -> str:
+    """The stations, their cam angles [rad], and what was drawn at them beside what is exact."""
     header = [say("station"), "φ", *(replace(side, values={"name": name}) for name, *_ in columns for side in SIDES)]
-    rows = [
-        [name, number(math.degrees(phi))]
-        + [cell for _, d, e, decimals in columns for cell in _pair(float(d[k]), float(e[k]), decimals)]
-        for k, (name, phi) in enumerate(zip(station_names(stations), stations.phi, strict=True))
+    told = [
+        [number(float(value), places) for value in values]
+        for _, drawn, exact, decimals in columns
+        for values, places in ((drawn, decimals), (exact, max(EXACT_DIGITS, decimals + 1)))
     ]
-    return table(header, rows, solution.tell)
-
-
-def _pair(drawn: float, exact: float, decimals: int) -> tuple[Caption, Caption]:
-    return number(drawn, decimals), number(exact, max(EXACT_DIGITS, decimals + 1))
+    return table(header, zip(names, map(number, np.degrees(phi).tolist()), *told, strict=True), tell)
 
 
 def polar_coordinates(solution: Solution) -> str:
     """The polar coordinates of the pitch curve and of the working profile at the stations, drawn."""
-    stations, pitch, profile = (
-        solution.chain.board.stations, solution.drawn["inversion"], solution.drawn["working_profile"],
-    )  # fmt: skip
-    touch: Floats = np.angle(profile.first("touch"))
-    columns = [
-        pitch.value("radius"),
-        np.degrees(pitch.value("polar_angle")),
-        profile.value("radius"),
-        np.degrees(touch),
-    ]
-    rows = [
-        [name, number(math.degrees(phi)), *(number(float(column[k])) for column in columns)]
-        for k, (name, phi) in enumerate(zip(station_names(stations), stations.phi, strict=True))
-    ]
-    header = [
-        say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"),
-    ]  # fmt: skip
+    stations, pitch = solution.chain.board.stations, solution.drawn["inversion"]
+    profile = solution.drawn["working_profile"]
+    phi, theta, touch = map(np.degrees, (stations.phi, pitch.value("polar_angle"), np.angle(profile.first("touch"))))
+    columns = (phi, pitch.value("radius"), theta, profile.value("radius"), touch)
+    rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
+    header = (say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"))
     return table(header, rows, solution.tell)
 
 
 def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:
     """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bound."""
     rows = [
-        (
-            q.title, unit(q.unit), number(q.drawn, 3), number(q.exact, EXACT_DIGITS),
-            number(q.error, EXACT_DIGITS, sign=True), number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3),
-        )
-        for q in quantities.values()
-        if math.isfinite(q.drawn) or math.isfinite(q.exact)  # else there is no such thing on this follower
-    ]  # fmt: skip
-    header = (
-        say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"), say("error, mm of paper"),
-        say("bound, mm of paper"),
-    )  # fmt: skip
-    return table(header, rows, tell)
+        (q.title, unit(q.unit), number(q.drawn, 3), *_exactly(q), *on_paper(q)) for q in quantities.values() if q.exists
+    ]
+    header = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"))
+    return table((*header, say("error, mm of paper"), say("bound, mm of paper")), rows, tell)
+
+
+def _exactly(q: Quantity) -> tuple[Caption, Caption]:
+    return number(q.exact, EXACT_DIGITS), number(q.error, EXACT_DIGITS, sign=True)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
 from graphcam.constructions.differentiation import VIEWS as DIFFERENTIATED
-from graphcam.drafting.ink import Caption, Step, say
+from graphcam.drafting.ink import Caption, Reading, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
-from graphcam.report.contents import Contents, drawing
+from graphcam.report.contents import Contents
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
-from graphcam.sheets.formats import Format
-from graphcam.sheets.model import Drawing
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import TitleTable
@@ -28,29 +25,17 @@ UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
 
-def sheet(solution: Solution) -> Drawing:
-    """The finished sheet."""
-    return drawing(contents(solution))
-
-
-def contents(solution: Solution) -> Contents:
+def motion_contents(solution: Solution) -> Contents:
     """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
-    task, paper = solution.task, solution.task.drawing
-    titles = _titles(solution)
-    steps = [(name, _titled(step, titles)) for name, c in solution.drawn.items() for step in c.steps()]
+    titles, spring, drawn = _titles(solution), solution.spring, dict(solution.drawn)
+    steps = [(name, _scaled(step, titles)) for name, c in drawn.items() for step in c.steps()]
     results = [comparison(solution.comparison.quantities)]
-    if solution.spring:
-        steps += solution.spring.steps()
-        results.append(solution.spring.table())
-    return Contents(
-        steps=tuple(steps),
-        givens=(data(solution), phases_at_speed(solution)),
-        results=tuple(results),
-        notes=tuple(solution.warnings),
-        title=title_block(task.title, solution.chain.profile_scale, paper.tell),
-        sheet=Format(paper.format, paper.frame, paper.orientation),
-        tell=paper.tell,
-    )
+    if spring:
+        steps += spring.steps()
+        results.append(spring.table())
+        drawn |= {"force_plan": spring.force_plan} if spring.force_plan else {}
+    block = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
+    return Contents(solution, block, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
 
 
 def title_name(title: TitleTable, tell: Tell) -> str:
@@ -72,27 +57,39 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
     )
 
 
-def _titled(step: Step, titles: dict[str, Caption]) -> Step:
-    title = titles.get(step.view.name, step.view.title)
+def titled(step: Step, titles: Mapping[str, Caption]) -> Step:
+    """The step with the title that its view has on the sheet."""
+    return replace(step, view=replace(step.view, title=titles.get(step.view.name, step.view.title)))
+
+
+def _scaled(step: Step, titles: Mapping[str, Caption]) -> Step:
+    """The step with its view's title, whose scale is an answer if the integration finds it."""
+    step = titled(step, titles)
     if step.view.name not in SCALED:
-        return replace(step, view=replace(step.view, title=title))
-    answer = say("{mu:.4g}", mu=title.values["mu"])
-    return replace(step, view=replace(step.view, title=title, answer=answer, found_by="integration"))
+        return step
+    answer = say("{mu:.4g}", mu=step.view.title.values["mu"])
+    return replace(step, view=replace(step.view, answer=answer, found_by="integration"))
 
 
 def _titles(solution: Solution) -> dict[str, Caption]:
     """The views' titles with their scales."""
-    readings = solution.drawn["integration"].readings
-    mu_phi = math.degrees(solution.chain.board.mu_phi.per_mm)
-
-    def scale(name: str) -> dict[str, object]:
-        return {"mu": float(np.ravel(readings[name].scale)[0]), "unit": unit(readings[name].unit)}
-
+    s, v, a = (solution.drawn["integration"].readings[name] for name in ("s", "v", "a"))
     return {
-        "acceleration": say("Acceleration a, μₐ = {mu:.4g} ({unit})/mm", **scale("a")),
-        "velocity": say("Velocity v, μᵥ = {mu:.4g} ({unit})/mm", **scale("v")),
-        "displacement": say("Displacement s, μₛ = {mu:.4g} {unit}/mm", **scale("s")),
-        "angle": say("Pressure angle α, μ = {mu:g}°/mm", mu=mu_phi),
-        "combined": say("Least radius, μₛ = {mu:.4g} {unit}/mm", **scale("s")),
+        **diagram_titles(solution.chain.board.mu_phi, s, v, a),
+        "combined": say("Least radius, μₛ = {mu:.4g} {unit}/mm", **_scale(s)),
         "profile": say("Cam profile, {ratio}", ratio=ratio_text(solution.chain.profile_scale.per_mm)),
     }
+
+
+def diagram_titles(mu_phi: Scale, s: Reading, v: Reading, a: Reading) -> dict[str, Caption]:
+    """The titles of the diagrams over the cam angle, with the scales of what is read there."""
+    return {
+        "acceleration": say("Acceleration a, μₐ = {mu:.4g} ({unit})/mm", **_scale(a)),
+        "velocity": say("Velocity v, μᵥ = {mu:.4g} ({unit})/mm", **_scale(v)),
+        "displacement": say("Displacement s, μₛ = {mu:.4g} {unit}/mm", **_scale(s)),
+        "angle": say("Pressure angle α, μ = {mu:g}°/mm", mu=math.degrees(mu_phi.per_mm)),
+    }
+
+
+def _scale(read: Reading) -> dict[str, object]:
+    return {"mu": read.per_mm, "unit": unit(read.unit)}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import product
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, turning
@@ -31,19 +31,20 @@ AT_SPEED: Mapping[str, tuple[Caption, ...]] = {
 def sizes(solution: Solution) -> list[Row]:
     """The sizes of the cam that is built: name, value, and whether it was given or adopted."""
     cam, board = solution.cam, solution.chain.board
-    prime_radius = (say("prime radius r₀"), _mm(cam.prime_radius), _by(board.prime_radius))
+    prime_radius = (say("prime radius r₀"), mm(cam.prime_radius), _by(board.prime_radius))
     if isinstance(cam.follower, FlatFaced):
         return [prime_radius]
     swings = isinstance(board.follower, DrawnOscillating)
     return [
         prime_radius,
-        *([(say("arm"), _mm(board.follower.arm), GIVEN)] if isinstance(board.follower, DrawnOscillating) else []),
-        (say("distance") if swings else say("offset"), _mm(solution.chain.place + 0.0), _by(board.follower.place)),
-        (say("roller radius"), _mm(cam.roller_radius), _by(board.roller_radius)),
+        *([(say("arm"), mm(board.follower.arm), GIVEN)] if isinstance(board.follower, DrawnOscillating) else []),
+        (say("distance") if swings else say("offset"), mm(solution.chain.place + 0.0), _by(board.follower.place)),
+        (say("roller radius"), mm(cam.roller_radius), _by(board.roller_radius)),
     ]
 
 
-def _mm(length: float) -> Caption:
+def mm(length: float) -> Caption:
+    """A length as it is given."""
     return say("{length:g} mm", length=length)
 
 
@@ -56,13 +57,23 @@ def data(solution: Solution) -> Table:
     task = solution.task
     rows: list[Row] = [
         (say("rotation"), turning(task.rotation), GIVEN),
-        *([(say("speed"), say("{rpm:g} rpm", rpm=task.speed_rpm), GIVEN)] if task.speed_rpm else []),
+        *speed(task.speed_rpm),
         *sizes(solution),
         *_limits(solution),
         *_measured(solution),
     ]
-    found = frozenset((row, 1) for row, (_, _, by) in enumerate(rows) if by in (ADOPTED, ""))
-    return Table(say("Data"), (say("quantity"), say("value"), ""), tuple(rows), found)
+    return data_table(rows, (ADOPTED, ""))
+
+
+def speed(rpm: float | None) -> list[Row]:
+    """The row of a speed that is given."""
+    return [(say("speed"), say("{rpm:g} rpm", rpm=rpm), GIVEN)] if rpm else []
+
+
+def data_table(rows: Sequence[Row], found: Sequence[Words]) -> Table:
+    """The data; a worksheet leaves those empty that come from one of ``found``."""
+    answers = frozenset((row, 1) for row, (_, _, by) in enumerate(rows) if by in found)
+    return Table(say("Data"), (say("quantity"), say("value"), ""), tuple(rows), answers)
 
 
 def _measured(solution: Solution) -> list[Row]:
@@ -72,14 +83,11 @@ def _measured(solution: Solution) -> list[Row]:
         return []
     lift_unit = solution.task.motion.lift_unit
     swings = solution.chain.board.follower.unit == "rad"
-    residual = say(
-        "{greatest:.2g}, rms {rms:.2g}",
-        greatest=motion.greatest_residual / lift_unit,
-        rms=motion.rms_residual / lift_unit,
-    )
+    greatest, rms = motion.greatest_residual / lift_unit, motion.rms_residual / lift_unit
+    residual = say("{greatest:.2g}, rms {rms:.2g}", greatest=greatest, rms=rms)
     return [
         (say("table of the motion"), table.file, GIVEN),
-        (say("tolerance"), degrees(motion.tolerance) if swings else _mm(motion.tolerance), GIVEN),
+        (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN),
         (say("residual"), residual, ""),
         *([(say("cam angle 0 of the table at"), degrees(-motion.zero), "")] if motion.zero else []),
     ]
@@ -88,7 +96,7 @@ def _measured(solution: Solution) -> list[Row]:
 def _limits(solution: Solution) -> list[Row]:
     limits, least = solution.chain.board.limits, solution.task.limits.min_curvature_radius
     if isinstance(solution.cam.follower, FlatFaced):
-        return [(say("permitted radius of curvature"), _mm(least or 0), LIMIT)]
+        return [(say("permitted radius of curvature"), mm(least or 0), LIMIT)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
     return [
         (say("permitted angle, rise"), degrees(limits.rise), LIMIT),
@@ -99,32 +107,26 @@ def _limits(solution: Solution) -> list[Row]:
 def phases(solution: Solution) -> Table:
     """The phases of the motion; an arm's lift is an angle."""
     motion, swings = solution.cam.motion, solution.chain.board.follower.unit == "rad"
+    lifts = [degrees(phase.lift) if swings else say("{lift:g}", lift=phase.lift) for phase in motion.phases]
     rows = tuple(
-        (phase_title(motion, k), degrees(phase.angle), _lift(phase.lift, swings=swings), law_title(motion, k))
+        (phase_title(motion, k), degrees(phase.angle), lifts[k] if phase.lift else "", law_title(motion, k))
         for k, phase in enumerate(motion.phases)
     )
     lift = say("lift") if swings else say("lift, mm")
     return Table(say("Motion"), (say("phase"), say("angle"), lift, say("law")), rows)
 
 
-def _lift(lift: float, *, swings: bool) -> Words:
-    """The lift of a phase, nothing for a dwell."""
-    if not lift:
-        return ""
-    return degrees(lift) if swings else say("{lift:g}", lift=lift)
-
-
 def phases_at_speed(solution: Solution) -> Table:
     """The phases; with a speed their times and greatest velocity and acceleration."""
-    table, speed = phases(solution), solution.comparison.phases(solution.task.speed_rpm)
-    if not speed:
+    table, at_speed = phases(solution), solution.comparison.phases(solution.task.speed_rpm)
+    if not at_speed:
         return table
     rows = tuple(
-        (*row, number(p.time, 4), *(say("{x:.4g}", x=x) if x else "" for x in (p.max_velocity, p.max_acceleration)))
-        for row, p in zip(table.rows, speed, strict=True)
+        (*row, number(p.time, 4), *(say("{x:.4g}", x=x) if x else "" for x in p.greatest))
+        for row, p in zip(table.rows, at_speed, strict=True)
     )
     header = (*table.header, *AT_SPEED[solution.chain.board.follower.unit])
-    found = frozenset((row, column) for row in range(len(rows)) for column in range(len(table.header), len(header)))
+    found = frozenset(product(range(len(rows)), range(len(table.header), len(header))))
     return Table(say("Motion, greatest v and a"), header, rows, found)
 
 
@@ -138,16 +140,18 @@ def law_title(motion: Motion, k: int) -> Words:
     return say("{law}, ratio {ratio:g}", law=name, ratio=law.ratio) if law.ratio != 1 else name
 
 
+def on_paper(q: Quantity) -> tuple[Caption, Caption]:
+    """The error and the bound of a quantity [mm of paper]."""
+    return number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3)
+
+
 def comparison(quantities: Mapping[str, Quantity]) -> Table:
     """Every quantity, drawn and exact, with its error and the bound in mm of paper."""
     rows = tuple(
-        (
-            sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3),
-            number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3),
-        )
+        (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *on_paper(q))
         for q in quantities.values()
-        if math.isfinite(q.drawn) or math.isfinite(q.exact)  # else there is no such thing on this follower
-    )  # fmt: skip
+        if q.exists
+    )
     header = (say("quantity"), say("drawn"), say("exact"), say("error, mm of paper"), say("bound"))
-    found = frozenset((row, column) for row in range(len(rows)) for column in range(1, len(header)))
+    found = frozenset(product(range(len(rows)), range(1, len(header))))
     return Table(say("Drawn and exact"), header, rows, found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -33,18 +34,13 @@ MARGIN = 0.05
 
 
 BINDING: Mapping[str, Caption] = {
-    "pressure angle on the rise": say("pressure angle on the rise"),
-    "pressure angle on the return": say("pressure angle on the return"),
-    "curvature": say("curvature"),
-    "stress": say("stress"),
-    "least prime radius": say("least prime radius"),
-    "greatest prime radius": say("greatest prime radius"),
-    "least offset": say("least offset"),
-    "greatest offset": say("greatest offset"),
-    "least roller radius": say("least roller radius"),
-    "greatest roller radius": say("greatest roller radius"),
-    "least face width": say("least face width"),
-    "greatest face width": say("greatest face width"),
+    str(words): words
+    for words in (
+        *(say("pressure angle on the rise"), say("pressure angle on the return"), say("curvature"), say("stress")),
+        *(say("least prime radius"), say("greatest prime radius"), say("least offset"), say("greatest offset")),
+        *(say("least roller radius"), say("greatest roller radius")),
+        *(say("least face width"), say("greatest face width")),
+    )
 }
 """What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
 
@@ -63,6 +59,16 @@ def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso", languag
     return compose(steps, [_table(sized)], TitleBlock(name=tell(TITLE)), paper, frame, tell=tell)
 
 
+ABOVE = say(
+    "Above its line a limit is kept: the pressure angle, the roller's share of the radius of curvature with the "
+    "smallest roller, and the stress with the widest face and the best roller."
+)
+OVER = say(
+    "Over all lines the cams are permitted. The least prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; what binds "
+    "there: {binding}."
+)
+
+
 def _steps(sized: SizedCam, region: FeasibleRegion, size: complex) -> list[Step]:
     (e0, e1), (r0, r1) = sized.problem.offset, sized.problem.prime_radius
     span, rise = max(e1 - e0, MARGIN * r1), max(r1 - r0, MARGIN * r1)
@@ -72,43 +78,25 @@ def _steps(sized: SizedCam, region: FeasibleRegion, size: complex) -> list[Step]
         return np.asarray(across * size.real + UP * up * size.imag)
 
     kept = ~np.isnan(region.least)
-    border = place(region.offset[kept], region.least[kept])
+    border, top = place(region.offset[kept], region.least[kept]), place(region.offset[kept], r1)
     lines = {name: place(region.offset, radius)[~np.isnan(radius)] for name, radius in region.by_limit.items()}
-    found = complex(place(sized.offset, sized.cam.prime_radius))
-    top = place(region.offset[kept], r1)
-    shaded = (Region(np.concatenate([border, top[::-1]])),) if border.size > 1 else ()
+    drawn = [(name, line) for name, line in lines.items() if line.size]
+    limits = (
+        *_axes(size, (e0, e0 + span), (r0, r0 + rise)),
+        *(Line(line, Role.CURVE) for _, line in drawn if line.size > 1),
+        *(Label(complex(line[line.size // 2]), BINDING[name], towards=UP) for name, line in drawn),
+    )
+    found, least = complex(place(sized.offset, sized.cam.prime_radius)), sized.cam.prime_radius
+    smallest = (
+        *([Region(np.concatenate([border, top[::-1]]))] if border.size > 1 else []),
+        Dots(np.array([found]), Role.RESULT),
+        Label(found, say("r₀ = {r0:.2f}", r0=least), towards=1 - 1j),
+    )
+    binding = sequence([BINDING[name] for name in sized.binding])
     return [
-        Step(
-            say("The limits"),
-            say(
-                "Above its line a limit is kept: the pressure angle, the roller's share of the radius of curvature "
-                "with the smallest roller, and the stress with the widest face and the best roller."
-            ),
-            REGION,
-            (
-                *_axes(size, (e0, e0 + span), (r0, r0 + rise)),
-                *(Line(line, Role.CURVE) for line in lines.values() if line.size > 1),
-                *(
-                    Label(complex(line[line.size // 2]), BINDING[name], towards=UP)
-                    for name, line in lines.items() if line.size
-                ),
-            ),
-        ),
-        Step(
-            TITLE,
-            say(
-                "Over all lines the cams are permitted. The least prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; "
-                "what binds there: {binding}.",
-                r0=sized.cam.prime_radius, e=sized.offset, binding=sequence([BINDING[name] for name in sized.binding]),
-            ),
-            REGION,
-            (
-                *shaded,
-                Dots(np.array([found]), Role.RESULT),
-                Label(found, say("r₀ = {r0:.2f}", r0=sized.cam.prime_radius), towards=1 - 1j),
-            ),
-        ),
-    ]  # fmt: skip
+        Step(say("The limits"), ABOVE, REGION, limits),
+        Step(TITLE, replace(OVER, values={"r0": least, "e": sized.offset, "binding": binding}), REGION, smallest),
+    ]
 
 
 def _axes(size: complex, offsets: tuple[float, float], radii: tuple[float, float]) -> tuple[Mark, ...]:
@@ -143,32 +131,30 @@ def _ticks(end: complex, span: tuple[float, float], outwards: complex) -> tuple[
 def _table(sized: SizedCam) -> Table:
     """Sizes and limits with what is permitted; a star where that binds."""
     problem, limits = sized.problem, sized.problem.limits
-    values = (
-        ("prime radius", say("prime radius"), sized.cam.prime_radius, problem.prime_radius),
-        ("offset", say("offset"), sized.offset, problem.offset),
-        ("roller radius", say("roller radius"), sized.cam.roller_radius, problem.roller_radius),
-        ("face width", say("face width"), sized.face_width, problem.face_width),
+    ranges = (
+        (say("prime radius"), sized.cam.prime_radius, problem.prime_radius),
+        (say("offset"), sized.offset, problem.offset),
+        (say("roller radius"), sized.cam.roller_radius, problem.roller_radius),
+        (say("face width"), sized.face_width, problem.face_width),
     )
     rows = [
-        (word, name, say("{length:.3f} mm", length=value), say("{low:g} to {high:g}", low=low, high=high))
-        for word, name, value, (low, high) in values
+        (str(name), name, _length(value), say("{low:g} to {high:g}", low=low, high=high))
+        for name, value, (low, high) in ranges
     ]
-    permitted = max(limits.rise, limits.return_ or 0.0)
+    angle, permitted = math.degrees(sized.max_pressure_angle), math.degrees(max(limits.rise, limits.return_ or 0.0))
+    rho, least = sized.min_convex_radius, sized.cam.roller_radius / limits.roller_share
+    stress, allowed = say("{stress:.1f} MPa", stress=sized.stress), say("{stress:g}", stress=limits.stress)
     rows += [
-        ("pressure angle", say("pressure angle"), say("{angle:.2f}°", angle=math.degrees(sized.max_pressure_angle)),
-         say("{angle:g}°", angle=math.degrees(permitted))),
-        ("curvature", say("least curvature radius"), say("{length:.3f} mm", length=sized.min_convex_radius),
-         say("{length:.3f}", length=sized.cam.roller_radius / limits.roller_share)),
-        ("stress", say("contact stress"), say("{stress:.1f} MPa", stress=sized.stress),
-         say("{stress:g}", stress=limits.stress)),
-    ]  # fmt: skip
+        ("pressure angle", say("pressure angle"), say("{angle:.2f}°", angle=angle), say("{angle:g}°", angle=permitted)),
+        ("curvature", say("least curvature radius"), _length(rho), say("{length:.3f}", length=least)),
+        ("stress", say("contact stress"), stress, allowed),
+    ]
     starred = [
-        (name, value, sequence([allowed, "*"], " ") if _binds(word, sized.binding) else allowed)
-        for word, name, value, allowed in rows
+        (name, value, sequence([limit, "*"], " ") if any(word in binding for binding in sized.binding) else limit)
+        for word, name, value, limit in rows
     ]
     return Table(TITLE, (say("size"), say("value"), say("permitted, * binds")), tuple(starred))
 
 
-def _binds(word: str, binding: tuple[str, ...]) -> bool:
-    """Whether what a row of the table shows is among what binds."""
-    return any(word in name for name in binding)
+def _length(value: float) -> Caption:
+    return say("{length:.3f} mm", length=value)

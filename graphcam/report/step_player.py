@@ -8,13 +8,12 @@ from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.language import language
 from graphcam.report.arcs_report import TITLES as ARCS_TITLES
-from graphcam.report.documents import contents_of
-from graphcam.report.mechanism_scene import scene
+from graphcam.report.documents import contents_of, scene_of
 from graphcam.report.mechanism_view import mechanism_view
 from graphcam.report.note import TITLES
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.player import WORDS, ReadingText, Slide, player
-from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Tell
 
 CHAPTERS: Mapping[str, Caption] = {
@@ -34,28 +33,19 @@ def player_of(solution: AnySolution, drawing: Drawing) -> str:
     """
     spoken = language(solution.task.drawing.language)
     words = {name: spoken.text(word) for name, word in WORDS.items()}
-    turning = mechanism_view(scene(solution), spoken.text, spoken.decimal)
+    turning = mechanism_view(scene_of(solution), spoken.text, spoken.decimal)
     return player(drawing, slides(solution, spoken.text), turning, words, spoken.name)
 
 
 def slides(solution: AnySolution, tell: Tell = str) -> list[Slide]:
     """What is said of each step of the sheet, in order."""
-    drawn = _constructions(solution)
-    return [_slide(name, step, drawn.get(name), tell) for name, step in contents_of(solution).steps]
-
-
-def _constructions(solution: AnySolution) -> dict[str, Construction]:
-    spring = None if isinstance(solution, ArcsSolution) else solution.spring
-    plan = spring.force_plan if spring else None
-    return {**solution.drawn, **({"force_plan": plan} if plan else {})}
+    sheets = contents_of(solution)
+    return [_slide(name, step, sheets.drawn.get(name), tell) for name, step in sheets.steps]
 
 
 def _slide(name: str, step: Step, construction: Construction | None, tell: Tell) -> Slide:
-    read = rows(construction, step) if construction else []
-    return Slide(
-        tell(CHAPTERS[name]), step.view.name, tell(step.title), tell(step.caption),
-        tuple(_reading(row, tell) for row in read),
-    )  # fmt: skip
+    read = [_reading(row, tell) for row in rows(construction, step)] if construction else []
+    return Slide(tell(CHAPTERS[name]), step.view.name, tell(step.title), tell(step.caption), tuple(read))
 
 
 def _reading(row: ReadingRow, tell: Tell) -> ReadingText:

@@ -3,51 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from graphcam.constructions.axes import degrees, station_names, turning
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.minimum_radius import LINES, active
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.drafting.ink import Construction
+from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.limits import Limits
-from graphcam.report.markdown import blocks, number
-from graphcam.report.paragraphs import LAST_DIGIT, Paragraph, scale_of, warning
+from graphcam.report.markdown import blocks, formula, number, numbers
+from graphcam.report.paragraphs import LAST_DIGIT, Paragraph, general, warning
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
 ONE_DEGREE = math.radians(1)
-
-
-@dataclass(frozen=True)
-class Condition:
-    """A line that bounds the region: s0 tan(angle) + side sigma e >= v - s tan(angle), where it touches at (s, v)."""
-
-    name: str
-    angle: float
-    side: int
-    s: float
-    v: float
-
-    @property
-    def least(self) -> float:
-        """The right-hand side [mm]."""
-        return self.v - self.s * math.tan(self.angle)
-
-    def told(self) -> Caption:
-        """The condition as a formula."""
-        said = CONDITIONS[self.name]
-        values = {
-            "left": say(
-                "s_0 \\tan {angle} {sign} \\sigma e", angle=_degrees(self.angle), sign="+" if self.side > 0 else "-"
-            ),
-            "tangent": say("\\tan {angle}", angle=_degrees(self.angle)),
-            "v": number(self.v), "s": number(self.s), "least": number(self.least),
-        }  # fmt: skip
-        return replace(said, values=values)
+TAN = say("\\tan")
 
 
 CONDITIONS = {
@@ -63,18 +37,17 @@ CONDITIONS = {
 }
 
 
-def _degrees(angle: float) -> Caption:
-    return say("{angle:.6g}^\\circ", angle=math.degrees(angle))
-
-
-def _conditions(region: Construction) -> list[Condition]:
-    limits, mu = region.givens["limits"], scale_of(region, "prime_radius")
-    found: list[Condition] = []
-    for name, angle, side in (("rise", limits.rise, 1), ("return", limits.return_, -1), ("rest", limits.rise, -1)):
+def _conditions(region: Construction) -> Iterator[Caption]:
+    """The lines that bound the region: s0 tan(angle) + side sigma e >= v - s tan(angle), each touching at (s, v)."""
+    limits, mu = region.givens["limits"], region.readings["prime_radius"].per_mm
+    for name, angle, side in (("rise", limits.rise, "+"), ("return", limits.return_, "-"), ("rest", limits.rise, "-")):
         if name in region.points and angle is not None:
             touch = complex(region.first(name)) * mu
-            found.append(Condition(name, angle, side, touch.imag, abs(touch.real)))
-    return found
+            s, v = touch.imag, abs(touch.real)
+            tangent = formula(r"<tan> <angle>^\circ", tan=TAN, angle=general(math.degrees(angle)))
+            left = formula(r"s_0 <tangent> <side> \sigma e", tangent=tangent, side=side)
+            read = numbers(v=v, s=s, least=v - s * math.tan(angle))
+            yield replace(CONDITIONS[name], values={"left": left, "tangent": tangent, **read})
 
 
 def least_radius(solution: Solution) -> str:
@@ -85,24 +58,27 @@ def least_radius(solution: Solution) -> str:
         "In the combined diagram the velocities are laid off at the displacements, both in the scale of s. A cam "
         "centre A that lies $s_0$ below the start of the lift, with the follower's line $e$ to the right of it, keeps "
         "the permitted angles under these conditions, with $\\sigma = {sigma}$ for a cam that turns {turning}:",
-        sigma=sense(board.rotation), turning=turning(board.rotation),
-    )  # fmt: skip
+        sigma=sense(board.rotation),
+        turning=turning(board.rotation),
+    )
     return blocks(
-        tell(conditions),
-        "\n".join(tell(condition.told()) for condition in _conditions(region)),
-        *(tell(said) for said in _centre(region)),
-        "" if board.limits.return_ is not None else tell(spring),
-        tell(_adopted(solution)),
-        tell(_sensitivity(solution)),
+        conditions,
+        "\n".join(map(tell, _conditions(region))),
+        *_centre(region),
+        "" if board.limits.return_ is not None else spring,
+        _adopted(solution),
+        _sensitivity(solution),
+        tell=tell,
     )
 
 
 def _centre(region: Construction) -> list[Caption]:
     """The place that is taken for the cam centre, and its distance from the start of the lift."""
-    s0, e, r0 = (float(region.value(name)) for name in ("s0", "offset", "prime_radius"))
-    if math.isnan(r0):
+    e, read = float(region.value("offset")), {name: region.value(name) for name in ("s0", "prime_radius")}
+    if math.isnan(read["prime_radius"]):
         unreadable = say("No cam centre can be read, because the lines that bound the region cross at under a degree.")
         return [warning(unreadable)]
+    values = numbers(e=e, **read)
     bound_by, given = [LINES[line.name] for line in active(region)], region.givens["offset"]
     place = (
         say("Of the region the place that is nearest to the start of the lift is taken.")
@@ -110,33 +86,22 @@ def _centre(region: Construction) -> list[Caption]:
         else say("The highest permitted place on the line at the given $e = {e:g}$ mm is taken.", e=given)
     )
     lies = say("It lies on the limit of: {lines}.", lines=sequence(bound_by)) if bound_by else say("No line binds it.")
-    read = say("There $s_0 = {s0}$ mm and $e = {e}$ mm are read, so", s0=number(s0), e=number(e))
-    square = say("({e})^2", e=number(e)) if e < 0 else say("{e}^2", e=number(e))
-    return [
-        sequence([place, lies, read], " "),
-        say(
-            "$$r_0 = \\sqrt{{s_0^2 + e^2}} = \\sqrt{{{s0}^2 + {square}}} = {r0}\\ \\text{{mm}}.$$",
-            s0=number(s0), square=square, r0=number(r0),
-        ),
-        say("This is the least prime radius."),
-    ]  # fmt: skip
+    read = say("There $s_0 = {s0}$ mm and $e = {e}$ mm are read, so", **values)
+    values |= {"square": formula("(<e>)^2" if e < 0 else "<e>^2", **values), "mm": unit("mm")}
+    radius = r"$$r_0 = \sqrt{s_0^2 + e^2} = \sqrt{<s0>^2 + <square>} = <prime_radius>\ \text{<mm>}.$$"
+    return [sequence([place, lies, read], " "), formula(radius, **values), say("This is the least prime radius.")]
 
 
 def _adopted(solution: Solution) -> Caption:
     """The prime radius and the offset that are built, and why these."""
-    chain, board = solution.chain, solution.chain.board
-    least = float(solution.drawn["minimum_radius"].value("prime_radius"))
+    chain, board, least = solution.chain, solution.chain.board, solution.drawn["minimum_radius"].value("prime_radius")
     said: list[Caption] = []
     if board.follower.place is None:
-        said.append(
-            say(
-                "The offset is adopted as $e = {e:g}$ mm, a multiple of {rounding:g} mm.",
-                e=chain.place, rounding=chain.rounding,
-            )
-        )  # fmt: skip
+        offset = {"e": chain.place, "rounding": chain.rounding}
+        said.append(say("The offset is adopted as $e = {e:g}$ mm, a multiple of {rounding:g} mm.", **offset))
     if board.prime_radius is None:
         said += _rounded_up(solution)
-    elif board.prime_radius < least - LAST_DIGIT:
+    elif board.prime_radius < float(least) - LAST_DIGIT:
         smaller = say(
             "The task gives $r_0 = {r0:g}$ mm, which is smaller: the permitted pressure angles cannot be kept.",
             r0=board.prime_radius,
@@ -152,16 +117,16 @@ def _rounded_up(solution: Solution) -> list[Caption]:
     chain, board = solution.chain, solution.chain.board
     there = replace(chain.perfect, board=replace(board, follower=DrawnTranslating(chain.place)))
     radius = number(float(there.minimum_radius.value("prime_radius")))
-    said: list[Caption] = []
-    if board.follower.place is None:
-        said.append(say("The combined diagram, read again at this offset, gives {radius} mm.", radius=radius))
-    elif not chain.pencil.perfect:
-        said.append(say("A hand without error reads {radius} mm.", radius=radius))
     adopted = say(
         "Rounded up to a multiple of {rounding:g} mm the prime radius is adopted as $r_0 = {r0:g}$ mm.",
-        rounding=chain.rounding, r0=chain.prime_radius,
-    )  # fmt: skip
-    return [*said, adopted]
+        rounding=chain.rounding,
+        r0=chain.prime_radius,
+    )
+    if board.follower.place is None:
+        return [say("The combined diagram, read again at this offset, gives {radius} mm.", radius=radius), adopted]
+    if chain.pencil.perfect:
+        return [adopted]
+    return [say("A hand without error reads {radius} mm.", radius=radius), adopted]
 
 
 def _sensitivity(solution: Solution) -> Words:
@@ -178,66 +143,65 @@ def _sensitivity(solution: Solution) -> Words:
     return say(
         "Drawn again with every permitted angle greater by one degree, the combined diagram gives {then} mm: the least "
         "radius changes by {change} mm per degree.",
-        then=number(then), change=number(then - least),
-    )  # fmt: skip
+        **numbers(then=then, change=then - least),
+    )
 
 
 def pressure_angle(solution: Solution) -> str:
     """The velocity plan at the station of the greatest angle."""
-    measured, integrated = solution.drawn["pressure_angle"], solution.drawn["integration"]
-    board, chain, k, tell = solution.chain.board, solution.chain, shown_station(measured), solution.tell
-    s, v = (number(float(integrated.value(name)[k])) for name in ("s", "v"))
-    s0, offset = number(float(measured.value("s0"))), sense(board.rotation) * chain.place
+    values = _at_shown_station(solution)
     return blocks(
-        tell(
-            say(
-                "The velocity plan $\\vec v_2 = \\vec v_1 + \\vec v_{{21}}$ (cam 1, follower 2) is similar to the "
-                "triangle ABC of the mechanism, so $AC = ds/d\\varphi = v$. Laid off from B across the motion it "
-                "gives D, and the angle of DA with the motion is the pressure angle:"
-            )
+        say(
+            "The velocity plan ${plan}$ (cam 1, follower 2) is similar to the triangle ABC of the mechanism, so "
+            "$AC = ds/d\\varphi = v$. Laid off from B across the motion it gives D, and the angle of DA with the "
+            "motion is the pressure angle:",
+            plan=r"\vec v_2 = \vec v_1 + \vec v_{21}",
         ),
-        tell(say("$$\\tan\\alpha = \\frac{{v - \\sigma e}}{{s_0 + s}}.$$")),
-        tell(
-            say(
-                "With the adopted sizes $s_0 = {s0}$ mm and $\\sigma e = {offset}$ mm. At station {name} (φ = {phi}) "
-                "$s = {s}$ mm and $v = {v}$ mm/rad, so",
-                s0=s0, offset=number(offset), name=station_names(board.stations)[k],
-                phi=degrees(board.stations.phi[k]), s=s, v=v,
-            )
+        formula(r"$$<tan>\alpha = \frac{v - \sigma e}{s_0 + s}.$$", tan=TAN),
+        say(
+            "With the adopted sizes $s_0 = {s0}$ mm and $\\sigma e = {offset}$ mm. At station {name} (φ = {phi}) "
+            "$s = {s}$ mm and $v = {v}$ mm/rad, so",
+            **values,
         ),
-        tell(
-            say(
-                "$$\\tan\\alpha = \\frac{{{v} {sign} {offset}}}{{{s0} + {s}}}, \\qquad \\alpha = {alpha}^\\circ.$$",
-                v=v, sign="-" if offset >= 0 else "+", offset=number(abs(offset)), s0=s0, s=s,
-                alpha=number(math.degrees(float(measured.value("alpha")[k]))),
-            )
-        ),
-    )  # fmt: skip
+        formula(r"$$<tan>\alpha = \frac{<v> <less> <place>}{<s0> + <s>}, \qquad \alpha = <alpha>^\circ.$$", **values),
+        tell=solution.tell,
+    )
 
 
 def inversion(solution: Solution) -> str:
     """The pitch curve's points in polar coordinates."""
-    inverted, measured, tell = solution.drawn["inversion"], solution.drawn["pressure_angle"], solution.tell
-    k, names = shown_station(measured), station_names(solution.chain.board.stations)
+    values = _at_shown_station(solution)
     return blocks(
-        tell(
-            say(
-                "The cam is held still and the follower's line is turned about its centre against the rotation; it "
-                "touches the circle of the offset. From the prime circle the displacement is laid off along it, so a "
-                "point of the pitch curve has the polar radius"
-            )
+        say(
+            "The cam is held still and the follower's line is turned about its centre against the rotation; it "
+            "touches the circle of the offset. From the prime circle the displacement is laid off along it, so a "
+            "point of the pitch curve has the polar radius"
         ),
-        "$$R = \\sqrt{e^2 + (s_0 + s)^2}.$$",
-        tell(
-            say(
-                "At station {name} $R = \\sqrt{{{e}^2 + ({s0} + {s})^2}} = {radius}$ mm, in the direction of {angle}°.",
-                name=names[k], e=number(abs(solution.chain.place)), s0=number(float(measured.value("s0"))),
-                s=number(float(solution.drawn["integration"].value("s")[k])),
-                radius=number(float(inverted.value("radius")[k])),
-                angle=number(math.degrees(float(inverted.value("polar_angle")[k]))),
-            )
+        r"$$R = \sqrt{e^2 + (s_0 + s)^2}.$$",
+        say(
+            "At station {name} ${polar}$ mm, in the direction of {angle}°.",
+            polar=formula(r"R = \sqrt{<place>^2 + (<s0> + <s>)^2} = <radius>", **values),
+            **values,
         ),
-    )  # fmt: skip
+        tell=solution.tell,
+    )
+
+
+def _at_shown_station(solution: Solution) -> dict[str, Words]:
+    """What was read at the station of the velocity plan."""
+    integrated, measured, inverted = (solution.drawn[name] for name in ("integration", "pressure_angle", "inversion"))
+    stations, k = solution.chain.board.stations, shown_station(measured)
+    offset = sense(solution.chain.board.rotation) * solution.chain.place
+    angles = {"alpha": measured.value("alpha")[k], "angle": inverted.value("polar_angle")[k]}
+    return {
+        **numbers(s0=measured.value("s0"), s=integrated.value("s")[k], v=integrated.value("v")[k]),
+        **numbers(offset=offset, place=abs(offset), radius=inverted.value("radius")[k]),
+        **numbers(**{name: math.degrees(angle) for name, angle in angles.items()}),
+        "name": station_names(stations)[k],
+        "phi": degrees(stations.phi[k]),
+        "less": "-" if offset >= 0 else "+",
+        "tan": TAN,
+    }
 
 
 OF_TRANSLATING: Mapping[str, Paragraph] = {

@@ -21,14 +21,11 @@ def plain_number(value: float) -> float | None:
 
 def plain_quantities(quantities: Mapping[str, Quantity]) -> dict[str, Any]:
     """Every quantity by name."""
+    keys = ("drawn", "exact", "unit", "error", "error_paper", "tolerance_paper")
     return {
-        name: {
-            "drawn": plain_number(q.drawn), "exact": plain_number(q.exact), "unit": q.unit,
-            "error": plain_number(q.error), "error_paper": plain_number(q.error_paper),
-            "tolerance_paper": plain_number(q.tolerance_paper),
-        }
+        name: {key: q.unit if key == "unit" else plain_number(getattr(q, key)) for key in keys}
         for name, q in quantities.items()
-    }  # fmt: skip
+    }
 
 
 def plain_stations(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import force_plan, round_scale
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Role, Segments
 from graphcam.given.follower import Translating
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import SpringLoad
@@ -82,6 +82,11 @@ class SpringDesign:
             return None
         return force_plan(self.chain.pressure_angle, self.load, self.chain.pencil)
 
+    @property
+    def lost(self) -> list[Caption]:
+        """Between which cam angles contact is lost."""
+        return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: N and degrees."""
         least, greatest = self.contact.least_force(), self.greatest_normal
@@ -101,7 +106,7 @@ class SpringDesign:
     def table(self) -> Table:
         """The load and its results for the sheet."""
         least, greatest, load = self.contact.least_force(), self.greatest_normal, self.load
-        lost = [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+        lost = sequence(self.lost, "; ")
         rows = (
             (say("moving mass"), say("{mass:g} kg", mass=load.mass), ""),
             (say("stiffness c"), say("{stiffness:g} N/mm", stiffness=load.stiffness), ""),
@@ -109,18 +114,17 @@ class SpringDesign:
             (say("least preload"), _newtons(self.needed), say("at {phi}", phi=degrees(self.least.phi))),
             (say("least contact force"), _newtons(_clean(least.value)), at_side(least)),
             (say("greatest normal force"), _newtons(greatest.value), at_side(greatest)),
-            (say("contact"), say("lost, {where}", where=sequence(lost, "; ")) if lost else say("kept"), ""),
+            (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), ""),
         )
         given = 2 if self.open_preload else 3
-        found = frozenset((row, column) for row in range(given, len(rows)) for column in (1, 2))
+        found = frozenset(product(range(given, len(rows)), (1, 2)))
         return Table(say("Spring"), (say("quantity"), say("value"), ""), rows, found)
 
 
 def at_side(found: ValueAt) -> Caption:
     """At which cam angle, and on which side of it where it is a jump."""
-    if found.side == "left":
-        return say("just before {phi}", phi=degrees(found.phi))
-    return say("just after {phi}", phi=degrees(found.phi))
+    phi = degrees(found.phi)
+    return say("just before {phi}", phi=phi) if found.side == "left" else say("just after {phi}", phi=phi)
 
 
 def _newtons(force: float) -> Caption:
@@ -136,7 +140,7 @@ def contact_view(contact: Contact) -> Step:
     ends = np.append(motion.starts, FULL_TURN) / mu_phi
     least = contact.least_force()
     bottom = least.phi / mu_phi + UP * least.value / mu_force.per_mm
-    axes: list[Mark] = [
+    axes = (
         Arrow(0j, WIDTH + OVERHANG + 0j, Role.SCALE),
         Arrow(low * UP, (high + OVERHANG) * UP, Role.SCALE),
         Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
@@ -146,30 +150,28 @@ def contact_view(contact: Contact) -> Step:
             Label(complex((a + b) / 2), phase_symbol(motion, k), towards=-UP, small=True)
             for k, (a, b) in enumerate(pairwise(ends))
         ),
-    ]
-    marks: list[Mark] = [
+    )
+    lost = [part for interval in contact.lost() for part in _in_turn(*interval)]
+    marks = (
         *axes,
         Line(points, Role.RESULT),
         Dots(np.array([bottom]), Role.LIMIT),
         Label(bottom, _newtons(_clean(least.value)), towards=-UP),
-    ]  # fmt: skip
-    for start, end in contact.lost():
-        marks += [Line(np.array([a, b]) / mu_phi + 0j, Role.LIMIT) for a, b in _in_turn(start, end)]
-    caption = (
-        say(
-            "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is "
-            "negative, as marked on the axis, the cam would have to pull: contact is lost.",
-            mu=mu_force.per_mm,
-        )
-        if contact.lost()
-        else say(
-            "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. It is "
-            "nowhere negative: contact is kept.",
-            mu=mu_force.per_mm,
-        )
+        *(Line(np.array(ends) / mu_phi + 0j, Role.LIMIT) for ends in lost),
     )
-    view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", mu=mu_force.per_mm))
-    return Step(say("The contact function"), caption, view, tuple(marks), given=tuple(axes))
+    mu = {"mu": mu_force.per_mm}
+    view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", **mu))
+    return Step(say("The contact function"), replace(LOST if lost else KEPT, values=mu), view, marks, given=axes)
+
+
+LOST = say(
+    "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is "
+    "negative, as marked on the axis, the cam would have to pull: contact is lost."
+)
+KEPT = say(
+    "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. It is nowhere "
+    "negative: contact is kept."
+)
 
 
 def _in_turn(start: float, end: float) -> list[tuple[float, float]]:

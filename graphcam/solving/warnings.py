@@ -46,20 +46,24 @@ def _undercut(cam: Cam) -> Iterator[Caption]:
     )
     yield say(
         "The profile cannot be cut {cause}: it is undercut {where}. {remedy}",
-        cause=too_large, where=sequence([_where(part) for part in lost], "; "), remedy=_remedy(cam, lost),
-    )  # fmt: skip
+        cause=too_large,
+        where=sequence([_where(part) for part in lost], "; "),
+        remedy=_remedy(cam, lost),
+    )
 
 
 def _where(part: Undercut) -> Caption:
     if part.is_cusp:
         return say("to an edge at {phi}", phi=_degrees(part.cusps[0]))
-    start, end = (_degrees(phi) for phi in part.crossing[:2])
+    lost = {name: _degrees(phi) for name, phi in zip(("start", "end"), part.crossing, strict=False)}
     if not part.cusps:
-        return say("where its flanks meet, and is lost from {start} to {end}", start=start, end=end)
+        return say("where its flanks meet, and is lost from {start} to {end}", **lost)
     return say(
         "between the cusps at {first} and {last}, and is lost from {start} to {end}",
-        first=_degrees(part.cusps[0]), last=_degrees(part.cusps[-1]), start=start, end=end,
-    )  # fmt: skip
+        first=_degrees(part.cusps[0]),
+        last=_degrees(part.cusps[-1]),
+        **lost,
+    )
 
 
 def _remedy(cam: Cam, lost: list[Undercut]) -> Caption:
@@ -95,21 +99,23 @@ def _prime_radius(board: Board, least: float) -> Iterator[Caption]:
     if given is not None and given < least - LAST_DIGIT:
         yield say(
             "The given prime radius of {given:g} mm is smaller than the least permitted one, {least:.2f} mm.",
-            given=given, least=least,
-        )  # fmt: skip
+            given=given,
+            least=least,
+        )
 
 
 def less_round(chain: Chain) -> list[Caption]:
     """The sentence on sizes that are no multiples of the rounding, because none of them goes with another."""
     if chain.rounded:
         return []
-    return [
-        say(
-            "No multiples of {rounding:g} mm go with one another within the permitted pressure angles: the prime "
-            "radius {radius:g} mm with the centre distance {distance:g} mm is adopted.",
-            rounding=chain.rounding, radius=chain.prime_radius, distance=chain.place,
-        )
-    ]  # fmt: skip
+    said = say(
+        "No multiples of {rounding:g} mm go with one another within the permitted pressure angles: the prime radius "
+        "{radius:g} mm with the centre distance {distance:g} mm is adopted.",
+        rounding=chain.rounding,
+        radius=chain.prime_radius,
+        distance=chain.place,
+    )
+    return [said]
 
 
 def _degrees(phi: float) -> Caption:

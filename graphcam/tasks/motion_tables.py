@@ -100,19 +100,11 @@ class MotionTable:
         if self.phases is not None and self.table is not None:
             raise DesignError("table", self.table.file, "left out where there are phases", "give one of the two")
         if self.tolerance is not None and self.table is None:
-            raise DesignError(
-                "tolerance", self.tolerance, "left out where there is no table", "phases are kept exactly"
-            )
+            left_out = "left out where there is no table"
+            raise DesignError("tolerance", self.tolerance, left_out, "phases are kept exactly")
         if self.phases is not None:
-            self._check_angles(self.phases)
+            _check_angles(self.phases)
         self()
-
-    def _check_angles(self, phases: tuple[PhaseTable, ...]) -> None:
-        turn = math.fsum(phase.angle for phase in phases)
-        if abs(turn - 360) > ANGLE_CLOSURE:
-            off = f"{abs(360 - turn):.10g} deg"
-            remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
-            raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)
 
     def __call__(self) -> Motion:
         """The motion, in radians and mm (an arm's lift in radians too)."""
@@ -120,3 +112,11 @@ class MotionTable:
             return self.table(self.tolerance, self.lift_unit)
         phases: list[Phase] = [phase(self.lift_unit) for phase in self.phases or ()]
         return Motion(phases)
+
+
+def _check_angles(phases: tuple[PhaseTable, ...]) -> None:
+    turn = math.fsum(phase.angle for phase in phases)
+    off = f"{abs(360 - turn):.10g} deg"
+    remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
+    if abs(turn - 360) > ANGLE_CLOSURE:
+        raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)

@@ -248,11 +248,9 @@ class Task:
             reason = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
             without = {"pressure_angle_rise": reason, "pressure_angle_return": reason}
         for key, reason in without.items():
-            value = getattr(self.limits, key)
-            if value is not None:
-                raise DesignError(
-                    f"limits.{key}", value, f"left out for a follower of kind {self.follower.kind}", reason
-                )
+            left_out = f"left out for a follower of kind {self.follower.kind}"
+            if (value := getattr(self.limits, key)) is not None:
+                raise DesignError(f"limits.{key}", value, left_out, reason)
 
     def _tell_the_tables(self) -> None:
         """What a table means depends on the follower: an arm's lift is an angle, each kind has its usual limit."""
@@ -262,10 +260,8 @@ class Task:
         object.__setattr__(motion, "lift_unit", unit)
         column = "s_deg" if isinstance(self.follower, OscillatingTable) and self.follower.lift == "angle" else "s_mm"
         if motion.table is not None and motion.table.column not in (column, "a"):
-            raise DesignError(
-                "motion.table (column)", motion.table.column, f"{column} for this follower",
-                "measure what the follower does, and name the column so",
-            )  # fmt: skip
+            remedy = "measure what the follower does, and name the column so"
+            raise DesignError("motion.table (column)", motion.table.column, f"{column} for this follower", remedy)
         object.__setattr__(self, "motion", motion)
         if self.limits.pressure_angle_rise is None and kind in USUAL_PRESSURE_ANGLE:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=USUAL_PRESSURE_ANGLE[kind])
@@ -289,13 +285,10 @@ def _check_sizes(follower: Follower, prime_radius: float | None) -> None:
     """Sizes that exclude each other whatever the motion; what depends on it shows when the cam is made."""
     if prime_radius is None or isinstance(follower, FlatFaced):
         return
+    limit = f"less than the prime radius of {prime_radius:g} mm"
     if isinstance(follower, Translating) and abs(follower.offset) >= prime_radius:
-        raise DesignError(
-            "follower.offset", follower.offset, f"less than the prime radius of {prime_radius:g} mm in magnitude",
-            "take a smaller offset or a larger cam.prime_radius",
-        )  # fmt: skip
+        remedy = "take a smaller offset or a larger cam.prime_radius"
+        raise DesignError("follower.offset", follower.offset, f"{limit} in magnitude", remedy)
     if follower.roller_radius >= prime_radius:
-        raise DesignError(
-            "follower.roller_radius", follower.roller_radius, f"less than the prime radius of {prime_radius:g} mm",
-            "take a smaller roller or a larger cam.prime_radius",
-        )  # fmt: skip
+        remedy = "take a smaller roller or a larger cam.prime_radius"
+        raise DesignError("follower.roller_radius", follower.roller_radius, limit, remedy)

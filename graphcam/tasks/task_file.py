@@ -292,9 +292,8 @@ def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tup
     alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
-        return TaskError(
-            path, place, _shown(value), f"left out where the kind is {table[-1]}", f"it is for {' and '.join(kinds)}"
-        )
+        left_out = f"left out where the kind is {table[-1]}"
+        return TaskError(path, place, _shown(value), left_out, f"it is for {' and '.join(kinds)}")
     return TaskError(path, place, _Words("an unknown key"), "one that is known", nearest(key, known))
 
 

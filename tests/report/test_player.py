@@ -15,8 +15,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from programs import program
 
 import graphcam as gc
-from graphcam.report.documents import sheet_of
-from graphcam.report.mechanism_scene import scene
+from graphcam.report.documents import scene_of, sheet_of
 from graphcam.report.step_player import player_of, slides
 from graphcam.sheets.model import Text
 from graphcam.tasks.task import DrawingTable
@@ -48,7 +47,7 @@ class Solved:
         self.file = folder / f"{name}.html"
         self.file.write_text(self.text, encoding="utf-8")
         self.slides = slides(self.solution)
-        self.scene = scene(self.solution)
+        self.scene = scene_of(self.solution)
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
-from graphcam.report.documents import sheet_of, worksheet
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Drawing, Entity, Group, Text
 from graphcam.sheets.panels import BLANK
 from graphcam.sheets.sampling import outline
@@ -48,7 +48,7 @@ def texts(drawing: Drawing) -> list[str]:
 
 def test_a_worksheet_can_be_laid_over_the_finished_sheet() -> None:
     whole = groups(finished())
-    for key, group in groups(worksheet(solution())).items():
+    for key, group in groups(sheet_of(solution(), 0)).items():
         # A blank stands in the place of a number.
         blank = [e for e in group.entities if isinstance(e, Text) and BLANK in e.text]
         assert {place(e) for e in group.entities if e not in blank} <= {place(e) for e in whole[key].entities}
@@ -63,25 +63,25 @@ def test_scales_are_left_blank_until_they_are_found() -> None:
         said = texts(sheet_of(solution(), upto))
         assert [text for text in said if text in scales] == scales * known
         assert f"μₛ = {BLANK} mm/mm" in said or known
-    assert any(text.startswith("μ = 2") for text in texts(worksheet(solution()))), (
+    assert any(text.startswith("μ = 2") for text in texts(sheet_of(solution(), 0))), (
         "the axis is laid off at a given scale"
     )
 
 
 def test_the_diagrams_of_a_measured_motion_do_not_tell_the_scales_either() -> None:
     """They are drawn at the scales that the integrations find."""
-    said = [text for text in texts(worksheet(gc.solve(builtin_task("measured")))) if text.startswith("μ")]
+    said = [text for text in texts(sheet_of(gc.solve(builtin_task("measured")), 0)) if text.startswith("μ")]
     assert [BLANK in text for text in said if "°" not in text] == [True] * 7
 
 
 def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
-    said, whole = texts(worksheet(solution())), texts(finished())
+    said, whole = texts(sheet_of(solution(), 0)), texts(finished())
     quantities = solution().comparison.quantities
     read = {f"{quantities[name].drawn:.3f}" for name in ("max_v", "minimum_prime_radius", "roller_radius")}
     assert read <= set(whole)
     assert not read & set(said)
     assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "-10 mm", "greatest v, mm/rad"} <= set(said)
-    names = {group.name.split(" ")[1] for _, group in groups(worksheet(solution())).items() if "step" in group.name}
+    names = {group.name.split(" ")[1] for _, group in groups(sheet_of(solution(), 0)).items() if "step" in group.name}
     assert {"acceleration", "integration", "minimum_radius", "inversion"} <= names
     assert not names & {"pressure_angle", "curvature", "working_profile"}, "what is only found leaves no line"
 

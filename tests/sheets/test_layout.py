@@ -13,7 +13,7 @@ from scene import TABLE, TITLE, drawing, steps
 import graphcam as gc
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.report.sheet_contents import sheet
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Stroke, Strokes, Text
@@ -115,7 +115,7 @@ def test_notes_are_numbered_and_broken_into_lines() -> None:
 def test_built_in_task_on_a1(frame: str) -> None:
     """One page, full size, no text in the way, and the profile the largest thing drawn."""
     task = builtin_task()
-    drawn = sheet(gc.solve(replace(task, drawing=replace(task.drawing, format="A1", frame=frame))))
+    drawn = sheet_of(gc.solve(replace(task, drawing=replace(task.drawing, format="A1", frame=frame))))
     assert len(drawn.pages) == 1
     assert overlaps(drawn) == []
     texts = [e.text for g in drawn.pages[0].groups for e in g.entities if isinstance(e, Text)]
@@ -134,7 +134,7 @@ def test_built_in_task_on_a1(frame: str) -> None:
 def test_a1_parts_the_combined_diagram_before_it_reduces() -> None:
     """A limit on the return makes the combined diagram too tall to stand beside the displacement."""
     task = builtin_task()
-    drawn = sheet(gc.solve(replace(task, limits=replace(task.limits, pressure_angle_return=60.0))))
+    drawn = sheet_of(gc.solve(replace(task, limits=replace(task.limits, pressure_angle_return=60.0))))
     texts = [e.text for page in drawn.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
     assert not any("reduced" in text for text in texts)
     assert overlaps(drawn) == []
@@ -168,7 +168,7 @@ def test_random_tasks_have_no_text_in_the_way(seed: int, paper: str) -> None:
         task, rotation=str(random.choice(["cw", "ccw"])), motion=MotionTable(phases), follower=TranslatingTable(),
         drawing=drawing_table,
     )  # fmt: skip
-    drawn = sheet(gc.solve(task))
+    drawn = sheet_of(gc.solve(task))
     assert overlaps(drawn) == []
     for page in drawn.pages:
         tables = [e for g in page.groups if g.key == "tables" for e in g.entities if isinstance(e, Strokes)]

@@ -13,7 +13,7 @@ from overlaps import overlaps
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
-from graphcam.report.documents import sheet_of, worksheet
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES
 from graphcam.sheets.model import Drawing, Strokes, Text
 from graphcam.sheets.sampling import box_of
@@ -97,5 +97,5 @@ def test_nothing_is_in_the_way_on_the_sheet_of_a_random_task(number: int) -> Non
     solution = solved(number)
     check(sheet_of(solution))
     if number % 8 == 0:
-        check(worksheet(solution))
+        check(sheet_of(solution, 0))
         check(sheet_of(solution, per_construction=True))

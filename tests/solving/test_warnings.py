@@ -6,8 +6,8 @@ import pytest
 from typer.testing import CliRunner
 
 from graphcam.cli import app
+from graphcam.report.documents import sheet_of
 from graphcam.report.note import note
-from graphcam.report.sheet_contents import sheet
 from graphcam.sheets.model import Text
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task, load_task
@@ -84,7 +84,7 @@ def test_sheet_and_note_tell_the_warnings(solved):
     solution = solved()
     written = note(solution)
     assert all(f"**{sentence}**" in written for sentence in solution.warnings)
-    entities = [entity for page in sheet(solution).pages for group in page.groups for entity in group.entities]
+    entities = [entity for page in sheet_of(solution).pages for group in page.groups for entity in group.entities]
     texts = " ".join(entity.text for entity in entities if isinstance(entity, Text))
     assert all(sentence in texts for sentence in solution.warnings)
 

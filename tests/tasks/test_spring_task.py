@@ -9,7 +9,7 @@ import pytest
 
 import graphcam as gc
 from graphcam.constructions.pressure_angle import shown_station
-from graphcam.report.sheet_contents import sheet
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Stroke, Text
 from graphcam.tasks.task_file import builtin_text
 
@@ -50,7 +50,9 @@ def test_a_preload_that_is_too_small_loses_contact_and_the_sheet_says_where(tmp_
     solution = solved(tmp_path, VOLODER + "preload = 60\n")
     lost = solution.to_dict()["spring"]["contact_lost_deg"]
     assert [round(phi, 2) for phi in lost[0]] == [39.2, 45.0]
-    texts = [e.text for page in sheet(solution).pages for g in page.groups for e in g.entities if isinstance(e, Text)]
+    texts = [
+        e.text for page in sheet_of(solution).pages for g in page.groups for e in g.entities if isinstance(e, Text)
+    ]
     assert any("lost, " in text for text in texts)
     assert any("Contact force" in text for text in texts)
 
@@ -58,7 +60,7 @@ def test_a_preload_that_is_too_small_loses_contact_and_the_sheet_says_where(tmp_
 def test_the_sheet_shows_the_contact_function_and_the_force_plan(tmp_path):
     """The curve is as wide as the view says, and the force plan is drawn at the velocity plan's station."""
     solution = solved(tmp_path, VOLODER)
-    groups = {g.name: g for page in sheet(solution).pages for g in page.groups}
+    groups = {g.name: g for page in sheet_of(solution).pages for g in page.groups}
     (contact,) = (g for name, g in groups.items() if name.endswith(" contact"))
     widths = [e.points.real.max() - e.points.real.min() for e in contact.entities if isinstance(e, Stroke)]
     assert max(widths) == pytest.approx(120, abs=1e-6)
