@@ -16,7 +16,7 @@ from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.submission import read_submission
-from graphcam.exercises.reports.phrases import OUTCOMES
+from graphcam.exercises.reports.student_page import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash
 set -e
