@@ -6,14 +6,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument, Option
 
 from graphcam.cli.shared import one_message, progress_bar
 
 
 def sweep(
-    space: Annotated[Path, typer.Argument(metavar="SPACE.toml", help="File with the values of every size.")],
-    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="Results, a row a design: .csv or .parquet.")],
-    workers: Annotated[int, typer.Option("--workers", min=1, help="Processes that compute.")] = 1,
+    space: Annotated[Path, Argument(metavar="SPACE.toml", help="File with the values of every size.")],
+    out: Annotated[Path, Option(metavar="FILE", help="Results, a row a design: .csv or .parquet.")],
+    workers: Annotated[int, Option(min=1, help="Processes that compute.")] = 1,
 ) -> None:
     """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
 

@@ -19,7 +19,7 @@ def page(template: str, exercise: Exercise, **values: Any) -> str:
     from markupsafe import Markup
 
     style = Markup(_read("style.css"))
-    written = _environment().get_template(template).render(values, exercise=exercise, style=style)
+    written = _environment().get_template(template).render(values, exercise=exercise, style=style, say=say)
     # Without the halves of characters that a folder's name may hold and no file can.
     return written.encode("utf-8", "backslashreplace").decode()
 
@@ -33,9 +33,7 @@ def _environment() -> Environment:
         return context["exercise"].tell(value) if isinstance(value, Caption) else value
 
     loader = FunctionLoader(_read)
-    made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, finalize=told)
-    made.globals["say"] = say
-    return made
+    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, finalize=told)
 
 
 def _read(name: str) -> str:
