@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 LARGE = ("A1", "A2")
 """Formats that are too large for one construction."""
+FOLDER = f"Folder for the files, {DEFAULT_FOLDER} if left out."
+JSON_ALONE = "Print the solution as JSON alone; write files only with --out."
 OWN_SHEETS = "Each construction on sheets of its own, A3 where the task has A1 or A2."
 BLANK = "A blank sheet to draw on: axes, divisions, and what the task gives."
 HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME."
@@ -29,12 +31,8 @@ OTHER_LANGUAGE = "Language of sheet and note, not the task's: en, ru."
 
 def solve(
     task: TaskFile = None,
-    out: Annotated[
-        Path | None, Option(metavar="DIR", help=f"Folder for the files, {DEFAULT_FOLDER} if left out.")
-    ] = None,
-    as_json: Annotated[
-        bool, Option("--json", help="Print the solution as JSON alone; write files only with --out.")
-    ] = False,
+    out: Annotated[Path | None, Option(metavar="DIR", help=FOLDER)] = None,
+    as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
     pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=BY_HAND)] = None,
     divisions: Annotated[int | None, Option(metavar="N", help="Parts per phase or arc, not the task's.")] = None,
     language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
@@ -68,7 +66,6 @@ def solve(
     """
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    files: dict[str, str | None] = {}
     with one_message():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
@@ -89,7 +86,7 @@ def solve(
         typer.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
         _print_quantities(document["quantities"])
-        typer.echo(f"{folder}: " + ", ".join(name for name in files.values() if name))
+        typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
     for sentence in solution.warnings:
         typer.echo(f"warning: {sentence}", err=True)
 

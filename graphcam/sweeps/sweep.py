@@ -81,15 +81,12 @@ def sweep(
     compute = partial(computed, quantities=wanted, limits=limits or Limits(usual_limit(designs.follower)), chunk=chunk)
     if executor is None:
         return compute(designs)
-    size = CHUNKS_PER_JOB * chunk
-    jobs = (designs.part(slice(k, k + size)) for k in range(0, len(designs), size))
-    out = _empty(wanted, len(designs))
-    done = 0
-    for columns in in_order(executor, compute, jobs):
-        stop = done + next(iter(columns.values())).size if columns else done
+    out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
+    starts = range(0, len(designs), size)
+    jobs = (designs.part(slice(k, k + size)) for k in starts)
+    for k, columns in zip(starts, in_order(executor, compute, jobs), strict=True):
         for name, column in columns.items():
-            out[name][done:stop] = column
-        done = stop
+            out[name][k : k + size] = column
     return out
 
 

@@ -75,8 +75,8 @@ def main(root: Path) -> None:
     assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
     graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
     (root / "results").mkdir(exist_ok=True)
-    said = json.dumps(results(assignment.exercise, graded.record.to_dict()), indent=1, allow_nan=False)
-    (root / "results" / "results.json").write_text(said, encoding="utf-8")
+    text = json.dumps(results(exercise, graded.record.to_dict()), indent=1, allow_nan=False)
+    (root / "results" / "results.json").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

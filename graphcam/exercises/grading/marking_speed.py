@@ -78,5 +78,4 @@ def _submissions(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> lis
 def _given(answer: Given) -> float | list[list[float]]:
     if not isinstance(answer, np.ndarray):
         return float(answer)
-    points = np.round(np.column_stack([answer.real, answer.imag]), DRAWN)
-    return [[float(x), float(y)] for x, y in points]
+    return np.round(np.column_stack([answer.real, answer.imag]), DRAWN).tolist()
