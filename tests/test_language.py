@@ -7,6 +7,7 @@ import re
 import string
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from pathlib import Path
 
@@ -41,7 +42,9 @@ def catalog(name: str) -> Catalog:
 
 def texts_of_the_code() -> Catalog:
     found = Catalog()
-    for file, line, message, _, context in extract_from_dir(PACKAGE, keywords=KEYWORDS, comment_tags=()):
+    settings = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["babel"]
+    methods = [(mapping["pattern"], mapping["method"]) for mapping in settings["mappings"]]
+    for file, line, message, _, context in extract_from_dir(PACKAGE, methods, keywords=KEYWORDS, comment_tags=()):
         found.add(message, context=context, locations=[(file, line)])
     return found
 

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer import Argument, Option
 
 from graphcam.cli.exercise_export import export
 from graphcam.cli.exercise_grade import grade
 from graphcam.cli.exercise_speed import speed
-from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
+from graphcam.cli.shared import DEFAULT_FOLDER, one_message, print_table, progress_lines
 
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
@@ -22,7 +23,7 @@ exercise = typer.Typer(
 
 SECRET = b"simulation"
 """Of the simulated course."""
-Name = Annotated[str, typer.Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
+Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
 
 
 @exercise.command("list")
@@ -50,10 +51,10 @@ def list_exercises() -> None:
 @exercise.command()
 def simulate(
     name: Name,
-    variants: Annotated[int, typer.Option(min=1, metavar="N", help="Variants that are drawn.")] = 5,
-    hands: Annotated[int, typer.Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON alone.")] = False,
-    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the JSON into a new file.")] = None,
+    variants: Annotated[int, Option(min=1, metavar="N", help="Variants that are drawn.")] = 5,
+    hands: Annotated[int, Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
+    as_json: Annotated[bool, Option("--json", help="Print the figures as JSON alone.")] = False,
+    out: Annotated[Path | None, Option(metavar="FILE", help="Write the JSON into a new file.")] = None,
 ) -> None:
     """Let simulated students do an exercise: careful ones, and some with every catalogued mistake.
 
@@ -82,44 +83,31 @@ def simulate(
 
 
 def _print_matrix(found: Simulation) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table("mistake made", "named", title=f"{found.exercise}: what was named")
-    for column in ("hand-ins", "full marks", "named rightly"):
-        table.add_column(column, justify="right")
+    rows: list[list[str]] = []
     for name, row in found.rows.items():
         most = sorted(row.named.items(), key=lambda pair: -pair[1])
         named = ", ".join(f"{other} {count}" for other, count in most)
-        table.add_row(name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}")
-    console = Console()
-    console.print(table)
-    for what, value in (
+        rows.append([name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}"])
+    columns = ("mistake made", "named", "hand-ins", "full marks", "named rightly")
+    print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
+    for counted, value in (
         (f"careful students who lose any point, of {found.careful}", f"{found.false_rejections:.2%}"),
         ("careful students remarked on as too exact", str(found.too_exact)),
         ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
         ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
         (f"draws a variant, all {found.variants} separable", f"{found.draws:.2f}, at most {len(found.issued)}"),
     ):
-        console.print(f"{what}: {value}")
+        typer.echo(f"{counted}: {value}")
 
 
 @exercise.command()
 def make(
     name: Name,
-    roster: Annotated[
-        Path, typer.Option("--roster", metavar="CSV", help="The students: their ids in a column 'id', or the first.")
-    ],
-    secret_file: Annotated[
-        Path, typer.Option("--secret-file", metavar="F", help="The course's secret, any bytes, kept by you.")
-    ],
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the papers.")] = (
-        DEFAULT_FOLDER / "exercise"
-    ),
-    language: Annotated[
-        str, typer.Option("--language", metavar="en|ru", help="Of the papers and of the feedback.")
-    ] = "en",
-    workers: Annotated[int, typer.Option("--workers", min=1, metavar="N", help="Processes that draw.")] = 1,
+    roster: Annotated[Path, Option(metavar="CSV", help="The students: their ids in a column 'id', or the first.")],
+    secret_file: Annotated[Path, Option(metavar="F", help="The course's secret, any bytes, kept by you.")],
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the papers.")] = DEFAULT_FOLDER / "exercise",
+    language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
+    workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
 ) -> None:
     """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
 
@@ -129,12 +117,13 @@ def make(
     """
     from graphcam.exercises.course.make import make as run
 
-    say = progress_lines(quiet=False)
+    progress = progress_lines(quiet=False)
+
+    def step(done: int, total: int) -> None:
+        progress(f"student {done} of {total}")
+
     with one_message():
-        count = run(
-            name, roster, secret_file, out, language=language, workers=workers,
-            step=lambda k, n: say(f"student {k} of {n}"),
-        )  # fmt: skip
+        count = run(name, roster, secret_file, out, language=language, workers=workers, step=step)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 

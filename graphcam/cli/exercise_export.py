@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument, Option
 
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_bar
 from graphcam.exercises.exports.systems import LearningSystem
@@ -14,18 +15,15 @@ DEFAULT_EXPORT = DEFAULT_FOLDER / "export"
 
 
 def export(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="An exercise, or the path of its file.")],
-    target: Annotated[LearningSystem, typer.Option("--format", help="The system that it is for.")],
-    count: Annotated[int, typer.Option("--count", min=1, max=1000, metavar="N", help="How many variants.")] = 1,
-    roster: Annotated[
-        Path | None, typer.Option("--roster", metavar="CSV", help="A variant for each of these students instead.")
-    ] = None,
+    name: Annotated[str, Argument(metavar="NAME", help="An exercise, or the path of its file.")],
+    target: Annotated[LearningSystem, Option("--format", help="The system that it is for.")],
+    count: Annotated[int, Option(min=1, max=1000, metavar="N", help="How many variants.")] = 1,
+    roster: Annotated[Path | None, Option(metavar="CSV", help="A variant for each of these students instead.")] = None,
     secret_file: Annotated[
-        Path | None,
-        typer.Option("--secret-file", metavar="F", help="The course's secret; without it a new one is made."),
+        Path | None, Option(metavar="F", help="The course's secret; without it a new one is made.")
     ] = None,
-    language: Annotated[str, typer.Option("--language", metavar="en|ru", help="Of all that students read.")] = "en",
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="A new folder for the export.")] = DEFAULT_EXPORT,
+    language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
+    out: Annotated[Path, Option(metavar="DIR", help="A new folder for the export.")] = DEFAULT_EXPORT,
 ) -> None:
     """Export variants of an exercise for Moodle, nbgrader or Gradescope.
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from typer import Argument
 
-from graphcam.cli.shared import one_message, progress_lines
+from graphcam.cli.shared import one_message, print_table, progress_lines
 
 
 def speed(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
+        list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
     ] = None,
 ) -> None:
     """Measure how many hand-ins one core reads and marks in a second, simulated students' as answers.toml.
@@ -22,20 +22,15 @@ def speed(
 
     graphcam exercise speed inversion-translating
     """
-    from rich.console import Console
-    from rich.table import Table
-
     from graphcam.bench.timing import Timer
     from graphcam.exercises.definition.exercise_file import find_exercise, library
     from graphcam.exercises.grading.marking_speed import marking_speed
 
     progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
-    table = Table("hand-ins a second, one core")
-    for column in ("careful", "with a mistake"):
-        table.add_column(column, justify="right")
+    rows: list[list[str]] = []
     with one_message():
         for name in names or library():
             progress(name)
             found = marking_speed(find_exercise(name), timer)
-            table.add_row(found.exercise, f"{found.careful:.0f}", f"{found.wrong:.0f}")
-    Console().print(table)
+            rows.append([found.exercise, f"{found.careful:.0f}", f"{found.wrong:.0f}"])
+    print_table(("hand-ins a second, one core", "careful", "with a mistake"), rows)

@@ -8,15 +8,14 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument
 
 from graphcam.cli.shared import one_message
 from graphcam.files import write_new
 
 
 def init(
-    file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="Name of the task file to write; it must not be there yet.")
-    ],
+    file: Annotated[Path, Argument(metavar="FILE", help="Name of the task file to write; it must not be there yet.")],
 ) -> None:
     """Write a task file in which every key is explained: the coursework task, to be changed.
 

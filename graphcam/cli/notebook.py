@@ -7,24 +7,21 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Option
 
 import graphcam
-from graphcam.cli.shared import DEFAULT_FOLDER, one_message, progress_lines
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, progress_lines
 
 DEFAULT_NOTEBOOK = DEFAULT_FOLDER / "notebook"
 
 
 def notebook(
-    task: Annotated[
-        Path | None, typer.Argument(metavar="TASK.toml", help="Task file; without it the built-in coursework.")
-    ] = None,
-    out: Annotated[
-        Path, typer.Option("--out", metavar="DIR", help="Folder for the notebook and its task.")
-    ] = DEFAULT_NOTEBOOK,
-    run: Annotated[bool, typer.Option("--execute", help="Execute it, so that it holds its figures.")] = False,
-    html: Annotated[bool, typer.Option("--html", help="Execute it and make a page that stands alone.")] = False,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
-    language: Annotated[str | None, typer.Option(metavar="NAME", help="Of the captions, not the task's.")] = None,
+    task: TaskFile = None,
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_NOTEBOOK,
+    run: Annotated[bool, Option("--execute", help="Execute it, so that it holds its figures.")] = False,
+    html: Annotated[bool, Option("--html", help="Execute it and make a page that stands alone.")] = False,
+    pdf: Annotated[bool, Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
+    language: Annotated[str | None, Option(metavar="NAME", help="Of the captions, not the task's.")] = None,
 ) -> None:
     """Write the step-by-step notebook of a task.
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 
@@ -18,6 +19,9 @@ REFRESHED = 0.1
 """Seconds between two looks of a bar."""
 DEFAULT_FOLDER = Path("graphcam-out")
 """Where the files go if nothing is said."""
+TaskFile = Annotated[
+    Path | None, typer.Argument(metavar="TASK.toml", help="Task file; without it the built-in coursework.")
+]
 
 
 @contextmanager
@@ -36,8 +40,21 @@ def progress_lines(*, quiet: bool) -> Callable[[str], None]:
     return lambda line: None if silent else typer.echo(f"{line} ...", err=True)
 
 
+def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1, **style: Any) -> None:
+    """Print a table: the first columns are words, the others numbers, which stand to the right."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(**style)
+    for k, column in enumerate(columns):
+        table.add_column(column, justify="left" if k < words else "right")
+    for row in rows:
+        table.add_row(*row)
+    Console().print(table)
+
+
 @contextmanager
-def progress_bar(what: str) -> Generator[Callable[[int, int], None]]:
+def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
     """A bar on standard error for somebody who sits before it; it hears how many of how many are done."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
@@ -54,8 +71,8 @@ def progress_bar(what: str) -> Generator[Callable[[int, int], None]]:
         shown = now if due else shown
         progress.update(bar, completed=done, total=total, refresh=due)
 
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn(things), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     # Without a thread that refreshes: a process with threads is better not forked.
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
-        bar = progress.add_task(what, total=None)
+        bar = progress.add_task(things, total=None)
         yield step

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future
+from collections.abc import Sequence
+from concurrent.futures import Executor
 from functools import partial
-from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +15,12 @@ from graphcam.given.limits import Limits
 from graphcam.mechanism.least_radius import USUAL_LIMIT
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
+from graphcam.workers import in_order
 
 CHUNK_OF_DESIGNS = 4096
 """Designs that are computed at a time: what they need stays in the processor's cache."""
-CHUNKS_PER_TASK = 8
+CHUNKS_PER_JOB = 8
 """Chunks that an executor is given at a time: what one costs to hand out does not count then."""
-AHEAD = 32
-"""Tasks that wait for an executor at a time: they bound the memory."""
-
 WORKING_SET = 2**22
 """Bytes that a chunk needs."""
 # The C library on Linux keeps free memory only up to twice the largest array that it was given back.  What it does not
@@ -32,8 +28,6 @@ WORKING_SET = 2**22
 np.empty(WORKING_SET, dtype=np.uint8)
 
 Columns = dict[str, NDArray[Any]]
-_Item = TypeVar("_Item")
-_Result = TypeVar("_Result")
 
 
 def sweep(
@@ -87,15 +81,12 @@ def sweep(
     compute = partial(computed, quantities=wanted, limits=limits or Limits(usual_limit(designs.follower)), chunk=chunk)
     if executor is None:
         return compute(designs)
-    size = CHUNKS_PER_TASK * chunk
-    tasks = (designs.part(slice(k, k + size)) for k in range(0, len(designs), size))
-    out = _empty(wanted, len(designs))
-    done = 0
-    for columns in in_order(executor, compute, tasks):
-        stop = done + next(iter(columns.values())).size if columns else done
+    out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
+    starts = range(0, len(designs), size)
+    jobs = (designs.part(slice(k, k + size)) for k in starts)
+    for k, columns in zip(starts, in_order(executor, compute, jobs), strict=True):
         for name, column in columns.items():
-            out[name][done:stop] = column
-        done = stop
+            out[name][k : k + size] = column
     return out
 
 
@@ -118,25 +109,6 @@ def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chun
         for name in quantities:
             out[name][here] = getattr(some, name)
     return out
-
-
-def in_order(executor: Executor, function: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
-    """The function's results in the order of the items, which are taken only as they are needed.
-
-    Unlike ``executor.map``, which takes all of them at once.
-    """
-    waiting: deque[Future[_Result]] = deque()
-    remaining = iter(items)
-    try:
-        for item in islice(remaining, AHEAD):
-            waiting.append(executor.submit(function, item))
-        while waiting:
-            yield waiting.popleft().result()
-            for item in islice(remaining, 1):
-                waiting.append(executor.submit(function, item))
-    finally:
-        for future in waiting:
-            future.cancel()
 
 
 def _empty(quantities: tuple[str, ...], n: int) -> Columns:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +12,8 @@ from typing import Any
 
 from graphcam.files import OutputError, whole_file
 from graphcam.sweeps.space import Space
-from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_TASK, Columns, in_order
+from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
+from graphcam.workers import in_order
 
 Write = Callable[[Columns], None]
 
@@ -35,18 +36,14 @@ def sweep_to_file(
     if path.suffix not in _WRITERS:
         raise OutputError(path, "the ending is neither .csv nor .parquet", "give it one of these")
     with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
+        size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
+        blocks = ((k, min(k + size, n)) for k in range(0, n, size))
         done = 0
-        for columns in _blocks(space, executor):
+        for columns in in_order(executor, space.results, blocks):
             write(columns)
             done += next(iter(columns.values())).size
             if progress:
                 progress(done)
-
-
-def _blocks(space: Space, executor: Executor | None) -> Iterator[Columns]:
-    size, n = CHUNKS_PER_TASK * CHUNK_OF_DESIGNS, len(space)
-    numbers = ((k, min(k + size, n)) for k in range(0, n, size))
-    return map(space.results, numbers) if executor is None else in_order(executor, space.results, numbers)
 
 
 @contextmanager

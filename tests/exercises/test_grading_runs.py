@@ -30,8 +30,8 @@ from graphcam.exercises.grading import grading_run as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment
 from graphcam.exercises.grading.submission import read_submission
-from graphcam.exercises.grading.worker_pool import WorkerPool, processes, results
 from graphcam.files import OutputError
+from graphcam.workers import WorkerPool, processes, results
 
 NAME = "acceleration-and-scales"
 IDS = (
@@ -68,7 +68,7 @@ def ours(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], WorkerPool]:
     """Threads in place of processes, which take seconds to start."""
 
-    def pool(workers: int) -> WorkerPool:
+    def pool(workers: int, *_: str) -> WorkerPool:
         return WorkerPool(partial(ThreadPoolExecutor, workers), workers)
 
     monkeypatch.setattr(grading_course, "processes", pool)

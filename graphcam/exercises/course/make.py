@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Iterable
-from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import nullcontext
+from collections.abc import Callable
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 
 from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys, read_secret
@@ -23,6 +20,7 @@ from graphcam.exercises.key.issuing import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.workers import executor_of, in_order
 
 
 @dataclass(frozen=True)
@@ -57,22 +55,16 @@ def make(
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
             raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
-    with whole_folder(out) as draft, _pool(workers) as pool:
+    with whole_folder(out) as draft, executor_of(workers) as executor:
         orders = [_Order(exercise, student, secret, draft) for student in students]
-        results: Iterable[str] = pool.map(_papers, orders) if pool else map(_papers, orders)
         answer_keys: list[AnswerKey] = []
-        for done, text in enumerate(results, 1):
+        for done, text in enumerate(in_order(executor, _papers, orders), 1):
             answer_keys.append(AnswerKey.from_json(text))
             step(done, len(orders))
         kept = AnswerKeys(draft / TEACHER)
         kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
-
-
-def _pool(workers: int) -> Executor | nullcontext[None]:
-    # Started afresh: a process that is copied while threads run may wait for ever.
-    return ProcessPoolExecutor(workers, mp_context=get_context("spawn")) if workers > 1 else nullcontext()
 
 
 def _papers(order: _Order) -> str:

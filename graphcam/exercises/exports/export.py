@@ -24,9 +24,14 @@ MOST = 1000
 
 
 def export(
-    name: str, target: LearningSystem, students: list[str], folder: Path, secret: bytes | None = None,
-    step: Callable[[int, int], None] = lambda done, total: None, language: str = ENGLISH.name,
-) -> None:  # fmt: skip
+    name: str,
+    target: LearningSystem,
+    students: list[str],
+    folder: Path,
+    secret: bytes | None = None,
+    step: Callable[[int, int], None] = lambda done, total: None,
+    language: str = ENGLISH.name,
+) -> None:
     """Write the export for some students, or for as many nameless variants, into a new folder.
 
     name : of an exercise, or the path of its file, which travels with the export

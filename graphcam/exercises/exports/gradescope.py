@@ -11,12 +11,12 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_secret
-from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.submission import read_submission
-from graphcam.exercises.reports.phrases import OUTCOMES
+from graphcam.exercises.reports.student_page import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash
 set -e
@@ -32,41 +32,41 @@ def results(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
 
     Gradescope shows outputs to the student, so nothing of the key and no deviation is in them.
     """
-    texts = {one.name: one.text for one in exercise.answers}
-
-    def asked(name: str) -> str:
-        return sentence(texts[name], record["parameters"], exercise.tell)
-
+    marked = zip(exercise.answers, record["answers"], strict=True)
     return {
         "score": record["total"],
         "output": "\n".join([*record["feedback"], *record["notes"]]),
         "output_format": "text",
         "visibility": "visible",
         "stdout_visibility": "hidden",
-        "tests": [
-            {
-                "name": answer["name"], "score": answer["marks"], "max_score": answer["of"],
-                "status": "passed" if answer["marks"] == answer["of"] else "failed",
-                "output": f"{asked(answer['name'])} {exercise.tell(OUTCOMES[answer['outcome']])}",
-                "output_format": "text", "visibility": "visible",
-            }
-            for answer in record["answers"]
-        ],
-        "extra_data": {"exercise": record["exercise"], "version": record["version"], "level": record["level"]},
-    }  # fmt: skip
+        "tests": [_test(exercise, asked, answer, record["parameters"]) for asked, answer in marked],
+        "extra_data": {name: record[name] for name in ("exercise", "version", "level")},
+    }
+
+
+def _test(exercise: Exercise, asked: Asked, answer: dict[str, Any], parameters: dict[str, Any]) -> dict[str, Any]:
+    text = sentence(asked.text, parameters, exercise.tell)
+    return {
+        "name": asked.name,
+        "score": answer["marks"],
+        "max_score": answer["of"],
+        "status": "passed" if answer["marks"] == answer["of"] else "failed",
+        "output": f"{text} {exercise.tell(OUTCOMES[answer['outcome']])}",
+        "output_format": "text",
+        "visibility": "visible",
+    }
 
 
 def write_autograder(folder: Path, exercise: Exercise, secret: bytes) -> None:
     """The files of an autograder; packed as a zip they are what Gradescope asks for."""
-    (folder / "setup.sh").write_text(SETUP, encoding="utf-8")
-    (folder / "run_autograder").write_text(RUN, encoding="utf-8")
-    for program in ("setup.sh", "run_autograder"):
-        (folder / program).chmod(0o755)
+    for name, program in (("setup.sh", SETUP), ("run_autograder", RUN)):
+        (folder / name).write_text(program, encoding="utf-8")
+        (folder / name).chmod(0o755)
     (folder / TEACHER / "secret").write_bytes(secret)
 
 
 def main(root: Path) -> None:
-    """Grade the one hand-in of an autograder's container."""
+    """Grade the one submission of an autograder's container."""
     source = root / "source"
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     student = str(metadata["users"][0]["email"])
@@ -75,8 +75,8 @@ def main(root: Path) -> None:
     assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
     graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
     (root / "results").mkdir(exist_ok=True)
-    said = json.dumps(results(assignment.exercise, graded.record.to_dict()), indent=1, allow_nan=False)
-    (root / "results" / "results.json").write_text(said, encoding="utf-8")
+    text = json.dumps(results(exercise, graded.record.to_dict()), indent=1, allow_nan=False)
+    (root / "results" / "results.json").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

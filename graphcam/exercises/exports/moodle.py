@@ -17,6 +17,15 @@ from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import say
 
+ONE_DXF = {
+    "responseformat": "noinline",
+    "responserequired": "0",
+    "attachments": "1",
+    "attachmentsrequired": "1",
+    "filetypeslist": ".dxf",
+}
+"""What an essay's question takes."""
+
 
 def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
     """The questions of several variants, each in a category of its own.
@@ -29,10 +38,8 @@ def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
     for answer_key in answer_keys:
         category = SubElement(quiz, "question", type="category")
         _text(category, "category", f"$course$/{exercise.title}/{folder_name(answer_key.student)}")
-        description = _question(
-            quiz, "description", exercise.title, sentence(exercise.text, answer_key.parameters, exercise.tell)
-        )
-        SubElement(description, "defaultgrade").text = "0"
+        told = sentence(exercise.text, answer_key.parameters, exercise.tell)
+        _question(quiz, "description", exercise.title, told, defaultgrade="0")
         for asked in exercise.answers:
             _ask(quiz, exercise, answer_key, asked)
     indent(quiz)
@@ -40,21 +47,18 @@ def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
 
 
 def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> None:
-    title = f"{exercise.title}: {asked.name}"
-    tell = exercise.tell
+    title, tell = f"{exercise.title}: {asked.name}", exercise.tell
     text = sentence(asked.text, answer_key.parameters, tell)
     if asked.kind != "number":
+        # Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades.
         how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
-        _essay(quiz, title, f"{text} {tell(how)}", asked)
+        _question(quiz, "essay", title, f"{text} {tell(how)}", defaultgrade=repr(asked.marks), penalty="0", **ONE_DXF)
         return
     text += f" [{tell(asked.unit_said)}]" if asked.unit else ""
-    question = _question(quiz, "numerical", title, text)
-    SubElement(question, "defaultgrade").text = repr(asked.marks)
-    SubElement(question, "penalty").text = "0"
-    SubElement(question, "hidden").text = "0"
+    question = _question(quiz, "numerical", title, text, defaultgrade=repr(asked.marks), penalty="0", hidden="0")
     key = answer_key.keys[asked.name]
     _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(say("Right.")))
-    place = [one.name for one in exercise.answers].index(asked.name)
+    place = exercise.answers.index(asked)
     for name, values in answer_key.hypotheses.items():
         value, scatter = values[place].value, values[place].scatter
         assert isinstance(value, float)
@@ -63,33 +67,28 @@ def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked)
         if abs(value - float(str(key.expected.value))) > key.tolerance:
             _answer(question, 0, repr(value), repr(answer_key.bound * scatter), tell(misconception(name).said))
     _answer(question, 0, "*", "0", tell(say("Farther off than a careful hand draws or calculates.")))
-    SubElement(question, "unitgradingtype").text = "0"
-    SubElement(question, "showunits").text = "3"
+    _settings(question, unitgradingtype="0", showunits="3")
 
 
-def _essay(quiz: Element, title: str, text: str, asked: Asked) -> None:
-    """Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades."""
-    question = _question(quiz, "essay", title, text)
-    SubElement(question, "defaultgrade").text = repr(asked.marks)
-    SubElement(question, "penalty").text = "0"
-    for name, value in (("responseformat", "noinline"), ("responserequired", "0"), ("attachments", "1"),
-                        ("attachmentsrequired", "1"), ("filetypeslist", ".dxf")):  # fmt: skip
-        SubElement(question, name).text = value
-
-
-def _question(quiz: Element, kind: str, name: str, text: str) -> Element:
+def _question(quiz: Element, kind: str, name: str, text: str, **settings: str) -> Element:
     question = SubElement(quiz, "question", type=kind)
     _text(question, "name", name)
     _text(question, "questiontext", text, format="plain_text")
     _text(question, "generalfeedback", "", format="plain_text")
+    _settings(question, **settings)
     return question
 
 
 def _answer(question: Element, fraction: int, value: str, tolerance: str, feedback: str) -> None:
     answer = SubElement(question, "answer", fraction=str(fraction), format="moodle_auto_format")
-    SubElement(answer, "text").text = value
+    _settings(answer, text=value)
     _text(answer, "feedback", feedback, format="plain_text")
-    SubElement(answer, "tolerance").text = tolerance
+    _settings(answer, tolerance=tolerance)
+
+
+def _settings(parent: Element, **settings: str) -> None:
+    for name, value in settings.items():
+        SubElement(parent, name).text = value
 
 
 def _text(parent: Element, name: str, text: str, **attributes: str) -> None:

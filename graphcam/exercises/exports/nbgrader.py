@@ -18,7 +18,8 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
 from graphcam.words import Tell, say
 
-SCHEMA = 3
+CELL = {"schema_version": 3, "grade": False, "solution": False, "locked": False, "task": False}
+"""What nbgrader wants to know of every cell."""
 CONFIG = '''"""The settings of this course; graphcam grades, nbgrader keeps the scores."""
 
 c = get_config()
@@ -67,17 +68,13 @@ def _question(asked: Asked, tell: Tell) -> str:
 
 
 def _markdown(name: str, text: str) -> dict[str, Any]:
-    return {"id": name, "cell_type": "markdown", "source": text,
-            "metadata": {"nbgrader": _said(name, locked=True)}}  # fmt: skip
+    graded = CELL | {"grade_id": name, "locked": True}
+    return {"id": name, "cell_type": "markdown", "source": text, "metadata": {"nbgrader": graded}}
 
 
 def _answer(asked: Asked) -> dict[str, Any]:
     """A cell that is graded by hand as nbgrader sees it: graphcam is the hand."""
-    said = _said(asked.name, grade=True, solution=True) | {"points": asked.marks}
-    return {"id": asked.name, "cell_type": "code", "source": f"{asked.name} = None\n{SOLUTION}", "outputs": [],
-            "execution_count": None, "metadata": {"tags": [TAG], "nbgrader": said}}  # fmt: skip
-
-
-def _said(name: str, *, locked: bool = False, grade: bool = False, solution: bool = False) -> dict[str, Any]:
-    return {"schema_version": SCHEMA, "grade_id": name, "grade": grade, "solution": solution, "locked": locked,
-            "task": False}  # fmt: skip
+    graded = CELL | {"grade_id": asked.name, "grade": True, "solution": True, "points": asked.marks}
+    metadata, source = {"tags": [TAG], "nbgrader": graded}, f"{asked.name} = None\n{SOLUTION}"
+    cell = {"id": asked.name, "cell_type": "code", "source": source, "metadata": metadata}
+    return cell | {"outputs": [], "execution_count": None}

@@ -1,1 +1,1 @@
-"""From a folder of hand-ins to one record each, whatever was handed in and whatever happens meanwhile."""
+"""From a folder of submissions to one record each, whatever was handed in and whatever happens meanwhile."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import closing, suppress
+from collections.abc import Callable, Generator
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,17 +11,17 @@ from graphcam.errors import GraphcamError, TaskError
 from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.grading.grade_one import Assignment
+from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.gradebook import check_gradebook, enter_scores
 from graphcam.exercises.grading.grading_run import Records, grade_folder
 from graphcam.exercises.grading.record_store import Store
-from graphcam.exercises.grading.worker_pool import WorkerPool, cluster, processes
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.report_files import write_feedback, write_reports
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.probe import require
 from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.files import OutputError
+from graphcam.workers import WorkerPool, cluster, processes
 
 
 @dataclass(frozen=True)
@@ -64,12 +64,13 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     kept.check_secret(secret, course.secret_file)
     assignment = Assignment(exercise, secret, course.level, ResourceLimits(seconds=course.seconds))
     if course.gradebook:
-        _open(course.gradebook)
+        with _installed("--gradebook", "nbgrader", "nbgrader"):
+            check_gradebook(course.gradebook)
     store = Store.beside(course.out, assignment)
     with store.held():
-        with closing(_crew(course)) as pool:
+        with closing(_worker_pool(course)) as pool:
             records = grade_folder(folder, assignment, pool, store, kept, step)
-        answer_keys = _certificates(kept, records)
+        answer_keys = _answer_keys(kept, records)
         names = write_reports(course.out, exercise, records, answer_keys)
         if course.feedback is not None:
             write_feedback(course.feedback, exercise, records, answer_keys)
@@ -102,25 +103,23 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     return exercise
 
 
-def _crew(course: Course) -> WorkerPool:
+def _worker_pool(course: Course) -> WorkerPool:
     if not course.cluster:
-        return processes(course.workers)
-    try:
+        return processes(course.workers, grade.__module__)
+    with _installed("--cluster", "dask's distributed", "cluster"):
         return cluster(course.cluster)
-    except ImportError:
-        raise TaskError("--cluster", "dask's distributed", "not installed", "installed",
-                        "pip install 'graphcam[cluster]'") from None  # fmt: skip
 
 
-def _open(gradebook: str) -> None:
+@contextmanager
+def _installed(option: str, library: str, extra: str) -> Generator[None]:
     try:
-        check_gradebook(gradebook)
+        yield
     except ImportError:
-        raise TaskError("--gradebook", "nbgrader", "not installed", "installed",
-                        "pip install 'graphcam[nbgrader]'") from None  # fmt: skip
+        remedy = f"pip install 'graphcam[{extra}]'"
+        raise TaskError(option, library, "not installed", "installed", remedy) from None
 
 
-def _certificates(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
+def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
     found: dict[str, AnswerKey] = {}
     for record in records:
         with suppress(GraphcamError):

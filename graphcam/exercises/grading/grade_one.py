@@ -1,4 +1,4 @@
-"""One hand-in, graded: this is what the workers do, here or on another machine."""
+"""One submission, graded: this is what the workers do, here or on another machine."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.resource_limits import ResourceLimits
 
 READING = 10.0
-"""Seconds of the processor's time in which a hand-in is read and marked; its code has a time of its own.
+"""Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
 
 Of the processor's, so that a busy machine gives the same marks as an idle one.
 """
@@ -43,7 +43,7 @@ class LateError(BaseException):
 
 @dataclass(frozen=True)
 class Assignment:
-    """What all hand-ins have in common.
+    """What all submissions have in common.
 
     level : at which code is run; at L0 nothing is
     """
@@ -56,17 +56,17 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Graded:
-    """The record of one hand-in, and the certificate where it had to be made."""
+    """The record of one submission, and the answer key where it had to be made."""
 
     record: Record
     answer_key: str
 
 
 def grade(assignment: Assignment, submission: Submission) -> Graded:
-    """The record of one hand-in; it never raises, since a hand-in that none foresaw has its record too."""
+    """The record of one submission; it never raises, since one that none foresaw has its record too."""
     text = ""
     try:
-        answer_key, text = _certificate(assignment, submission)
+        answer_key, text = _answer_key(assignment, submission)
         with _seconds(READING):
             answers = _answers(assignment, submission, answer_key)
             return Graded(mark(assignment.exercise, answer_key, answers, level=assignment.level), text)
@@ -76,15 +76,17 @@ def grade(assignment: Assignment, submission: Submission) -> Graded:
 
 
 def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
-    """The record of a hand-in that cannot be marked."""
-    exercise = assignment.exercise
+    """The record of a submission that cannot be marked."""
+    exercise, level = assignment.exercise, assignment.level
     answers = tuple(Marked(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
-    return Record(student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False,
-                  (exercise.tell(why),), (exercise.tell(why),), assignment.level)  # fmt: skip
+    said = (exercise.tell(why),)
+    return Record(
+        student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False, said, said, level
+    )
 
 
-def _certificate(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:
-    """The student's certificate and its text; what a file says counts only where the secret says the same."""
+def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:
+    """The student's answer key and its text; what a file says counts only where the secret says the same."""
     exercise = assignment.exercise
     if submission.answer_key:
         known = AnswerKey.from_json(submission.answer_key)
@@ -92,7 +94,7 @@ def _certificate(assignment: Assignment, submission: Submission) -> tuple[Answer
         same = (known.exercise, known.version, known.student) == (exercise.name, exercise.version, submission.student)
         if same and dict(known.parameters) == dict(variant.parameters):
             return known, submission.answer_key
-    # Whoever has a certificate needs nothing that draws.
+    # Whoever has an answer key needs nothing that draws.
     from graphcam.exercises.key.issuing import issue
 
     _, made = issue(exercise, submission.student, assignment.secret)
@@ -103,7 +105,7 @@ def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerK
     asked = assignment.exercise.answers
     read = partial(from_files, asked, submission.files, submission.errors)
     if DXF in submission.files:
-        read = partial(read, rooms=_rooms(assignment.exercise, answer_key))
+        read = partial(read, rooms=_paper_areas(assignment.exercise, answer_key))
     if assignment.level is Level.L0:
         return read()
     from graphcam.exercises.running.code_answers import run_notebook
@@ -111,15 +113,15 @@ def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerK
     return read(notebook=partial(run_notebook, assignment.level, [one.name for one in asked], assignment.limits))
 
 
-def _rooms(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:
+def _paper_areas(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:
     """Where drawn answers can lie: where the key does, or what a usual mistake makes of it."""
-    rooms: dict[str, PaperArea] = {}
+    areas: dict[str, PaperArea] = {}
     for k, asked in enumerate(exercise.answers):
         if asked.kind != "number":
             key = answer_key.keys[asked.name]
             known = [key.expected, *(wrong[k] for wrong in answer_key.hypotheses.values())]
-            rooms[asked.name] = PaperArea.around(asked.kind, known, key.tolerance)
-    return rooms
+            areas[asked.name] = PaperArea.around(asked.kind, known, key.tolerance)
+    return areas
 
 
 @contextmanager

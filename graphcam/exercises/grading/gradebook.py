@@ -30,8 +30,8 @@ def check_gradebook(database: str) -> None:
         create_engine(database).connect().close()
     except SQLAlchemyError as error:
         why = f"{database} ({getattr(error, 'orig', None) or 'no address of a database'})"
-        raise TaskError("--gradebook", "the grade book", why, "a database that can be opened",
-                        "sqlite:///gradebook.db is the file gradebook.db in this folder") from None  # fmt: skip
+        remedy = "sqlite:///gradebook.db is the file gradebook.db in this folder"
+        raise TaskError("--gradebook", "the grade book", why, "a database that can be opened", remedy) from None
 
 
 def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]]) -> None:

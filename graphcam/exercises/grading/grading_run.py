@@ -12,8 +12,8 @@ from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.grading.grade_one import Assignment, grade, unmarked
 from graphcam.exercises.grading.record_store import Store
 from graphcam.exercises.grading.submission import Submission, read_submission, students_in
-from graphcam.exercises.grading.worker_pool import BATCH, WorkerPool, results
 from graphcam.exercises.running.levels import Level
+from graphcam.workers import BATCH, WorkerPool, results
 
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
@@ -21,12 +21,16 @@ CRASHED = say("the grader broke down over this hand-in; look at it by hand")
 
 
 def grade_folder(
-    folder: Path, assignment: Assignment, pool: WorkerPool, store: Store, kept: AnswerKeys,
+    folder: Path,
+    assignment: Assignment,
+    pool: WorkerPool,
+    store: Store,
+    kept: AnswerKeys,
     step: Callable[[int, int], None] = lambda done, total: None,
-) -> Records:  # fmt: skip
+) -> Records:
     """One record for each student's folder.
 
-    kept : the students' certificates; what has none yet gets one
+    kept : the students' answer keys; who has none yet gets one
     step : hears how many of how many are done
 
     Raises

@@ -1,4 +1,4 @@
-"""How many hand-ins of an exercise one core reads and marks in a second, at level L0, where nothing is run."""
+"""How many submissions of an exercise one core reads and marks in a second, at level L0, where nothing is run."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ DRAWN = 2
 
 @dataclass(frozen=True)
 class MarkingSpeed:
-    """Hand-ins that are read and marked in a second of the processor's time, from their bytes to their records.
+    """Submissions that are read and marked in a second of the processor's time, from their bytes to their records.
 
     careful : of careful students
     wrong : of students with every mistake of the catalogue, as many with each; there the mistake is looked for
@@ -54,23 +54,19 @@ def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpee
     def graded(submissions: list[Submission]) -> Callable[[], object]:
         return lambda: [grade(assignment, submission) for submission in submissions]
 
-    return MarkingSpeed(
-        exercise.name, len(careful) / timer.seconds(graded(careful)), len(wrong) / timer.seconds(graded(wrong))
-    )
+    speeds = (len(each) / timer.seconds(graded(each)) for each in (careful, wrong))
+    return MarkingSpeed(exercise.name, *speeds)
 
 
 def simulated(exercise: Exercise) -> tuple[list[Submission], list[Submission]]:
-    """Hand-ins of one variant: of careful students, and of others with every mistake."""
+    """Submissions of one variant: of careful students, and of others with every mistake."""
     variant, answer_key = issue(exercise, STUDENT, SECRET)
     chain = board_chain(variant.task, exercise.hand.pencil(HANDS, seed=1))
-    wrong = [misconception(name).change(chain) for name in exercise.misconceptions]
-    return (
-        _hand_ins(exercise, answer_key, chain),
-        [each for mistaken in wrong for each in _hand_ins(exercise, answer_key, mistaken)],
-    )
+    wrong = (_submissions(exercise, answer_key, misconception(name).change(chain)) for name in exercise.misconceptions)
+    return _submissions(exercise, answer_key, chain), [one for some in wrong for one in some]
 
 
-def _hand_ins(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> list[Submission]:
+def _submissions(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> list[Submission]:
     text, drawn = answer_key.to_json(), answers_of(exercise, chain)
     found: list[Submission] = []
     for hand in range(HANDS):
@@ -82,5 +78,4 @@ def _hand_ins(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> list[S
 def _given(answer: Given) -> float | list[list[float]]:
     if not isinstance(answer, np.ndarray):
         return float(answer)
-    points = np.round(np.column_stack([answer.real, answer.imag]), DRAWN)
-    return [[float(x), float(y)] for x, y in points]
+    return np.round(np.column_stack([answer.real, answer.imag]), DRAWN).tolist()

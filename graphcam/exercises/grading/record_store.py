@@ -55,7 +55,7 @@ class Store:
             yield
 
     def find(self, submission: Submission) -> dict[str, Any] | None:
-        """The record of just this hand-in, if a former run got so far."""
+        """The record of just this submission, if a former run got so far."""
         try:
             kept = json.loads(self._path(submission).read_bytes())
         except (OSError, ValueError):

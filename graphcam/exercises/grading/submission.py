@@ -1,4 +1,4 @@
-"""Hand-ins: which folders there are, whose they are, and the bytes that lie in them."""
+"""Submissions: which folders there are, whose they are, and the bytes that lie in them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Submission:
     place : the name of the folder, which two never share
     files : by name, those that can hold answers
     errors : sentences on files that could not be read
-    certificate : the student's certificate as JSON; empty where there is none yet
+    answer_key : the student's answer key as JSON; empty where there is none yet
     """
 
     student: str
@@ -33,7 +33,7 @@ class Submission:
 
     @property
     def digest(self) -> str:
-        """Tells whether it is the same hand-in as before."""
+        """Tells whether it is the same submission as before."""
         digest = hashlib.sha256()
         for error in self.errors:
             digest.update(hashlib.sha256(str(error).encode("utf-8", "surrogatepass")).digest())
@@ -47,8 +47,8 @@ def students_in(
 ) -> list[tuple[str, Path]]:
     """The students who handed in, in the order of their names, each with the folder.
 
-    Whatever stands there but for plain files is somebody's hand-in, also a link or a pipe in place of a folder; names
-    that begin with a point are not.
+    Whatever stands there but for plain files is somebody's submission, also a link or a pipe in place of a folder;
+    names that begin with a point are not.
 
     student_of : whose a folder of this name is;  known : whether it is a student's, so that a plain file counts too
 

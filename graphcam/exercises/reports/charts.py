@@ -32,8 +32,9 @@ class Chart:
     base: int = HEIGHT
 
 
-def stacked(counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]],
-            band: tuple[float, float] = (0.0, 0.0)) -> Chart:  # fmt: skip
+def stacked(
+    counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]], band: tuple[float, float] = (0.0, 0.0)
+) -> Chart:
     """A chart of counts a bar, of several kinds one on the other.
 
     labels : (part of the width, text);  band : from, to as parts of the width
@@ -50,10 +51,9 @@ def stacked(counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, s
         top = float(HEIGHT)
         for kind, column in counts.items():
             if column[k]:
-                top -= unit * column[k]
-                bars.append(
-                    Bar(kind, round(k * step + 1, 2), round(top, 2), round(step - 2, 2), round(unit * column[k], 2))
-                )
+                height = unit * column[k]
+                top -= height
+                bars.append(Bar(kind, *(round(length, 2) for length in (k * step + 1, top, step - 2, height))))
     anchors = {0.0: "start", 1.0: "end"}
     placed = tuple((part * WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
     return Chart(tuple(bars), placed, (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))

@@ -10,16 +10,8 @@ from typing import Any
 from graphcam.exercises.course.spreadsheet import cell
 
 LONG = (
-    "student",
-    "exercise",
-    "answer",
-    "outcome",
-    "marks",
-    "of",
-    "given",
-    "pencil_units",
-    "worst_station",
-    "off_paper_mm",
+    *("student", "exercise", "answer", "outcome", "marks", "of"),
+    *("given", "pencil_units", "worst_station", "off_paper_mm"),
 )
 
 
@@ -32,25 +24,22 @@ def wide_table(records: Sequence[dict[str, Any]]) -> str:
 
 def long_table(records: Iterable[dict[str, Any]]) -> str:
     """One row an answer, for statistics."""
-    return _csv(
-        LONG,
-        (
-            [
-                record["student"], record["exercise"], answer["name"], answer["outcome"], answer["marks"], answer["of"],
-                _number(answer["given"]), answer["deviation"],
-                None if answer["station"] is None else answer["station"] + 1, answer["off_paper"],
-            ]
-            for record in records for answer in record["answers"]
-        ),
-    )  # fmt: skip
+    return _csv(LONG, (_long(record, answer) for record in records for answer in record["answers"]))
 
 
 def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
     marks = {answer["name"]: answer["marks"] for answer in record["answers"]}
     diagnosis = record["diagnosis"]
     found = " or ".join([diagnosis["misconception"], *diagnosis["alike"]]) if diagnosis else ""
-    return [record["student"], record["exercise"], record["total"], record["of"], *(marks.get(name) for name in names),
-            found, record["too_exact"], record["level"], " ".join(record["notes"])]  # fmt: skip
+    about = [record[name] for name in ("student", "exercise", "total", "of")]
+    return [*about, *map(marks.get, names), found, record["too_exact"], record["level"], " ".join(record["notes"])]
+
+
+def _long(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
+    station = None if answer["station"] is None else answer["station"] + 1
+    marked = [answer[name] for name in ("name", "outcome", "marks", "of")]
+    off = [answer["deviation"], station, answer["off_paper"]]
+    return [record["student"], record["exercise"], *marked, _number(answer["given"]), *off]
 
 
 def _number(given: Any) -> Any:

@@ -10,7 +10,6 @@ from typing import Any
 
 from graphcam.exercises.definition.exercise import Asked, Exercise
 
-OUTCOMES = ("right", "follow-through", "wrong", "unreadable", "missing")
 EDGE = 8.0
 """Pencil units that the diagrams show; what is farther off is counted in the last bar."""
 BARS = 32
@@ -20,13 +19,13 @@ BARS = 32
 class StepErrors:
     """One answer over all students.
 
-    outcomes : how many of each kind
+    outcomes : how many of each kind that there are
     bars : of every outcome that has a deviation, how many lie in each of the bars from -EDGE to EDGE pencil units
     earned : part of the marks that were earned
     """
 
     asked: Asked
-    outcomes: dict[str, int]
+    outcomes: Counter[str]
     bars: dict[str, list[int]]
     earned: float
 
@@ -42,19 +41,18 @@ class Mistake:
 
 def step_errors(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[StepErrors]:
     """The errors of every step, in the order of the construction."""
-    return [_step(asked, [answer for record in records for answer in record["answers"] if answer["name"] == asked.name])
-            for asked in exercise.answers]  # fmt: skip
+    answers = [answer for record in records for answer in record["answers"]]
+    return [_step(asked, [each for each in answers if each["name"] == asked.name]) for asked in exercise.answers]
 
 
 def _step(asked: Asked, answers: list[dict[str, Any]]) -> StepErrors:
-    counted = Counter(answer["outcome"] for answer in answers)
     bars = {outcome: [0] * BARS for outcome in ("right", "follow-through", "wrong")}
     for answer in answers:
         if answer["outcome"] in bars:
             bars[answer["outcome"]][bar_of(answer["deviation"])] += 1
     possible = sum(answer["of"] for answer in answers)
     earned = sum(answer["marks"] for answer in answers) / possible if possible else 0.0
-    return StepErrors(asked, {outcome: counted[outcome] for outcome in OUTCOMES}, bars, earned)
+    return StepErrors(asked, Counter(answer["outcome"] for answer in answers), bars, earned)
 
 
 def bar_of(deviation: float | None) -> int:
@@ -75,7 +73,7 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
         if record["diagnosis"]:
             found.setdefault(record["diagnosis"]["misconception"], []).append(record)
     listed = [
-        Mistake(name, tuple(one["student"] for one in some), sum(one["of"] - one["total"] for one in some))
-        for name, some in found.items()
+        Mistake(name, tuple(each["student"] for each in made), sum(each["of"] - each["total"] for each in made))
+        for name, made in found.items()
     ]
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.name))

@@ -4,46 +4,35 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphcam.drafting.ink import Caption, Words, say
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
-from graphcam.exercises.reports.phrases import OUTCOMES, given_text, spoken
 from graphcam.exercises.reports.web_pages import page
+from graphcam.words import Caption, say
 
-WORDS = {
-    "asked": say("Asked"), "given": say("Your answer"), "outcome": say("Result"), "marks": say("Marks"),
-    "remarks": say("Remarks"), "notes": say("On your hand-in"),
-}  # fmt: skip
+OUTCOMES = {
+    "right": say("right"),
+    "follow-through": say("follows from your own values"),
+    "wrong": say("off"),
+    "unreadable": say("cannot be read"),
+    "missing": say("not answered"),
+}
 
 
 def student_page(exercise: Exercise, record: dict[str, Any], answer_key: AnswerKey | None) -> str:
     """The feedback on one record as HTML.
 
-    certificate : tells where on the student's own curve it is farthest off; of the key nothing is shown
+    answer_key : tells where on the student's own curve it is farthest off; of the key nothing is shown
     """
-    asked, tell = {one.name: one for one in exercise.answers}, exercise.tell
+    marked = list(zip(exercise.answers, record["answers"], strict=True))
     rows = [
-        {
-            "text": f"{answer['name']}. {sentence(asked[answer['name']].text, record['parameters'], tell)}",
-            "given": f"{given_text(answer, tell)} {tell(_unit(asked[answer['name']], answer))}".strip(),
-            "kind": answer["outcome"], "outcome": tell(OUTCOMES[answer["outcome"]]),
-            "marks": tell(say("{marks:g} of {of:g}", marks=answer["marks"], of=answer["of"])),
-        }
-        for answer in record["answers"]
-    ]  # fmt: skip
-    return page(
-        "feedback.html", language=exercise.language, title=exercise.title, student=record["student"], rows=rows,
-        total=tell(say("{marks:g} of {of:g} marks", marks=record["total"], of=record["of"])),
-        words=spoken(WORDS, tell), feedback=list(record["feedback"]), notes=list(record["notes"]),
-        pictures=[(tell(_caption(answer)), _own(asked[answer["name"]], answer, answer_key))
-                  for answer in record["answers"] if isinstance(answer["given"], list)],
-    )  # fmt: skip
-
-
-def _unit(asked: Asked, answer: dict[str, Any]) -> Words:
-    return "" if answer["given"] is None or isinstance(answer["given"], list) else asked.unit_said
+        (asked, answer, sentence(asked.text, record["parameters"], exercise.tell), OUTCOMES[answer["outcome"]])
+        for asked, answer in marked
+    ]
+    drawn = [(asked, answer) for asked, answer in marked if isinstance(answer["given"], list)]
+    pictures = [(_caption(answer), _own(asked, answer, answer_key)) for asked, answer in drawn]
+    return page("feedback.html", exercise, record=record, rows=rows, pictures=pictures)
 
 
 def _caption(answer: dict[str, Any]) -> Caption:
@@ -53,8 +42,7 @@ def _caption(answer: dict[str, Any]) -> Caption:
 
 
 def _own(asked: Asked, answer: dict[str, Any], answer_key: AnswerKey | None) -> CurvePicture:
-    own = points_of(answer)
     spot = None
     if answer_key is not None and answer["outcome"] == "wrong":
         spot = worst_place(answer_key.keys[asked.name].expected, answer, asked.kind)
-    return picture([("own", own, asked.kind == "curve")], spot)
+    return picture([("own", points_of(answer), asked.kind == "curve")], spot)

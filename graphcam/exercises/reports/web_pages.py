@@ -6,35 +6,35 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.words import Caption, say
+
 if TYPE_CHECKING:
     from jinja2 import Environment
+    from jinja2.runtime import Context
 
 
-def page(template: str, **values: Any) -> str:
-    """A page of a template in ``data/grading``."""
-    style = _read("style.css")
+def page(template: str, exercise: Exercise, **values: Any) -> str:
+    """A page about an exercise, of a template in ``data/grading``; its captions are said in the exercise's language."""
     from markupsafe import Markup
 
-    return _environment().get_template(template).render(style=Markup(style), **_clean(values))
+    style = Markup(_read("style.css"))
+    written = _environment().get_template(template).render(values, exercise=exercise, style=style, say=say)
+    # Without the halves of characters that a folder's name may hold and no file can.
+    return written.encode("utf-8", "backslashreplace").decode()
 
 
 @cache
 def _environment() -> Environment:
-    from jinja2 import Environment, FunctionLoader, StrictUndefined
+    from jinja2 import Environment, FunctionLoader, StrictUndefined, pass_context
 
-    return Environment(loader=FunctionLoader(_read), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
+    @pass_context
+    def told(context: Context, value: Any) -> Any:
+        return context["exercise"].tell(value) if isinstance(value, Caption) else value
+
+    loader = FunctionLoader(_read)
+    return Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, finalize=told)
 
 
 def _read(name: str) -> str:
     return resources.files("graphcam").joinpath("data", "grading", name).read_text(encoding="utf-8")
-
-
-def _clean(value: Any) -> Any:
-    """Without the halves of characters that a folder's name may hold and no file can."""
-    if isinstance(value, str):
-        return value.encode("utf-8", "backslashreplace").decode()
-    if isinstance(value, dict):
-        return {key: _clean(each) for key, each in value.items()}
-    if isinstance(value, list):
-        return [_clean(each) for each in value]
-    return value

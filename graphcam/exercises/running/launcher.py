@@ -23,7 +23,7 @@ def main() -> None:
     """Take the limits upon oneself, then run the cells."""
     order = json.loads(sys.stdin.buffer.read())
     sys.stdin.close()
-    submit(order)
+    set_limits(order)
     sys.path[:0] = order["path"]
     namespace: dict[str, Any] = {"__name__": "__main__"}
     shown: list[dict[str, Any]] = []
@@ -47,7 +47,7 @@ def main() -> None:
     os._exit(0)
 
 
-def submit(order: dict[str, Any]) -> None:
+def set_limits(order: dict[str, Any]) -> None:
     """Set the limits, the last first that would forbid setting the others."""
     for name, limit in order["limits"].items():
         resource.setrlimit(getattr(resource, name), (limit, limit))
@@ -61,27 +61,26 @@ def submit(order: dict[str, Any]) -> None:
 def offer_display(namespace: dict[str, Any], hand_out: Callable[[dict[str, Any]], None]) -> None:
     """What a notebook calls ``display``, also under the name by which IPython has it."""
 
-    def display(*things: Any, raw: bool = False, **_: Any) -> None:
-        for thing in things:
-            bundle = thing if raw else bundle_of(thing)
+    def display(*values: Any, raw: bool = False, **_: Any) -> None:
+        for value in values:
+            bundle = value if raw else bundle_of(value)
             if isinstance(bundle, dict) and isinstance(bundle.get(MIME), dict):
                 hand_out(bundle[MIME])
             else:
-                print(thing)  # noqa: T201  the output of the notebook
+                print(value)  # noqa: T201  the output of the notebook
 
     namespace["display"] = display
-    shell = types.ModuleType("IPython.display")
-    shell.__dict__["display"] = display
+    module = types.ModuleType("IPython.display")
     # Pictures and formatted texts are for the student's eyes, not for grading.
-    shell.__dict__["__getattr__"] = unheard
+    module.__dict__.update({"display": display, "__getattr__": ignoring})
     package = types.ModuleType("IPython")
     # The version is what matplotlib looks at: since this one it needs no help to show its pictures.
     version = {"version_info": (8, 24, 0), "__version__": "8.24.0"}
-    package.__dict__.update({"display": shell, "get_ipython": lambda: None, "__path__": [], **version})
-    sys.modules.update({"IPython": package, "IPython.display": shell})
+    package.__dict__.update({"display": module, "get_ipython": lambda: None, "__path__": [], **version})
+    sys.modules.update({"IPython": package, "IPython.display": module})
 
 
-def unheard(_: str) -> Callable[..., None]:
+def ignoring(_: str) -> Callable[..., None]:
     """A function for anything else that a notebook wants to show."""
 
     def show(*_: Any, **__: Any) -> None:
@@ -90,9 +89,9 @@ def unheard(_: str) -> Callable[..., None]:
     return show
 
 
-def bundle_of(thing: Any) -> Any:
+def bundle_of(value: Any) -> Any:
     """What an object shows of itself, if it says so."""
-    make = getattr(thing, "_repr_mimebundle_", None)
+    make = getattr(value, "_repr_mimebundle_", None)
     return make() if callable(make) else None
 
 

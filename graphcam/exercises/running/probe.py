@@ -18,12 +18,10 @@ FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
 import os, socket, time
 broken = []
-def attempt(name, what):
+def attempt(name, reach):
     try:
-        what()
-    except OSError:
-        return
-    except MemoryError:
+        reach()
+    except (OSError, MemoryError):
         return
     broken.append(name)
 def too_many():
@@ -108,8 +106,9 @@ def _broken(level: Level) -> str:
 
     with tempfile.NamedTemporaryFile(dir=_outside()) as canary, socket.create_server(("127.0.0.1", 0)) as server:
         Path(canary.name).chmod(0o644)
-        escapes = ESCAPES.format(processes=FEW.processes + _margin(), memory=FEW.memory, closed=level is Level.L2,
-                                 canary=canary.name, port=server.getsockname()[1])  # fmt: skip
+        size = {"processes": FEW.processes + _margin(), "memory": FEW.memory}
+        hidden = {"canary": canary.name, "port": server.getsockname()[1]}
+        escapes = ESCAPES.format(closed=level is Level.L2, **size, **hidden)
         ended = run_cells(level, [escapes], ["broken"], FEW)
     try:
         broken = json.loads(ended.handed_out)["broken"]

@@ -70,9 +70,15 @@ def run_limited(
         os.set_blocking(in_write, False)
         try:
             process = subprocess.Popen(
-                command, stdin=in_read, stdout=out_write, stderr=out_write, pass_fds=(pipe_write,),
-                start_new_session=True, cwd=folder, env=environment,
-            )  # fmt: skip
+                command,
+                stdin=in_read,
+                stdout=out_write,
+                stderr=out_write,
+                pass_fds=(pipe_write,),
+                start_new_session=True,
+                cwd=folder,
+                env=environment,
+            )
         finally:
             for theirs in (in_read, out_write, pipe_write):
                 os.close(theirs)
@@ -101,9 +107,9 @@ def _attend(
         late = not _has_ended(process)
         _end(process)
         # What is still in the pipes; they end when the last of the group has gone.
-        until = time.monotonic() + LAST_WORDS
         if not source.closed:
             selector.unregister(source)
+        until = time.monotonic() + LAST_WORDS
         while selector.get_map() and time.monotonic() < until:
             for key, _ in selector.select(max(0.0, until - time.monotonic())):
                 _drained(selector, key.fd, sinks[key.fd])

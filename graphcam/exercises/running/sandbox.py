@@ -15,7 +15,6 @@ import threading
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 from graphcam.exercises.running import launcher
 from graphcam.exercises.running.levels import Level
@@ -40,17 +39,16 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Resource
     if level is Level.L0:
         raise ValueError("at L0 nothing is run")
     limits = limits or ResourceLimits()
-    already = 0 if os.getuid() == 0 else _processes_of(os.getuid())
-    what: dict[str, Any] = {
-        "cells": cells, "names": names, "limits": limits.resources(already), "user": _user(),
-        "path": [str(folder) for folder in _library()],
-    }  # fmt: skip
+    resources = limits.resources(0 if os.getuid() == 0 else _processes_of(os.getuid()))
+    numpy, graphcam = _packages()
+    path = [str(numpy), str(graphcam.parent)]
     with _scratch() as folder:
         if os.getuid() == 0:
             os.chown(folder, _user(), _user())
 
         def order(pipe: int) -> bytes:
-            return json.dumps(what | {"pipe": pipe}).encode()
+            ran = {"cells": cells, "names": names, "limits": resources, "user": _user(), "path": path, "pipe": pipe}
+            return json.dumps(ran).encode()
 
         try:
             return run_limited(_command(level, limits), order, limits, folder, _environment(level, folder))
@@ -112,16 +110,15 @@ def _another_user() -> list[str]:
     """As root, the start of a command line that runs as nobody else does, but may still read root's own Python."""
     if os.getuid() != 0:
         return []
-    program, user = shutil.which("setpriv") or "setpriv", str(_user())
-    kept = "-all,+dac_read_search"
-    return [program, "--reuid", user, "--regid", user, "--clear-groups", f"--inh-caps={kept}", f"--ambient-caps={kept}",
-            "--no-new-privs"]  # fmt: skip
+    program, user, kept = shutil.which("setpriv") or "setpriv", str(_user()), "-all,+dac_read_search"
+    others = ["--reuid", user, "--regid", user, "--clear-groups"]
+    return [program, *others, f"--inh-caps={kept}", f"--ambient-caps={kept}", "--no-new-privs"]
 
 
 def _bubblewrap(limits: ResourceLimits) -> list[str]:
     program = shutil.which("bwrap") or "bwrap"
-    command = [program, "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
-               "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]  # fmt: skip
+    unshared = [f"--unshare-{name}" for name in ("ipc", "pid", "net", "uts", "cgroup-try")]
+    command = [program, *unshared, "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]
     # As root another user is taken inside; otherwise the kernel gives a name space in which nobody is anybody.
     command += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"] if os.getuid() == 0 else ["--unshare-user"]
     for folder in SYSTEM:
@@ -129,8 +126,8 @@ def _bubblewrap(limits: ResourceLimits) -> list[str]:
             command += ["--symlink", str(Path(folder).readlink()), folder]
         elif Path(folder).is_dir():
             command += ["--ro-bind", folder, folder]
-    for thing in SETTINGS:
-        command += ["--ro-bind-try", thing, thing]
+    for place in SETTINGS:
+        command += ["--ro-bind-try", place, place]
     # Before the folders of Python, which may lie in /tmp themselves.
     command += ["--perms", "1777", "--size", str(limits.written), "--tmpfs", "/tmp"]
     for folder in visible():
@@ -138,20 +135,17 @@ def _bubblewrap(limits: ResourceLimits) -> list[str]:
             for parent in reversed(folder.parents[:-1]):
                 command += ["--perms", "0755", "--dir", str(parent)]
             command += ["--ro-bind", str(folder), str(folder)]
-    command += ["--proc", "/proc", "--dev", "/dev", "--ro-bind", launcher.__file__, "/launcher.py", "--chdir", "/tmp",
-                "--remount-ro", "/"]  # fmt: skip
-    return command
+    command += ["--proc", "/proc", "--dev", "/dev", "--ro-bind", launcher.__file__, "/launcher.py"]
+    return [*command, "--chdir", "/tmp", "--remount-ro", "/"]
 
 
 def _environment(level: Level, folder: str) -> dict[str, str]:
     """Nothing of the host's environment: it may hold passwords."""
     home = folder if level is Level.L1 else "/tmp"
-    return {
-        "PATH": "/usr/bin:/bin", "HOME": home, "TMPDIR": home, "LANG": "C.UTF-8",
-        "MPLBACKEND": "agg", "MPLCONFIGDIR": home,
-        # One thread each: more cost memory and processes, and gain nothing here.
-        "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1",
-    }  # fmt: skip
+    places = {"PATH": "/usr/bin:/bin", "HOME": home, "TMPDIR": home, "LANG": "C.UTF-8"}
+    # One thread each: more cost memory and processes, and gain nothing here.
+    threads = {f"{library}_NUM_THREADS": "1" for library in ("OPENBLAS", "OMP", "MKL")}
+    return {**places, "MPLBACKEND": "agg", "MPLCONFIGDIR": home, **threads}
 
 
 @functools.cache
@@ -161,11 +155,6 @@ def _packages() -> tuple[Path, ...]:
     places = [Path(spec.origin).parent for spec in found if spec is not None and spec.origin]
     # Packages that were installed stand beside numpy, in one folder; a checkout is only its own.
     return (places[0].parent, places[1])
-
-
-def _library() -> list[Path]:
-    numpy, graphcam = _packages()
-    return [numpy, graphcam.parent]
 
 
 def _user() -> int:

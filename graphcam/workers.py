@@ -1,0 +1,205 @@
+"""Jobs shared out among processes or machines: in order, or so that one that kills its worker costs only itself."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from functools import partial
+from itertools import chain, islice
+from typing import Any, TypeVar
+
+J = TypeVar("J")
+R = TypeVar("R")
+
+BATCH = 16
+"""Short jobs that travel together: less talk between processes, and still an even load."""
+BATCHES_AHEAD = 3
+"""Batches a worker that are on their way: none waits, and not all jobs are in memory."""
+JOBS_AHEAD = 32
+"""Jobs that wait for an executor at a time where they come in order: they bound the memory."""
+LAST_MOMENTS = 2.0
+"""Seconds that a worker has to clear away when the run has been killed."""
+_working = threading.Event()
+"""Whether this process, a worker, has a job in hand."""
+_over = threading.Event()
+"""Whether its run has been killed, so that no other job is begun."""
+
+
+@dataclass(frozen=True)
+class WorkerPool:
+    """Where jobs are done.
+
+    executor : makes a :class:`concurrent.futures.Executor`, a new one after one has broken
+    workers : how many jobs it does at once
+    close : to be called when all jobs are done
+    """
+
+    executor: Callable[[], Executor]
+    workers: int
+    close: Callable[[], object] = lambda: None
+
+
+def processes(workers: int, *preloaded: str) -> WorkerPool:
+    """Processes on this machine.
+
+    preloaded : modules that the jobs need, loaded once where the processes do not begin as copies of this one
+    """
+    return WorkerPool(partial(_process_executor, workers, preloaded), workers)
+
+
+def cluster(address: str) -> WorkerPool:
+    """The workers of a dask scheduler; needs the extra ``cluster``.
+
+    Raises
+    ------
+    OSError : there is no scheduler at the address
+    """
+    from distributed import Client
+
+    client: Any = Client(address)
+    return WorkerPool(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
+
+
+def executor_of(workers: int) -> AbstractContextManager[Executor | None]:
+    """An executor of processes for :func:`in_order`; None for a single worker, whose jobs are done here."""
+    return processes(workers).executor() if workers > 1 else nullcontext()
+
+
+def in_order(executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[R]:
+    """The function's results in the order of the jobs, which are taken only as they are needed.
+
+    Unlike ``executor.map``, which takes all of them at once.
+
+    >>> list(in_order(None, abs, [-1, 2]))
+    [1, 2]
+    """
+    if executor is None:
+        yield from map(function, jobs)
+        return
+    remaining = iter(jobs)
+    waiting: deque[Future[R]] = deque()
+    try:
+        waiting.extend(executor.submit(function, job) for job in islice(remaining, JOBS_AHEAD))
+        while waiting:
+            yield waiting.popleft().result()
+            waiting.extend(executor.submit(function, job) for job in islice(remaining, 1))
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def results(
+    pool: WorkerPool, function: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH
+) -> Generator[tuple[J, R | None]]:
+    """Every job with its result as they come, or with None where the worker died of it.
+
+    function : of a module, one that does not raise
+    batch : jobs that travel together
+
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> sorted(results(WorkerPool(ThreadPoolExecutor, 2), abs, [-1, 2]))
+    [(-1, 1), (2, 2)]
+    """
+    suspects: list[J] = []
+    waiting = iter(jobs)
+    batches = iter(lambda: list(islice(waiting, batch)), [])
+    # An executor that breaks takes down with it what others were doing: all of that is suspected.
+    for done, found in _shared_out(pool, function, batches, BATCHES_AHEAD * pool.workers):
+        if found is None:
+            suspects += done
+        else:
+            yield from zip(done, found, strict=True)
+    # Alone, so that the one that breaks the executor is the guilty one.
+    for (job,), found in _shared_out(pool, function, ([suspect] for suspect in suspects), 1):
+        yield job, None if found is None else found[0]
+
+
+def _shared_out(
+    pool: WorkerPool, function: Callable[[J], R], batches: Iterator[list[J]], ahead: int
+) -> Generator[tuple[list[J], list[R] | None]]:
+    """Batches with their results, or with None where they were under way when their executor broke.
+
+    ahead : batches that are under way at a time
+    """
+    while first := next(batches, []):
+        with pool.executor() as executor:
+            running: dict[Future[list[R]], list[J]] = {executor.submit(_each, function, first): first}
+            broken = False
+            try:
+                while (batch := [] if broken or len(running) >= ahead else next(batches, [])) or running:
+                    if batch:
+                        try:
+                            running[executor.submit(_each, function, batch)] = batch
+                        except BrokenExecutor:
+                            # Nobody has begun with this one: it is for the next executor.
+                            broken, batches = True, chain([batch], batches)
+                        continue
+                    for future in wait(running, return_when=FIRST_COMPLETED).done:
+                        # Whatever came instead of a result: the function itself does not raise.
+                        broken = broken or future.exception() is not None
+                        yield running.pop(future), None if future.exception() else future.result()
+            finally:
+                # After an interruption nothing more is begun.
+                for future in running:
+                    future.cancel()
+
+
+def _each(function: Callable[[J], R], jobs: list[J]) -> list[R]:
+    if threading.current_thread() is not threading.main_thread():
+        return [function(job) for job in jobs]
+    if _over.is_set():
+        os._exit(1)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    _working.set()
+    try:
+        return [function(job) for job in jobs]
+    finally:
+        _deaf()
+        _working.clear()
+
+
+def _deaf() -> None:
+    """Between its jobs a process does not hear Ctrl-C: it may hold the locks of the queue, and all would wait."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _process_executor(workers: int, preloaded: tuple[str, ...]) -> Executor:
+    if sys.platform == "linux" and threading.active_count() == 1:
+        # All that is loaded is there at once: a new Python takes longer to start than hundreds of students to grade.
+        return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _begin)
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _begin)
+    # A fork of a process with threads may hang; the server that forks instead has none, and loads the libraries once.
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(preloaded))
+    return ProcessPoolExecutor(workers, context, _begin)
+
+
+def _begin() -> None:
+    """Make this process a worker."""
+    _deaf()
+    threading.Thread(target=_end_with_the_run, daemon=True).start()
+
+
+def _end_with_the_run() -> None:
+    """End this worker when the run has been killed: by itself it waits for jobs for ever."""
+    run = multiprocessing.parent_process()
+    if run is None:
+        return
+    run.join()
+    _over.set()
+    # As by Ctrl-C, so that a student's code that it runs just now is ended too.
+    os.kill(os.getpid(), signal.SIGINT)
+    until = time.monotonic() + LAST_MOMENTS
+    while _working.is_set() and time.monotonic() < until:
+        time.sleep(0.01)
+    os._exit(1)
