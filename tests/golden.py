@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 import graphcam as gc
-from graphcam.drafting.ink import Region
+from graphcam.drafting.marks import Region
 from graphcam.words import Caption
 
 FILE = Path(__file__).with_name("golden.json")
