@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class ArcsComparison:
     def _exact(self) -> dict[str, float]:
         cam, motion = self.cam, self.motion
         steepest, radii = math.degrees(motion.max_pressure_angle()[0]), (cam.rho1, cam.rho2, cam.rho3)
-        _, (_, _, joints, _) = motion.at(np.repeat([0, 1, 2], 2), np.tile([0.0, 1.0], 3))
+        joints = zip(JOINTS, product(range(3), (0.0, 1.0)), strict=True)
         return {
             "max_v": motion.max_velocity()[0],
             "max_a": motion.max_acceleration()[0],
@@ -56,7 +57,7 @@ class ArcsComparison:
             **{name: getattr(cam, name) for name in ("rho2", "rho3")},
             **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINTS for k, axis in enumerate("xy")},
             **{f"phi_{name}_deg": math.degrees(motion.edges[k]) for k, name in enumerate("GFD", 1)},
-            **dict(zip(JOINTS, joints.tolist(), strict=True)),
+            **{name: float(motion.at(np.array(arc), np.array(u))[1][2]) for name, (arc, u) in joints},
         }
 
     @cached_property

@@ -12,6 +12,7 @@ from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
 from graphcam.drafting.scale import ratio_text
 from graphcam.given.laws import Floats
+from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.report.contents import Contents
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.note import against_exact, as_drawn, drawn_how, heading, markdown_table, told_jumps, whole_note
@@ -20,7 +21,7 @@ from graphcam.report.sheet_contents import diagram_titles, title_block, titled
 from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution
-from graphcam.words import Caption, say, sequence
+from graphcam.words import Caption, Words, say, sequence
 
 CASES = {
     1: say("both centres C1 and C2 are given"),
@@ -48,8 +49,8 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     of_arcs = {name: q for name, q in quantities.items() if name in OF_ARCS}
     of_motion = {name: q for name, q in quantities.items() if name not in OF_ARCS}
     results = comparison(of_arcs), comparison(of_motion)
-    block = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
-    return Contents(solution, block, solution.drawn, steps, (_data(solution),), results)
+    title = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
+    return Contents(solution, title, solution.drawn, steps, (_data(solution),), results)
 
 
 def _titles(solution: ArcsSolution) -> dict[str, Caption]:
@@ -135,10 +136,7 @@ def arcs_note(solution: ArcsSolution) -> str:
 def _roots(solution: ArcsSolution) -> str:
     """Both roots, exactly, and why one of them is taken."""
     tell, (first, second) = solution.tell, solution.roots
-    rows = [
-        (name, _xy(root.C3), _xy(root.F), say("{length} mm", length=number(root.rho3, 3)), sound)
-        for name, root, sound in ((say("first"), first, _yes(first.sound)), (say("second"), second, _yes(second.sound)))
-    ]
+    rows = [_root(say("first"), first), _root(say("second"), second)]
     why = say("- The first root: {why}", why=first.reason), say("- The second root: {why}", why=second.reason)
     return blocks(
         say("Two circles about points of the line G C2 touch the circle about C1. Exactly they are these."),
@@ -148,8 +146,9 @@ def _roots(solution: ArcsSolution) -> str:
     )
 
 
-def _yes(answer: bool) -> Caption:
-    return say("yes") if answer else say("no")
+def _root(name: Caption, root: ThreeArcCam) -> tuple[Words, ...]:
+    radius, sound = say("{length} mm", length=number(root.rho3, 3)), say("yes") if root.sound else say("no")
+    return name, _xy(root.C3), _xy(root.F), radius, sound
 
 
 def _stations(solution: ArcsSolution) -> str:

@@ -48,7 +48,7 @@ def in_formulas(note: str) -> str:
 
 
 def formula(tex: str, **values: Words) -> Caption:
-    """A formula in TeX, which keeps its braces to itself: a value stands where its name does in angle brackets.
+    r"""A formula in TeX, which keeps its braces to itself: a value stands where its name does in angle brackets.
 
     >>> str(formula("$\\frac{<s>}{2}$", s=number(3)))
     '$\\frac{3.00}{2}$'

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Points, say
+from graphcam.drafting.units import unit as unit_of
 from graphcam.given.laws import Floats
 from graphcam.report.mechanism_scene import MechanismScene, TurnPhase
 from graphcam.solving.json_values import plain_number
@@ -33,11 +34,12 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     unit, swings = greatest / 28, scene.kind == "arm"
     ground, top = (_pivot(scene, unit), 0.0) if swings else _guide(scene, unit)
     degree = math.degrees(1.0) if swings else 1.0
-    pitch = _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
+    pitch = None if scene.kind == "face" else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
     stem, face = top + 1.5 * unit - float(scene.trace.imag.min()), (scene.face[0] - 2 * unit, scene.face[1] + 2 * unit)
     sizes = {"unit": unit, "roller": scene.roller, "reach": 0.55 * greatest, "stem": stem}
     live = dict(zip(LIVE, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
-    units = "°", "°" if swings else f" {tell(say('mm'))}", f" {tell(say('rad/rad') if swings else say('mm/rad'))}"
+    of_velocity = unit_of("rad/rad" if swings else "mm/rad")
+    units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
     data: dict[str, Any] = {
         "kind": scene.kind,
         "about": tell(ABOUT[scene.kind]),
@@ -45,7 +47,7 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
         "step": 360 / (scene.phi.size - 1),
         "phases": [_phase(phase, tell) for phase in scene.phases],
         "profile": _points(scene.profile),
-        "pitch": None if scene.kind == "face" else pitch,
+        "pitch": pitch,
         "mark": _point(0.92 * scene.profile[0]),
         "pivot": _point(scene.pivot),
         "ground": ground,

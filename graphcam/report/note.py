@@ -76,8 +76,9 @@ def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: Any
     """Head, numbered chapters, and the appendix with the captions of all steps."""
     tell = solution.tell
     numbered = [f"## {k}. {tell(title)}\n\n{said}" for k, (title, said) in enumerate(chapters, 1)]
-    appendix = tell(say("## Appendix: how it was drawn"))
-    return in_formulas(blocks(head, *numbered, appendix, captions(solution)) + "\n")
+    steps = [step for construction in solution.drawn.values() for step in construction.steps()]
+    drawn = "\n".join(f"{k}. *{tell(step.title)}.* {tell(step.caption)}" for k, step in enumerate(steps, 1))
+    return in_formulas(blocks(head, *numbered, tell(say("## Appendix: how it was drawn")), drawn) + "\n")
 
 
 def comparison_file(solution: AnySolution) -> str:
@@ -319,13 +320,6 @@ def _verdict(solution: AnySolution) -> list[Caption]:
     if not unknown:
         return [verdict]
     return [verdict, say("No bound is known of {names}: more parts show what these do not.", names=unknown)]
-
-
-def captions(solution: AnySolution) -> str:
-    """Every step and its caption, numbered."""
-    tell = solution.tell
-    steps = [step for construction in solution.drawn.values() for step in construction.steps()]
-    return "\n".join(f"{k}. *{tell(step.title)}.* {tell(step.caption)}" for k, step in enumerate(steps, 1))
 
 
 def markdown_table(of_sheet: Table, tell: Tell) -> str:

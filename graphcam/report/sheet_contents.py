@@ -33,9 +33,10 @@ def motion_contents(solution: Solution) -> Contents:
     if spring:
         steps += spring.steps()
         results.append(spring.table())
-        drawn |= {"force_plan": spring.force_plan} if spring.force_plan else {}
-    block = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
-    return Contents(solution, block, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
+        if plan := spring.force_plan:
+            drawn["force_plan"] = plan
+    title = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
+    return Contents(solution, title, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
 
 
 def title_name(title: TitleTable, tell: Tell) -> str:

@@ -74,11 +74,11 @@ def least_radius(solution: Solution) -> str:
 
 def _centre(region: Construction) -> list[Caption]:
     """The place that is taken for the cam centre, and its distance from the start of the lift."""
-    e, read = float(region.value("offset")), {name: region.value(name) for name in ("s0", "prime_radius")}
-    if math.isnan(read["prime_radius"]):
+    s0, e, r0 = (float(region.value(name)) for name in ("s0", "offset", "prime_radius"))
+    if math.isnan(r0):
         unreadable = say("No cam centre can be read, because the lines that bound the region cross at under a degree.")
         return [warning(unreadable)]
-    values = numbers(e=e, **read)
+    values = numbers(s0=s0, e=e, r0=r0)
     bound_by, given = [LINES[line.name] for line in active(region)], region.givens["offset"]
     place = (
         say("Of the region the place that is nearest to the start of the lift is taken.")
@@ -88,7 +88,7 @@ def _centre(region: Construction) -> list[Caption]:
     lies = say("It lies on the limit of: {lines}.", lines=sequence(bound_by)) if bound_by else say("No line binds it.")
     read = say("There $s_0 = {s0}$ mm and $e = {e}$ mm are read, so", **values)
     values |= {"square": formula("(<e>)^2" if e < 0 else "<e>^2", **values), "mm": unit("mm")}
-    radius = r"$$r_0 = \sqrt{s_0^2 + e^2} = \sqrt{<s0>^2 + <square>} = <prime_radius>\ \text{<mm>}.$$"
+    radius = r"$$r_0 = \sqrt{s_0^2 + e^2} = \sqrt{<s0>^2 + <square>} = <r0>\ \text{<mm>}.$$"
     return [sequence([place, lies, read], " "), formula(radius, **values), say("This is the least prime radius.")]
 
 
