@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -40,8 +40,8 @@ class ExactRow:
     """One figure of the exact side.
 
     ratio : in ``unit``, or how many times faster;  goal : what the ratio should keep to
-    error_eps : the rounding, None where it was not held against
-    more digits;  seconds : on this machine, for the terminal alone
+    error_eps : the rounding, None where it was not held against more digits
+    seconds : on this machine, for the terminal alone
     """
 
     name: str
@@ -67,12 +67,11 @@ class Unit:
 
 def exact_rows(stations: int, points: int, timer: Timer) -> list[ExactRow]:
     """Laws at ``stations``, cam points at ``points`` stations, extremes, and least radii beside their rivals."""
-    few, scenes = Unit(RIVAL_STATIONS, timer.pairs(RIVAL_STATIONS)), [scene(name, "3-4-5") for name in FOLLOWERS]
-    extremes, what = {where.follower: where.cam.extremes for where in scenes}, "pressure angles and least convex radius"
+    few = Unit(RIVAL_STATIONS, timer.pairs(RIVAL_STATIONS))
     return [
         *_laws(Unit(stations, timer.pairs(stations)), timer),
         *_cam_points(Unit(points, timer.pairs(points)), few, timer),
-        *(few.row(f"extremes, {name}", what, timer.seconds(work)) for name, work in extremes.items()),
+        *_extremes(few, timer),
         *_sweeps(timer),
         *_least_radii(few, timer),
         *_sums(timer),
@@ -108,12 +107,17 @@ def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[ExactRow]:
     yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 2.5")
 
 
+def _extremes(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
+    for follower in FOLLOWERS:
+        seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
+        yield unit.row(f"extremes, {follower}", "pressure angles and least convex radius", seconds)
+
+
 def _sweeps(timer: Timer) -> Iterator[ExactRow]:
     for t in sweep_times(timer):
-        name, faster = f"sweep, {t.name}", t.looped / t.seconds
-        row = Unit(STATIONS, t.pairs).row(name, "all quantities of a design", t.seconds, "<= 1.6")
-        yield replace(row, error_eps=t.error / reference.EPS)
-        what = "beside a loop over the extremes of one cam"
+        name, unit, eps = f"sweep, {t.name}", Unit(STATIONS, t.pairs), t.error / reference.EPS
+        yield unit.row(name, "all quantities of a design", t.seconds, "<= 1.6", eps)
+        what, faster = "beside a loop over the extremes of one cam", t.looped / t.seconds
         yield ExactRow(name, what, faster, "times faster", ">= 8", None, t.looped)
 
 
