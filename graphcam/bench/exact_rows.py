@@ -97,11 +97,11 @@ def _law_error(name: str) -> float | None:
 
 def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[ExactRow]:
     where, phi = scene("translating", "3-4-5"), turn(unit.n)
-    motion, cam, error, at = where.board.motion, where.cam, exact_profile_error(where), f"at {unit.n} stations"
+    motion, cam, at = where.board.motion, where.cam, f"at {unit.n} stations"
     yield unit.row("motion", f"s, v, a, j {at}", timer.seconds(partial(motion, phi)))
     # As many as of one drawing: the overhead of a call counts.
     yield few.row("motion", f"s, v, a, j at {few.n} stations", timer.seconds(partial(motion, turn(few.n))), "<= 100 µs")
-    error_eps = None if error is None else error / reference.EPS
+    error_eps = exact_profile_error(where) / reference.EPS if reference.available() else None
     yield unit.row("profile", f"working profile {at}", timer.seconds(partial(cam.profile, phi)), "", error_eps)
     what = f"pitch curve, profile and curvature {at}"
     yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 2.5")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import radians
-from typing import Any
 
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.chain import AdoptedSizes, Chain
@@ -53,8 +52,8 @@ class TestScene:
         """The exact least prime radius."""
         board, limits = self.board, self.board.limits
         follower = board.follower.built(board.follower.place, 0.0)
-        allowed: dict[str, Any] = {"rise": limits.rise, "return_": limits.return_, "rest": limits.rest}
-        return minimum_radius(board.motion, follower, board.rotation, **allowed, **board.follower.conditions)
+        allowed = board.follower.conditions | {"rise": limits.rise, "return_": limits.return_}
+        return minimum_radius(board.motion, follower, board.rotation, rest=limits.rest, **allowed)
 
 
 def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> Motion:
