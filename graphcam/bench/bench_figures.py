@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,6 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
-from numpy.typing import ArrayLike
 from scipy.optimize import isotonic_regression
 
 from graphcam.bench.bench_report import Report
@@ -228,13 +228,7 @@ def error_against_time(report: Report) -> Figure:
 
 def _here(axes: Axes, pair: float) -> None:
     """A second axis in milliseconds of this machine."""
-
-    def milliseconds(pairs: ArrayLike) -> Floats:
-        return np.asarray(pairs) * pair * 1e3
-
-    def pairs(milliseconds: ArrayLike) -> Floats:
-        return np.asarray(milliseconds) / pair / 1e3
-
+    milliseconds, pairs = partial(np.multiply, 1e3 * pair), partial(np.multiply, 1e-3 / pair)
     top = axes.secondary_xaxis("top", functions=(milliseconds, pairs))
     top.set_xlabel("ms on this machine", color=GREY, fontsize=9)
     top.xaxis.set_major_formatter(PLAIN)

@@ -8,12 +8,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from graphcam.bench.scenes import FOLLOWERS, LAWS, TestScene, scene
 from graphcam.constructions.chain import Chain
 from graphcam.given.laws import Floats
+from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.peaks import max_acceleration, max_velocity
@@ -90,13 +93,12 @@ def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = LAWS) -> lis
 
 def displacement_error(where: TestScene, chain: Chain) -> float:
     """The greatest error of s at the stations."""
-    return _at_stations(where, chain, "s")
+    return _at_stations("s", where, chain)
 
 
 def least_radius_error(where: TestScene, chain: Chain) -> float:
     """The error of the least prime radius."""
-    exact = where.least().prime_radius
-    return abs(float(chain["minimum_radius"].value("prime_radius")) / exact - 1)
+    return _off(chain["minimum_radius"].value("prime_radius"), where.least().prime_radius)
 
 
 def profile_error(where: TestScene, chain: Chain) -> float:
@@ -135,7 +137,15 @@ def as_complex(points: Floats) -> Complexes:
     return points[..., 0] + 1j * points[..., 1]
 
 
-def _at_stations(where: TestScene, chain: Chain, name: str) -> float:
+def _off(drawn: Any, exact: float) -> float:
+    return abs(float(drawn) / exact - 1)
+
+
+def _greatest(name: str, greatest: Callable[[Motion], float], where: TestScene, chain: Chain) -> float:
+    return _off(chain["integration"].value(name), greatest(where.board.motion))
+
+
+def _at_stations(name: str, where: TestScene, chain: Chain) -> float:
     stations = chain.board.stations
     exact = where.board.motion.at(stations.phase, stations.u)["sva".index(name)]
     return float(np.abs(chain["integration"].value(name) - exact).max() / np.abs(exact).max())
@@ -148,8 +158,7 @@ def _pressure_angle_error(where: TestScene, chain: Chain) -> float:
 
 
 def _greatest_angle_error(where: TestScene, chain: Chain) -> float:
-    exact = where.cam.extremes().pressure_angle_rise[0]
-    return abs(float(chain["angle_diagram"].value("max_rise")) / exact - 1)
+    return _off(chain["angle_diagram"].value("max_rise"), where.cam.extremes().pressure_angle_rise[0])
 
 
 def _pitch_error(where: TestScene, chain: Chain) -> float:
@@ -159,21 +168,16 @@ def _pitch_error(where: TestScene, chain: Chain) -> float:
 
 
 def _curvature_error(where: TestScene, chain: Chain) -> float:
-    extremes, readings = where.cam.extremes(), chain["curvature"].readings
-    name = "rho_candidates" if "rho_candidates" in readings else "rho"
-    drawn = float(np.atleast_1d(chain["curvature"].value(name))[0])
-    return abs(drawn / extremes.min_convex_radius_moving[0] - 1)
+    curvature = chain["curvature"]
+    name = "rho_candidates" if "rho_candidates" in curvature.readings else "rho"
+    return _off(np.atleast_1d(curvature.value(name))[0], where.cam.extremes().min_convex_radius_moving[0])
 
 
 MEASURES: Mapping[tuple[str, str], Measure] = {
     ("integration", "displacement"): displacement_error,
-    ("integration", "velocity"): lambda where, chain: _at_stations(where, chain, "v"),
-    ("integration", "greatest velocity"): lambda where, chain: abs(
-        float(chain["integration"].value("max_v")) / max_velocity(where.board.motion) - 1
-    ),
-    ("integration", "greatest acceleration"): lambda where, chain: abs(
-        float(chain["integration"].value("max_a")) / max_acceleration(where.board.motion) - 1
-    ),
+    ("integration", "velocity"): partial(_at_stations, "v"),
+    ("integration", "greatest velocity"): partial(_greatest, "max_v", max_velocity),
+    ("integration", "greatest acceleration"): partial(_greatest, "max_a", max_acceleration),
     ("minimum_radius", "least prime radius"): least_radius_error,
     ("pressure_angle", "pressure angle"): _pressure_angle_error,
     ("angle_diagram", "greatest angle, rise"): _greatest_angle_error,

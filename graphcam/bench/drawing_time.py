@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 from graphcam.bench.scenes import FOLLOWERS, scene
 from graphcam.bench.timing import Timer
@@ -31,6 +32,6 @@ def drawing_times(timer: Timer, pair: float) -> list[DrawingTime]:
             # The property's own function draws anew, from constructions that the chain keeps.
             draw = vars(Chain)[name].func
             construction = chain[name]
-            readings = timer.seconds(lambda draw=draw, chain=chain: draw(chain))
-            found.append(DrawingTime(follower, name, readings / pair, timer.seconds(construction.steps) / pair))
+            readings, steps = timer.seconds(partial(draw, chain)), timer.seconds(construction.steps)
+            found.append(DrawingTime(follower, name, readings / pair, steps / pair))
     return found

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -40,8 +40,8 @@ class ExactRow:
     """One figure of the exact side.
 
     ratio : in ``unit``, or how many times faster;  goal : what the ratio should keep to
-    error_eps : the rounding, None where it was not held against
-    more digits;  seconds : on this machine, for the terminal alone
+    error_eps : the rounding, None where it was not held against more digits
+    seconds : on this machine, for the terminal alone
     """
 
     name: str
@@ -67,12 +67,11 @@ class Unit:
 
 def exact_rows(stations: int, points: int, timer: Timer) -> list[ExactRow]:
     """Laws at ``stations``, cam points at ``points`` stations, extremes, and least radii beside their rivals."""
-    few, scenes = Unit(RIVAL_STATIONS, timer.pairs(RIVAL_STATIONS)), [scene(name, "3-4-5") for name in FOLLOWERS]
-    extremes, what = {where.follower: where.cam.extremes for where in scenes}, "pressure angles and least convex radius"
+    few = Unit(RIVAL_STATIONS, timer.pairs(RIVAL_STATIONS))
     return [
         *_laws(Unit(stations, timer.pairs(stations)), timer),
         *_cam_points(Unit(points, timer.pairs(points)), few, timer),
-        *(few.row(f"extremes, {name}", what, timer.seconds(work)) for name, work in extremes.items()),
+        *_extremes(few, timer),
         *_sweeps(timer),
         *_least_radii(few, timer),
         *_sums(timer),
@@ -98,22 +97,27 @@ def _law_error(name: str) -> float | None:
 
 def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[ExactRow]:
     where, phi = scene("translating", "3-4-5"), turn(unit.n)
-    motion, cam, error, at = where.board.motion, where.cam, exact_profile_error(where), f"at {unit.n} stations"
+    motion, cam, at = where.board.motion, where.cam, f"at {unit.n} stations"
     yield unit.row("motion", f"s, v, a, j {at}", timer.seconds(partial(motion, phi)))
     # As many as of one drawing: the overhead of a call counts.
     yield few.row("motion", f"s, v, a, j at {few.n} stations", timer.seconds(partial(motion, turn(few.n))), "<= 100 µs")
-    error_eps = None if error is None else error / reference.EPS
+    error_eps = exact_profile_error(where) / reference.EPS if reference.available() else None
     yield unit.row("profile", f"working profile {at}", timer.seconds(partial(cam.profile, phi)), "", error_eps)
     what = f"pitch curve, profile and curvature {at}"
     yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 2.5")
 
 
+def _extremes(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
+    for follower in FOLLOWERS:
+        seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
+        yield unit.row(f"extremes, {follower}", "pressure angles and least convex radius", seconds)
+
+
 def _sweeps(timer: Timer) -> Iterator[ExactRow]:
     for t in sweep_times(timer):
-        name, faster = f"sweep, {t.name}", t.looped / t.seconds
-        row = Unit(STATIONS, t.pairs).row(name, "all quantities of a design", t.seconds, "<= 1.6")
-        yield replace(row, error_eps=t.error / reference.EPS)
-        what = "beside a loop over the extremes of one cam"
+        name, unit, eps = f"sweep, {t.name}", Unit(STATIONS, t.pairs), t.error / reference.EPS
+        yield unit.row(name, "all quantities of a design", t.seconds, "<= 1.6", eps)
+        what, faster = "beside a loop over the extremes of one cam", t.looped / t.seconds
         yield ExactRow(name, what, faster, "times faster", ">= 8", None, t.looped)
 
 

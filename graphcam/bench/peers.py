@@ -48,33 +48,33 @@ class Peer:
 def peer_cam() -> Cam:
     """The cam that the packages are asked for.
 
-    >>> [round(math.degrees(value[0]), 3) for value in (peer_cam().extremes().pressure_angle_rise,)]
-    [14.264]
+    >>> round(math.degrees(peer_cam().extremes().pressure_angle_rise[0]), 3)
+    14.264
     """
-    rise, dwell, back, rest = ANGLES
-    motion = Motion([Rise(LIFT, rise, "cycloidal"), Dwell(dwell), Return(LIFT, back, "cosine"), Dwell(rest)])
-    return Cam(motion, Translating(OFFSET, ROLLER), BASE + ROLLER)
+    return Cam(_motion("cosine"), Translating(OFFSET, ROLLER), BASE + ROLLER)
+
+
+def _motion(back: str) -> Motion:
+    rise, dwell, fall, rest = ANGLES
+    return Motion([Rise(LIFT, rise, "cycloidal"), Dwell(dwell), Return(LIFT, fall, back), Dwell(rest)])
 
 
 def peers(timer: Timer) -> list[Peer]:
     """Each package where it can be imported, else the reason why not."""
-    found: list[Peer] = []
-    asked: list[tuple[str, str, Callable[[Any, Timer], list[Peer]]]] = [
-        ("mechanism", "mechanism", _mechanism), ("pylinkage", "pylinkage.cam", _pylinkage),
-    ]  # fmt: skip
-    for name, imported, ask in asked:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # theirs, not ours
-            module = optional(imported)
-            if module is None or _named(name) == name:
-                reason = "not installed; it comes with the extra peers"
-                found.append(Peer(name, "everything", None, "", None, reason))
-                continue
-            try:
-                found += ask(module, timer)
-            except Exception as error:  # noqa: BLE001  whatever another package does, the report goes on
-                found.append(Peer(_named(name), "everything", None, "", None, f"it fails: {error}"))
-    return found
+    found = _asked("mechanism", "mechanism", _mechanism, timer)
+    return [*found, *_asked("pylinkage", "pylinkage.cam", _pylinkage, timer)]
+
+
+def _asked(name: str, imported: str, ask: Callable[[Any, Timer], list[Peer]], timer: Timer) -> list[Peer]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # theirs, not ours
+        module = optional(imported)
+        if module is None or _named(name) == name:
+            return [Peer(name, "everything", None, "", None, "not installed; it comes with the extra peers")]
+        try:
+            return ask(module, timer)
+        except Exception as error:  # noqa: BLE001  whatever another package does, the report goes on
+            return [Peer(_named(name), "everything", None, "", None, f"it fails: {error}")]
 
 
 def _mechanism(module: Any, timer: Timer) -> list[Peer]:
@@ -92,32 +92,28 @@ def _mechanism(module: Any, timer: Timer) -> list[Peer]:
     # It takes one law for all phases, so rise and return come from two cams.
     rising = phi < ANGLES[0] + ANGLES[1] / 2
     s = np.where(rising, theirs.cycloidal.S, theirs.harmonic.S)
-    radius = BASE + s
-    drawn = radius * np.exp(1j * (math.pi / 2 - phi))
-    distance = distance_from_profile(cam, drawn, nearest_angles(cam, drawn), REACH)
-    exact = cam.motion(phi)[0]
+    drawn = (BASE + s) * np.exp(1j * (math.pi / 2 - phi))
+    profile = float(distance_from_profile(cam, drawn, nearest_angles(cam, drawn), REACH).max())
+    lift = float(np.abs(s - cam.motion(phi)[0]).max())
     slower = timer.seconds(make) / timer.seconds(lambda: cam.profile(phi))
     sized = theirs.get_base_circle(
         kind="cycloidal", follower="roller", roller_radius=ROLLER, eccentricity=OFFSET, max_pressure_angle=30
     )
-    symmetric = Motion([Rise(LIFT, ANGLES[0], "cycloidal"), Dwell(ANGLES[1]), Return(LIFT, ANGLES[2], "cycloidal"),
-                        Dwell(ANGLES[3])])  # fmt: skip
-    least = minimum_radius(symmetric, Translating(), return_=math.radians(30), offset=OFFSET, rest=False).prime_radius
+    limit = math.radians(30)
+    least = minimum_radius(_motion("cycloidal"), Translating(), return_=limit, offset=OFFSET, rest=False).prime_radius
+    radius, joined = float(sized["Rb"]) + ROLLER - least, "its two laws joined: it takes one law for all phases"
     return [
-        Peer(name, "displacement", float(np.abs(s - exact).max()), "mm", slower,
-             "its two laws joined: it takes one law for all phases"),
-        Peer(name, "working profile", float(distance.max()), "mm", slower, "no offset and no roller envelope"),
-        Peer(name, "least prime radius", float(sized["Rb"]) + ROLLER - least, "mm", None,
-             "30 degrees on both sides; its s0 is sqrt(r0^2 + e^2)"),
-    ]  # fmt: skip
+        Peer(name, "displacement", lift, "mm", slower, joined),
+        Peer(name, "working profile", profile, "mm", slower, "no offset and no roller envelope"),
+        Peer(name, "least prime radius", radius, "mm", None, "30 degrees on both sides; its s0 is sqrt(r0^2 + e^2)"),
+    ]
 
 
 def _pylinkage(module: Any, timer: Timer) -> list[Peer]:
     name = _named("pylinkage")
-    profile = module.FunctionProfile(
-        motion_law=module.CycloidalMotionLaw(), base_radius=BASE, total_lift=LIFT, rise_start=0.0, rise_end=ANGLES[0],
-        dwell_high_end=sum(ANGLES[:2]), fall_end=sum(ANGLES[:3]),
-    )  # fmt: skip
+    ends = {"rise_end": ANGLES[0], "dwell_high_end": sum(ANGLES[:2]), "fall_end": sum(ANGLES[:3])}
+    cycloidal = module.CycloidalMotionLaw()
+    profile = module.FunctionProfile(motion_law=cycloidal, base_radius=BASE, total_lift=LIFT, rise_start=0.0, **ends)
     cam = peer_cam()
     phi = np.linspace(0, ANGLES[0], STATIONS)
 

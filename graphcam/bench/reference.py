@@ -17,16 +17,16 @@ from graphcam.given.laws import Floats
 
 EPS = float(np.finfo(float).eps)
 DIGITS = 50
+mp: Any = optional("mpmath")
 
 
 def available() -> bool:
     """Whether there is mpmath."""
-    return optional("mpmath") is not None
+    return mp is not None
 
 
 def _lift(law: str, u: Any) -> Any:
     """f(u) of a law."""
-    mp: Any = optional("mpmath")
     if law == "rectangular":
         return 2 * u**2 if 2 * u < 1 else 1 - 2 * (1 - u) ** 2
     if law == "cosine":
@@ -43,7 +43,6 @@ REFERENCED = ("rectangular", "cosine", "cycloidal", "3-4-5", "4-5-6-7")
 
 def law_values(law: str, u: Floats) -> Floats:
     """(4, n) f, f', f'', f''' rounded from 50 digits, by differences at a higher precision."""
-    mp: Any = optional("mpmath")
     with mp.workdps(DIGITS):
         rows = [[float(mp.diff(partial(_lift, law), mp.mpf(x), k)) for x in u.tolist()] for k in range(4)]
     return np.array(rows)
@@ -51,7 +50,6 @@ def law_values(law: str, u: Floats) -> Floats:
 
 def profile_points(where: TestScene, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
-    mp: Any = optional("mpmath")
     motion, sizes = where.board.motion, where.sizes
     angle, sigma = motion.phases[0].angle, where.cam.sigma
     points: list[tuple[float, float]] = []
@@ -71,7 +69,6 @@ def profile_points(where: TestScene, u: Floats) -> Floats:
 
 def least_radius(where: TestScene) -> float:
     """The least radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
-    mp: Any = optional("mpmath")
     with mp.workdps(DIGITS):
         slope = mp.tan(mp.mpf(LIMIT))
         heights: list[Any] = []

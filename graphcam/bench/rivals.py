@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from numpy.linalg import norm
 from scipy.integrate import cumulative_simpson, cumulative_trapezoid
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize
@@ -135,7 +136,6 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float,
     """
     u = np.linspace(0, 1, n)
     s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
-
     size = math.hypot(*start)
 
     def room(x: Floats) -> Floats:
@@ -143,13 +143,10 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float,
         alpha = np.arctan2(v - size * x[1], size * x[0] + s)
         return np.concatenate([limit - alpha, limit + alpha])
 
-    def radius(x: Floats) -> float:
-        """The prime radius, in units of the start's."""
-        return float(np.hypot(x[0], x[1]))
-
     kept = {"type": "ineq", "fun": room}
-    found = minimize(radius, np.array(start) / size, method="SLSQP", constraints=[kept], options=SLSQP)
-    return size * radius(found.x)
+    # The prime radius, in units of the start's.
+    found = minimize(norm, np.array(start) / size, method="SLSQP", constraints=[kept], options=SLSQP)
+    return size * float(norm(found.x))
 
 
 def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:

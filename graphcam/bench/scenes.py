@@ -52,23 +52,15 @@ class TestScene:
         """The exact least prime radius."""
         board, limits = self.board, self.board.limits
         follower = board.follower.built(board.follower.place, 0.0)
-        return minimum_radius(
-            board.motion, follower, board.rotation, rise=limits.rise, return_=limits.return_, rest=limits.rest,
-            **board.follower.conditions,
-        )  # fmt: skip
+        allowed = board.follower.conditions | {"rise": limits.rise, "return_": limits.return_}
+        return minimum_radius(board.motion, follower, board.rotation, rest=limits.rest, **allowed)
 
 
 def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> Motion:
     """Rise, dwell, return, and a dwell for the rest of the turn; the angles in degrees."""
-    angles = radians(rise), radians(dwell), radians(back)
-    return Motion(
-        [
-            Rise(lift, angles[0], law),
-            Dwell(angles[1]),
-            Return(lift, angles[2], law),
-            Dwell(FULL_TURN - sum(angles)),
-        ]
-    )
+    up, top, down = radians(rise), radians(dwell), radians(back)
+    bottom = FULL_TURN - sum((up, top, down))
+    return Motion([Rise(lift, up, law), Dwell(top), Return(lift, down, law), Dwell(bottom)])
 
 
 def scene(follower: str, law: str) -> TestScene:
@@ -77,15 +69,16 @@ def scene(follower: str, law: str) -> TestScene:
     >>> scene("arm", "3-4-5").cam.follower
     Oscillating(arm=100.0, distance=120.0, roller_radius=10.0)
     """
+    limits = Limits(LIMIT, None, True)
     if follower == "translating":
         motion, sizes = motion_of(law, LIFT, 80, 45, 60), AdoptedSizes(46.0, -10.0, 12.0)
-        return TestScene(follower, law, _board(motion, DrawnTranslating(-10.0), Limits(LIMIT, None, True), "cw"), sizes)
+        return TestScene(follower, law, _board(motion, DrawnTranslating(-10.0), limits, "cw"), sizes)
     if follower == "arm":
         motion, sizes = motion_of(law, radians(20), 90, 40, 80), AdoptedSizes(50.0, 120.0, 10.0)
         limits = Limits(radians(45), None, True)
         return TestScene(follower, law, _board(motion, DrawnOscillating(ARM, None), limits, "ccw"), sizes)
     motion, sizes = motion_of(law, LIFT, 120, 30, 100), AdoptedSizes(60.0, 0.0, 0.0)
-    return TestScene(follower, law, _board(motion, DrawnFlatFaced(8.0), Limits(LIMIT, None, True), "ccw"), sizes)
+    return TestScene(follower, law, _board(motion, DrawnFlatFaced(8.0), limits, "ccw"), sizes)
 
 
 def free_scene(law: str) -> TestScene:
@@ -96,8 +89,7 @@ def free_scene(law: str) -> TestScene:
 
 
 def _board(motion: Motion, follower: DrawnFollower, limits: Limits, rotation: Rotation) -> Board:
-    return Board(
-        motion=motion, follower=follower, rotation=rotation, limits=limits, prime_radius=None, roller_radius=None,
-        roller_rule=roller_rule(DEFAULT_RULE), divisions=12, ordinate=50.0, poles=(40.0, 40.0),
-        mu_phi=Scale(radians(1), "rad"), rounding=None, profile_room=(330.0, 330.0),
-    )  # fmt: skip
+    rule, mu_phi = roller_rule(DEFAULT_RULE), Scale(radians(1), "rad")
+    # Prime radius and roller radius are left open, and so is what they are rounded to.
+    drawing = 12, 50.0, (40.0, 40.0), mu_phi, None, (330.0, 330.0)
+    return Board(motion, follower, rotation, limits, None, None, rule, *drawing)

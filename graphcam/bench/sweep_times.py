@@ -20,8 +20,9 @@ LOOPED = 8
 RUNS = 12
 """Of a sweep, the best of which counts: beside other work most of them lose the cache."""
 SWEEPS = (
-    ("translating", "3-4-5"), ("translating", "cycloidal"), ("translating", "modified-trapezoidal"), ("arm", "3-4-5"),
-)  # fmt: skip
+    *(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")),
+    ("arm", "3-4-5"),
+)
 """Followers and laws."""
 
 
@@ -47,11 +48,9 @@ def designs(follower: str, law: str, n: int) -> Designs:
     own: dict[str, Any] = {"lift": lift, "offset": place}
     if follower == "arm":
         own = {"follower": "oscillating", "lift": lift / ARM, "arm": ARM, "distance": 1.2 * ARM + place / 2}
-    return Designs(
-        rise_angle=random.uniform(1, 2.5, n), return_angle=random.uniform(1, 2, n),
-        dwell_angle=random.uniform(0, 1.2, n), prime_radius=random.uniform(40, 80, n),
-        rise_law=law, return_law=law, **own,
-    )  # fmt: skip
+    up, down, dwell = (random.uniform(*limits, n) for limits in ((1, 2.5), (1, 2), (0, 1.2)))
+    angles, radius = {"rise_angle": up, "return_angle": down, "dwell_angle": dwell}, random.uniform(40, 80, n)
+    return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
 
 
 def sweep_times(timer: Timer) -> list[SweepTime]:

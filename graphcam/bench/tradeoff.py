@@ -137,14 +137,14 @@ def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Way]:
 
 def _exact(fixed: TestScene, free: TestScene) -> Iterator[Way]:
     motion, cam = fixed.board.motion, fixed.cam
-    exact: list[tuple[str, Callable[[int], object], float | None]] = [
-        ("displacement", lambda n: motion(turn(n)), exact_displacement_error(fixed)),
-        ("least radius", lambda _: free.least(), exact_least_radius_error(free)),
-        ("profile", lambda n: cam.profile(turn(n)), exact_profile_error(fixed)),
+    exact: list[tuple[str, Callable[[int], object], Callable[[], float]]] = [
+        ("displacement", lambda n: motion(turn(n)), partial(exact_displacement_error, fixed)),
+        ("least radius", lambda _: free.least(), partial(exact_least_radius_error, free)),
+        ("profile", lambda n: cam.profile(turn(n)), partial(exact_profile_error, fixed)),
     ]
     for question, work, error in exact:
         # Without a reference of more digits the exact side's own rounding cannot be seen: one eps stands for it.
-        shown = reference.EPS if error is None else error
+        shown = error() if reference.available() else reference.EPS
         yield Way(question, "exact", "exact", (STATIONS,), work, lambda _, shown=shown: shown)
 
 
@@ -153,23 +153,19 @@ def turn(n: int) -> Floats:
     return np.linspace(0, FULL_TURN, n, endpoint=False)
 
 
-def exact_displacement_error(where: TestScene) -> float | None:
-    """The greatest error of the exact s on the rise, relative to the lift; None without mpmath."""
-    if not reference.available():
-        return None
+def exact_displacement_error(where: TestScene) -> float:
+    """The greatest error of the exact s on the rise, relative to the lift; needs mpmath."""
     u = inner_places()
     return float(np.abs(where.board.motion.at(0, u)[0] / LIFT - reference.law_values(where.law, u)[0]).max())
 
 
-def exact_least_radius_error(where: TestScene) -> float | None:
-    """The relative error of the exact least radius; None without mpmath."""
-    return abs(where.least().prime_radius / reference.least_radius(where) - 1) if reference.available() else None
+def exact_least_radius_error(where: TestScene) -> float:
+    """The relative error of the exact least radius; needs mpmath."""
+    return abs(where.least().prime_radius / reference.least_radius(where) - 1)
 
 
-def exact_profile_error(where: TestScene) -> float | None:
-    """The greatest error of an exact coordinate on the rise, relative to the prime radius; None without mpmath."""
-    if not reference.available():
-        return None
+def exact_profile_error(where: TestScene) -> float:
+    """The greatest error of an exact coordinate on the rise, relative to the prime radius; needs mpmath."""
     u = inner_places()
     exact = where.cam.profile(where.board.motion.angle_at(0, u))
     return float(np.abs(exact - reference.profile_points(where, u)).max()) / where.sizes.prime_radius

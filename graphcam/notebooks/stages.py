@@ -17,7 +17,7 @@ from graphcam.notebooks.picture import Picture
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.lettered import lettered, shading_parted
+from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.model import Entity, Group, Page
 from graphcam.sheets.panels import Panel
 from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress

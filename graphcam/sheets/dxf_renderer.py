@@ -19,7 +19,7 @@ from ezdxf import options, units
 from ezdxf.enums import TextEntityAlignment
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES

@@ -46,13 +46,10 @@ class Format:
     orientation: str = "landscape"
 
     def __post_init__(self) -> None:
-        if self.name not in SIZES:
-            raise DesignError("format", self.name, f"one of {', '.join(SIZES)}", nearest(self.name, SIZES))
-        if self.frame not in MARGINS:
-            raise DesignError("frame", self.frame, f"one of {', '.join(MARGINS)}", nearest(self.frame, MARGINS))
-        if self.orientation not in ORIENTATIONS:
-            known = f"one of {', '.join(ORIENTATIONS)}"
-            raise DesignError("orientation", self.orientation, known, nearest(self.orientation, ORIENTATIONS))
+        known = {"format": SIZES, "frame": MARGINS, "orientation": ORIENTATIONS}
+        for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
+            if given not in names:
+                raise DesignError(quantity, given, f"one of {', '.join(names)}", nearest(given, names))
 
     @property
     def size(self) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.gauge import gauge, gauge_box

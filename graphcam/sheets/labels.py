@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
+from graphcam.sheets.expand import Drawn
+from graphcam.sheets.hatching import interrupted
 from graphcam.sheets.model import Entity, Strokes, Text
 from graphcam.sheets.sampling import corners, pieces, sampled
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES
@@ -139,3 +141,20 @@ def _set(writing: Writing, k: int) -> list[Entity]:
         end = _leader_end(writing, writing.centres[k : k + 1], writing.anchors[k : k + 1])
         drawn.append(Strokes(writing.anchors[k : k + 1], end, Role.DIMENSION))
     return drawn
+
+
+def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[list[Entity]]:
+    """The entities of every step with its texts, which keep off all steps and what else stands ``beside`` them.
+
+    steps : from :func:`graphcam.sheets.expand.expand`, in the order in which they are drawn
+    inside : the box that no text leaves
+    """
+    lines = [*beside, *(entity for entities, _ in steps for entity in entities)]
+    placed = iter(place([writing for _, writings in steps for writing in writings], lines, inside))
+    return [[*entities, *(e for _ in writings for e in next(placed))] for entities, writings in steps]
+
+
+def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]]:
+    """The same steps, their shading interrupted where a text of any of them stands."""
+    texts = [e for entities in steps for e in entities if isinstance(e, Text)]
+    return [tuple(interrupted(e, texts) if e.role == Role.HATCH else e for e in entities) for entities in steps]

@@ -21,7 +21,7 @@ from graphcam.sheets.filling import BORDER, ONE_PAGE, Leaf, fill
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import frame as empty_sheet
 from graphcam.sheets.frame import title_box
-from graphcam.sheets.lettered import lettered, shading_parted
+from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
 from graphcam.sheets.panels import panels

@@ -26,7 +26,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import FAMILY, points_size, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier

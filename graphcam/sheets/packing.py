@@ -9,7 +9,7 @@ from copy import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
 
 Grid = NDArray[np.float64]

@@ -71,15 +71,10 @@ class Panel:
         notes = [] if behind else wrap(note, small, room)
         texts: list[Text] = []
         base = LEADING * (small * len(notes) + large * len(lines)) + 0.2 * large
-        for line in lines:
-            base -= LEADING * large
-            texts.append(Text(complex(AIR, base), line, large))
-        if behind:
-            texts.append(Text(complex(AIR + end, base), note, small))
-        for line in notes:
-            base -= LEADING * small
-            texts.append(Text(complex(AIR, base), line, small))
-        return texts
+        for line, height in [*((line, large) for line in lines), *((line, small) for line in notes)]:
+            base -= LEADING * height
+            texts.append(Text(complex(AIR, base), line, height))
+        return [*texts, Text(complex(AIR + end, base), note, small)] if behind else texts
 
     @cached_property
     def title_box(self) -> Box:

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import points_size
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier

@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-from graphcam.sheets.packing import Grid
+from graphcam.sheets.packing import Grid, Preference
 
 
-def top_left(x: Grid, y: Grid) -> Grid:
-    """At the left, then high."""
-    return 10 * x - y
+def least(across: float, up: float) -> Preference:
+    """Where a weighted sum of x and y is least.
+
+    >>> import numpy as np
+    >>> least(10, -1)(np.array([2.0]), np.array([5.0])).tolist()
+    [15.0]
+    """
+
+    def cost(x: Grid, y: Grid) -> Grid:
+        return across * x + up * y
+
+    return cost
 
 
-def top_right(x: Grid, y: Grid) -> Grid:
-    """High, then at the right."""
-    return -x - 10 * y
-
-
-def bottom_left(x: Grid, y: Grid) -> Grid:
-    """Low, then at the left."""
-    return x + 10 * y
-
-
-def bottom_right(x: Grid, y: Grid) -> Grid:
-    """At the right, then low."""
-    return y - 3 * x
-
-
-def high(x: Grid, y: Grid) -> Grid:
-    """High, then at the left."""
-    return x - 10 * y
+top_left, top_right = least(10, -1), least(-1, -10)
+"""At the left, then high; high, then at the right."""
+bottom_left, bottom_right = least(1, 10), least(-3, 1)
+"""Low, then at the left; at the right, then low."""
+high = least(1, -10)
+"""High, then at the left."""
 
 
 def left(x: Grid, y: Grid) -> Grid:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Heads, Stroke, Strokes, Text

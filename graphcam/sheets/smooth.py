@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 
 CORNER = np.radians(20.0)
 """Where the polygon of dense points turns by more, the curve has a corner."""

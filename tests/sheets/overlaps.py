@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
 from graphcam.sheets.model import Drawing, Group, Page, Text
 from graphcam.sheets.sampling import around, corners, pieces, within

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.words import Words
 
 Given = float | Points

@@ -6,7 +6,7 @@ import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.drawn_answers import ask
 from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.key.expectation import Floats

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 
 Floats = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.answers import Given
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.curve_distance import distance_from_drawn, distance_to_curve

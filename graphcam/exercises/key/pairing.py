@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 
 
 def paired(given: Points, wanted: Points) -> Points:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.drafting.ink import Points
+from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.key.pairing import paired
