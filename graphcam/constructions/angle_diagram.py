@@ -64,7 +64,7 @@ def _draw(plotted: Construction) -> list[Step]:
         *axes,
         Dots(curve, Role.CONSTRUCTION),
         *(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces),
-        *(Line(ends + UP * level, Role.RESULT) for ends, level in held),
+        *(Line(between + UP * level, Role.RESULT) for between, level in held),
     )
     said = say(
         "The angles are plotted at {scale:.4g}° a millimetre and the curve is faired between the jumps of the "

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, perpendicular_bisector, turned, unit
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
+from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
@@ -50,10 +50,10 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> C
     c1 = d - unit(d) * (rho1 + _dividers(hand)) if given.C1 is None else plotted(given.C1)
     if given.A is not None:
         points["given_A"] = plotted(given.A)
-    if given.C2 is not None:
-        c2 = plotted(given.C2)
-    else:
+    if given.C2 is None:
         c2 = meet(*perpendicular_bisector(points["given_A"], g), CENTRE, points["given_A"])
+    else:
+        c2 = plotted(given.C2)
     rho2 = np.abs(c2 - g)
     points |= {"C1": c1, "C2": c2}
     for name, side in (("", 1), ("other_", -1)):
@@ -63,12 +63,11 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> C
     # The dwells' circles touch the arcs on the lines through the centres.
     points["A"] = along_to_circle(CENTRE, -c2, c2, rho2)
     points["D"] = along_to_circle(CENTRE, c1, c1, rho1)
-    lengths = {
-        "rho2": rho2, "rho3": np.abs(points["C3"] - g), "base": np.abs(points["A"]), "outer": np.abs(points["D"]),
-    }  # fmt: skip
-    readings = {name: reading(hand.read(length), mu_l.per_mm, "mm") for name, length in lengths.items()}
+    lengths = {"rho2": rho2, "rho3": np.abs(points["C3"] - g)}
+    lengths |= {"base": np.abs(points["A"]), "outer": np.abs(points["D"])}
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
-        readings |= _coordinates(name, points[name], mu_l, hand)
+        lengths |= {f"{name}_x": points[name].real, f"{name}_y": points[name].imag}
+    readings = hand.readings(mu_l.per_mm, "mm", **lengths)
     givens = {"given": given, "dwell": dwell, "mu_l": mu_l, "pencil": pencil}
     return Construction("three_arcs", givens, readings, points, _draw)
 
@@ -76,13 +75,6 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> C
 def _dividers(hand: Hand) -> Floats:
     """The error of one setting of the dividers, ([samples])."""
     return hand.dividers(1)[..., 0]
-
-
-def _coordinates(name: str, point: Points, mu_l: Scale, hand: Hand) -> dict[str, Reading]:
-    return {
-        f"{name}_{axis}": reading(hand.read(length), mu_l.per_mm, "mm")
-        for axis, length in (("x", point.real), ("y", point.imag))
-    }
 
 
 def _touching(c1: Points, rho1: float, c3: Points, g: Points) -> Points:
@@ -135,8 +127,7 @@ def _arc(centre: complex, start: complex, end: complex, grown: float, role: Role
 
 
 def _draw(arcs: Construction) -> list[Step]:
-    given, mu_l = arcs.givens["given"], arcs.givens["mu_l"]
-    rho1, drawn = given.rho1 / mu_l.per_mm, {name: complex(arcs.first(name)) for name in arcs.points}
+    drawn = {name: complex(arcs.first(name)) for name in arcs.points}
     steps = [_data(arcs, drawn), _first_centre(arcs, drawn), _second_centre(arcs, drawn)]
     if np.isnan(drawn["C2"]):
         return steps
@@ -144,31 +135,28 @@ def _draw(arcs: Construction) -> list[Step]:
         steps += _third_arc(arcs, drawn, name)
     if np.isnan(drawn["C3"]):
         return steps
-    names = {"ρ₁": drawn["C1"], "ρ₂": drawn["C2"], "ρ₃": drawn["C3"]}
-    ends = {"ρ₁": drawn["D"], "ρ₂": drawn["G"], "ρ₃": drawn["F"]}
-    radii = {"ρ₁": rho1, "ρ₂": float(arcs.first("rho2")), "ρ₃": float(arcs.first("rho3"))}
-    steps.append(
-        Step(
-            say("The profile"),
-            say(
-                "The arcs AG about C2, GF about C3 and FD about C1 are drawn, with the radii ρ₂ = {rho2:.3f} mm, "
-                "ρ₃ = {rho3:.3f} mm and ρ₁ = {rho1:g} mm; they touch the circles of {base:.3f} mm and {outer:.3f} mm "
-                "about O. The return is the mirror image; the outer circle holds the follower up over {dwell:.6g}°.",
-                rho1=given.rho1, dwell=np.degrees(arcs.givens["dwell"]),
-                **{name: float(arcs.value(name)) for name in ("rho2", "rho3", "base", "outer")},
-            ),
-            ARCS,
-            (
-                *outline(arcs, 0.0, Role.RESULT),
-                *(
-                    Dimension(names[key], ends[key], say("{name} = {rho:.2f}", name=key, rho=radius * mu_l.per_mm))
-                    for key, radius in radii.items()
-                ),
-            ),
-            reads=("base", "outer"),
-        )
-    )  # fmt: skip
-    return steps
+    return [*steps, _profile(arcs, drawn)]
+
+
+def _profile(arcs: Construction, drawn: dict[str, complex]) -> Step:
+    rho1, mu_l = arcs.givens["given"].rho1, arcs.givens["mu_l"].per_mm
+    radii = {name: float(arcs.value(name)) for name in ("rho2", "rho3", "base", "outer")}
+    said = say(
+        "The arcs AG about C2, GF about C3 and FD about C1 are drawn, with the radii ρ₂ = {rho2:.3f} mm, ρ₃ = "
+        "{rho3:.3f} mm and ρ₁ = {rho1:g} mm; they touch the circles of {base:.3f} mm and {outer:.3f} mm about O. The "
+        "return is the mirror image; the outer circle holds the follower up over {dwell:.6g}°."
+    ).where(rho1=rho1, dwell=np.degrees(arcs.givens["dwell"]), **radii)
+    arms = (
+        ("C1", "D", "ρ₁", rho1),
+        ("C2", "G", "ρ₂", float(arcs.first("rho2")) * mu_l),
+        ("C3", "F", "ρ₃", float(arcs.first("rho3")) * mu_l),
+    )
+    dimensions = [
+        Dimension(drawn[centre], drawn[end], say("{name} = {rho:.2f}", name=name, rho=rho))
+        for centre, end, name, rho in arms
+    ]
+    marks = (*outline(arcs, 0.0, Role.RESULT), *dimensions)
+    return Step(say("The profile"), said, ARCS, marks, reads=("base", "outer"))
 
 
 def _named(name: str, at: complex, away: complex = 0j) -> Label:
@@ -193,36 +181,31 @@ def _told(point: Point) -> Caption:
 def _data(arcs: Construction, drawn: dict[str, complex]) -> Step:
     given, mu_l = arcs.givens["given"], arcs.givens["mu_l"]
     names = [name for name in ("A", "D", "G") if getattr(given, name) is not None]
-    outer = abs(drawn["D"])
-    reach = np.array([-1, 1]) * (outer + OVERHANG)
+    outer = Circle(0j, abs(drawn["D"]), Role.CONSTRUCTION)
+    reach = np.array([-1, 1]) * (outer.radius + OVERHANG)
     plotted = (
-        Line(reach + 0j, Role.AXIS),
-        Line(UP * reach, Role.AXIS),
-        Dots(np.array([0j, *(drawn[name] for name in names)])),
-        Label(0j, "O", towards=-1 - 1j),
+        *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS)),
+        *(Dots(np.array([0j, *(drawn[name] for name in names)])), Label(0j, "O", towards=-1 - 1j)),
         *(_named(name, drawn[name]) for name in names),
     )
-    return Step(
-        say("The data"),
-        say(
-            "About the cam centre O the given points {points} are plotted at {ratio}, and the circle through D.",
-            points=sequence([say("{name} = {at}", name=name, at=_told(getattr(given, name))) for name in names]),
-            ratio=ratio_text(mu_l.per_mm),
-        ),
-        ARCS,
-        (Circle(0j, outer, Role.CONSTRUCTION), *plotted),
-        given=plotted,
-    )
+    points = sequence([say("{name} = {at}", name=name, at=_told(getattr(given, name))) for name in names])
+    said = say("About the cam centre O the given points {points} are plotted at {ratio}, and the circle through D.")
+    said = said.where(points=points, ratio=ratio_text(mu_l.per_mm))
+    return Step(say("The data"), said, ARCS, (outer, *plotted), given=plotted)
 
 
 def _first_centre(arcs: Construction, drawn: dict[str, complex]) -> Step:
     given, c1, d = arcs.givens["given"], drawn["C1"], drawn["D"]
     if given.C1 is None:
-        said = say("On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the "
-                   "first arc, which touches the outer circle in D.", rho1=given.rho1, at=_at(arcs, "C1"))  # fmt: skip
+        said = say(
+            "On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the first "
+            "arc, which touches the outer circle in D."
+        ).where(rho1=given.rho1, at=_at(arcs, "C1"))
     else:
-        said = say("The centre C1 = {at} of the first arc is plotted. Its circle, ρ₁ = {rho1:g} mm, touches one about "
-                   "O in D, on the line O C1.", rho1=given.rho1, at=_told(given.C1))  # fmt: skip
+        said = say(
+            "The centre C1 = {at} of the first arc is plotted. Its circle, ρ₁ = {rho1:g} mm, touches one about O in D, "
+            "on the line O C1."
+        ).where(rho1=given.rho1, at=_told(given.C1))
     marks = (
         Line(np.array([0j, d * (1 + OVERHANG / abs(d))]), Role.CONSTRUCTION),
         Circle(c1, given.rho1 / arcs.givens["mu_l"].per_mm, Role.CONSTRUCTION),
@@ -238,14 +221,18 @@ def _second_centre(arcs: Construction, drawn: dict[str, complex]) -> Step:
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
         return Step(say("The second centre"), said, ARCS, ())
     rho2 = float(arcs.value("rho2"))
-    if given.C2 is not None:
-        said = say("The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches "
-                   "a circle about O in A, on the line C2 O.", at=_told(given.C2), rho2=rho2)  # fmt: skip
-        bisector = ()
-    else:
-        said = say("The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the "
-                   "second arc: ρ₂ = C2 G = {rho2:.3f} mm.", at=_at(arcs, "C2"), rho2=rho2)  # fmt: skip
+    if given.C2 is None:
+        said = say(
+            "The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the second arc: "
+            "ρ₂ = C2 G = {rho2:.3f} mm."
+        ).where(at=_at(arcs, "C2"), rho2=rho2)
         bisector = _bisector(a, g, c2)
+    else:
+        said = say(
+            "The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches a "
+            "circle about O in A, on the line C2 O."
+        ).where(at=_told(given.C2), rho2=rho2)
+        bisector = ()
     marks = (
         Line(np.array([a * (1 + OVERHANG / abs(a)), c2]), Role.CONSTRUCTION),
         Line(np.array([g, c2]), Role.CONSTRUCTION),
@@ -271,31 +258,27 @@ def _third_arc(arcs: Construction, drawn: dict[str, complex], name: str) -> list
     other = bool(name)
     p, c3, f, g, c1, c2 = (drawn[key] for key in (f"{name}P", f"{name}C3", f"{name}F", "G", "C1", "C2"))
     role, prime = (Role.HIDDEN, "′") if other else (Role.CONSTRUCTION, "")
-    title = say("The other root") if other else say("The third centre")
-    laid_off = (
-        say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
-        if other
-        else say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
-    )
+    title = say("The third centre")
+    laid_off = say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
+    if other:
+        title = say("The other root")
+        laid_off = say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
     if np.isnan(c3):
-        parallel = say(
-            "The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.", prime=prime
-        )
-        return [Step(title, sequence([laid_off, parallel], " "), ARCS, ())]
+        parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
+        return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
+    rho3 = abs(c3 - g) * arcs.givens["mu_l"].per_mm
     found_centre = say(
         "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
-        "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm.",
-        prime=prime, c3=_at(arcs, f"{name}C3"), rho3=abs(c3 - g) * arcs.givens["mu_l"].per_mm,
-    )  # fmt: skip
+        "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."
+    ).where(prime=prime, c3=_at(arcs, f"{name}C3"), rho3=rho3)
     centre = sequence([laid_off, found_centre], " ")
-    touching = say(
-        "The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}",
-        prime=prime, f=_at(arcs, f"{name}F"), orders=_orders(f, c1, c3, g, c2, prime),
-    )  # fmt: skip
+    touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
+        prime=prime, f=_at(arcs, f"{name}F"), orders=_orders(f, c1, c3, g, c2, prime)
+    )
     found = (
-        *_bisector(c1, p, c3, role), Line(_whole(g, p, c3), role), Dots(np.array([p, c3])), _named(f"P{prime}", p),
-        _named(f"C3{prime}", c3),
-    )  # fmt: skip
+        *(*_bisector(c1, p, c3, role), Line(_whole(g, p, c3), role), Dots(np.array([p, c3]))),
+        *(_named(f"P{prime}", p), _named(f"C3{prime}", c3)),
+    )
     line = (Line(_whole(c3, c1, f), role), Dots(np.array([f])), _named(f"F{prime}", f))
     if other:
         reads = (*_xy("other_C3"), *_xy("other_F"))
@@ -316,13 +299,11 @@ def _orders(f: complex, c1: complex, c3: complex, g: complex, c2: complex, prime
     """What is read off the two lines of centres."""
     first = _order({f"F{prime}": f, "C1": c1, f"C3{prime}": c3})
     second = _order({"G": g, f"C3{prime}": c3, "C2": c2})
-    sound = first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"] and not prime
-    return say(
-        "On the lines lie {first} and {second}, in these orders: {verdict}.",
-        first=sequence(first), second=sequence(second),
-        verdict=say("the arcs touch from inside, and the cam can be built") if sound
-        else say("such a cam cannot be built"),
-    )  # fmt: skip
+    verdict = say("such a cam cannot be built")
+    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"] and not prime:
+        verdict = say("the arcs touch from inside, and the cam can be built")
+    said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
+    return said.where(first=sequence(first), second=sequence(second), verdict=verdict)
 
 
 def _order(points: dict[str, complex]) -> list[str]:

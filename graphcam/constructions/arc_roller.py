@@ -29,6 +29,11 @@ PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan"
 CENTRE = np.zeros((), dtype=complex)
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
+JOINTS = (
+    *(("a_A", 0, 0), ("a_G_before", 0, -1), ("a_G_after", 1, 0)),
+    *(("a_F_before", 1, -1), ("a_F_after", 2, 0), ("a_D", 2, -1)),
+)
+"""The accelerations at the ends of the arcs: their names, which arc, and its first or its last station."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,24 +102,20 @@ def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, 
     v = dot(k, -1j * sigma * ray) + hand.dividers(count)
     a = -dot(m, ray) + hand.dividers(count)
     alpha = sigma * np.angle(rod * np.conj(ray)) + hand.protractor(count)
-    joints = {"a_A": (0, 0), "a_G_before": (0, -1), "a_G_after": (1, 0), "a_F_before": (1, -1), "a_F_after": (2, 0),
-              "a_D": (2, -1)}  # fmt: skip
-    of_arc = [hand.read(a[..., span]) for span in stations.spans]
+    prime_radius = np.abs(trace[..., 0])
+    radii = {"prime_radius": prime_radius, "roller_radius": np.abs(trace - touch)[..., 3]}
+    radii["rho"] = np.minimum(np.abs(trace[..., 3] - c[..., -1]), prime_radius)
     readings = {
-        "s": reading(hand.read(s), mu_l, "mm"),
-        "v": reading(hand.read(v), mu_l, "mm/rad"),
-        "a": reading(hand.read(a), mu_l, "mm/rad²"),
+        **hand.readings(mu_l, "mm", s=s),
+        **hand.readings(mu_l, "mm/rad", v=v),
+        **hand.readings(mu_l, "mm/rad²", a=a),
         "alpha": reading(alpha, 1.0, "rad"),
         "phi": reading(phi, 1.0, "rad"),
-        "x": reading(hand.read(b.real), mu_l, "mm"),
-        "y": reading(hand.read(b.imag), mu_l, "mm"),
+        **hand.readings(mu_l, "mm", x=b.real, y=b.imag),
         "edges": reading(edges, 1.0, "rad"),
-        "lift": reading(hand.read(s[..., -1]), mu_l, "mm"),
-        "prime_radius": reading(hand.read(np.abs(trace[..., 0])), mu_l, "mm"),
-        "roller_radius": reading(hand.read(np.abs(trace - touch)[..., 3]), mu_l, "mm"),
-        "rho": reading(hand.read(np.minimum(np.abs(trace[..., 3] - c[..., -1]), np.abs(trace[..., 0]))), mu_l, "mm"),
+        **hand.readings(mu_l, "mm", lift=s[..., -1], **radii),
         **{name: reading(edges[..., k], 1.0, "rad") for k, name in enumerate(("phi_G", "phi_F", "rise"), 1)},
-        **{name: reading(of_arc[arc][..., end], mu_l, "mm/rad²") for name, (arc, end) in joints.items()},
+        **hand.readings(mu_l, "mm/rad²", **{name: a[..., stations.spans[of]][..., end] for name, of, end in JOINTS}),
     }
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace, "ray": ray}
     givens = {"arcs": arcs, "roller_radius": roller_radius, "stations": stations, "pencil": pencil}
@@ -139,8 +140,7 @@ BEYOND = 7.0
 def _draw(rolled: Construction) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
         said = say(
-            "Without a readable centre of every arc, {missing}, the roller has no path.",
-            missing=_missing(rolled),
+            "Without a readable centre of every arc, {missing}, the roller has no path.", missing=_missing(rolled)
         )
         return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
     arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
@@ -149,42 +149,31 @@ def _draw(rolled: Construction) -> list[Step]:
     edges = np.degrees(rolled.first("edges"))
     reach = float(np.abs(trace[-1])) + BEYOND
     follows = say("The roller's centre") if roller else say("The knife edge")
+    kept = say(
+        "{follows} keeps to arcs about the same centres, with radii greater by r = {roller:g} mm; they meet on the "
+        "lines of centres. The cam angles, measured at O from OA, are {g:.3f}° at G, {f:.3f}° at F and {d:.3f}° at D, "
+        "where the rise ends."
+    ).where(follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3])
+    outlines = _outlines(arcs, trace, roller / mu_l.per_mm)
+    divided = say(
+        "The angle of each arc is divided into {parts} equal parts, and a ray is drawn from O for each; it meets the "
+        "arc in the roller's centre B. What B is farther from O than at A is the displacement, {lift:.2f} mm of paper "
+        "at the end; the return is the mirror image."
+    ).where(parts=len(stations.u) // 3 - 1, lift=float(rolled.first("lift")))
+    # Where two arcs meet, both have a station of one name.
+    named = dict(zip(stations.names, ray.tolist(), strict=True)).items()
+    places = (
+        Segments(0 * ray, reach * ray, Role.CONSTRUCTION),
+        *(Dots(centres, Role.CONSTRUCTION) for centres in (b, mirrored(arcs, b))),
+        *_rollers(rolled),
+        *(Label(at * reach, name, towards=at, small=True) for name, at in named),
+    )
+    reads = ("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho")
     return [
-        Step(
-            say("The arcs of the roller's centre"),
-            say(
-                "{follows} keeps to arcs about the same centres, with radii greater by r = {roller:g} mm; they meet on "
-                "the lines of centres. The cam angles, measured at O from OA, are {g:.3f}° at G, {f:.3f}° at F and "
-                "{d:.3f}° at D, where the rise ends.",
-                follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3],
-            ),
-            ROLLER,
-            _outlines(arcs, trace, roller / mu_l.per_mm),
-            reads=("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho"),
-        ),
-        Step(
-            say("Stations"),
-            say(
-                "The angle of each arc is divided into {parts} equal parts, and a ray is drawn from O for each; it "
-                "meets the arc in the roller's centre B. What B is farther from O than at A is the displacement, "
-                "{lift:.2f} mm of paper at the end; the return is the mirror image.",
-                parts=len(stations.u) // 3 - 1, lift=float(rolled.first("lift")),
-            ),
-            ROLLER,
-            (
-                Segments(0 * ray, reach * ray, Role.CONSTRUCTION),
-                Dots(b, Role.CONSTRUCTION),
-                Dots(mirrored(arcs, b), Role.CONSTRUCTION),
-                *_rollers(rolled),
-                *(
-                    Label(complex(at) * reach, name, towards=complex(at), small=True)
-                    for name, at in dict(zip(stations.names, ray, strict=True)).items()
-                ),
-            ),
-            reads=("lift", "s", "alpha", "x", "y"),
-        ),
+        Step(say("The arcs of the roller's centre"), kept, ROLLER, outlines, reads),
+        Step(say("Stations"), divided, ROLLER, places, reads=("lift", "s", "alpha", "x", "y")),
         *_plan(rolled),
-    ]  # fmt: skip
+    ]
 
 
 def _outlines(arcs: Construction, trace: Points, roller: float) -> tuple[Mark, ...]:
@@ -219,52 +208,39 @@ def _plan(rolled: Construction) -> list[Step]:
     arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
     on, share = SHOWN
     at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
+    station = stations.names[at]
     mu_l, sigma = arcs.givens["mu_l"], run(arcs)
     upright = UP / rolled.first("ray")[at]
     names = ("B", "C", "K", "right", "beyond", "N", "M")
     points = {name: complex(rolled.first(name)[at] * upright) * mu_l.per_mm for name in names}
     if np.isnan(list(points.values())).any():
-        said = say(
-            "At station {name} a line cannot be read: it crosses another at less than a degree.",
-            name=stations.names[at],
-        )
+        said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, ())]
-    everything = [0j, *points.values()]
-    size = max(max(side) - min(side) for side in ([z.real for z in everything], [z.imag for z in everything]))
+    everything: Points = np.array([0j, *points.values()])
+    size = float(max(np.ptp(everything.real), np.ptp(everything.imag)))
     scale = standard_scale(size, PLAN_SIZE)
     p = {name: point / scale.per_mm for name, point in points.items()}
     v, a = (float(rolled.value(name)[at]) for name in "va")
     centre = ("C2", "C3", "C1")[on]
     side = -sigma * 1.0
+    velocity = say(
+        "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets the "
+        "perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, v = {v:.3f} "
+        "mm/rad."
+    ).where(name=station, arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm), paper=abs(p["K"]), v=v)
+    directed = say("it is directed towards the cam centre: M lies on the side of B.")
+    if a > 0:
+        directed = say("it is directed away from the cam centre: M lies beyond O.")
+    acceleration = say(
+        "{centre}K is erected on the rod in {centre}, and at its end a right angle to B: it cuts off {centre}N′ = "
+        "{centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular to the rod in N meets "
+        "the follower's line in M, and OM = {paper:.2f} mm is the acceleration, a = {a:.3f} mm/rad²; {sense}"
+    ).where(centre=centre, paper=abs(p["M"]), a=a, sense=directed)
+    reads = ("v", "a", *(name for name, *_ in JOINTS))
     return [
-        Step(
-            say("Velocity at station {name}", name=stations.names[at]),
-            say(
-                "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets "
-                "the perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, "
-                "v = {v:.3f} mm/rad.",
-                name=stations.names[at], arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm),
-                paper=abs(p["K"]), v=v,
-            ),
-            PLAN,
-            _velocity(p, centre, side),
-        ),
-        Step(
-            say("Acceleration at station {name}", name=stations.names[at]),
-            say(
-                "{centre}K is erected on the rod in {centre}, and at its end a right angle to B: it cuts off "
-                "{centre}N′ = {centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular "
-                "to the rod in N meets the follower's line in M, and OM = {paper:.2f} mm is the acceleration, "
-                "a = {a:.3f} mm/rad²; {sense}",
-                name=stations.names[at], centre=centre, paper=abs(p["M"]), a=a,
-                sense=say("it is directed away from the cam centre: M lies beyond O.") if a > 0
-                else say("it is directed towards the cam centre: M lies on the side of B."),
-            ),
-            PLAN,
-            _acceleration(p, side),
-            reads=("v", "a", "a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D"),
-        ),
-    ]  # fmt: skip
+        Step(say("Velocity at station {name}", name=station), velocity, PLAN, _velocity(p, centre, side)),
+        Step(say("Acceleration at station {name}", name=station), acceleration, PLAN, _acceleration(p, side), reads),
+    ]
 
 
 def _velocity(p: Mapping[str, complex], centre: str, side: float) -> tuple[Mark, ...]:

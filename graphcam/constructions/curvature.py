@@ -7,6 +7,7 @@ dwell the pitch curve is an arc about the cam centre; its ends and its middle ar
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,20 +45,15 @@ def curvature(inverted: Construction, pencil: Pencil) -> Construction:
     rho = np.where(corner, np.nan, np.fmin(*candidates))
     rho = np.where(np.isfinite(rho), rho, np.nan)
     everywhere = np.concatenate(radii, axis=-1)
-    best = np.argmin(np.where(np.isnan(everywhere), np.inf, everywhere), axis=-1)[..., None]
-    points, phi = np.concatenate([moving[0], resting[0]], axis=-2), np.concatenate([moving[1], resting[1]], axis=-2)
-    triple = np.take_along_axis(points, best[..., None], -2)[..., 0, :]
-    turns = np.take_along_axis(phi, best[..., None], -2)[..., 0, :]
+    best = np.argmin(np.where(np.isnan(everywhere), np.inf, everywhere), axis=-1)[..., None, None]
+    triple = np.take_along_axis(np.concatenate([moving[0], resting[0]], axis=-2), best, -2)[..., 0, :]
+    turns = np.take_along_axis(np.concatenate([moving[1], resting[1]], axis=-2), best, -2)[..., 0, :]
     unread = np.isnan(rho)
-    mu_l = inverted.givens["mu_l"].per_mm
+    lengths = hand.readings(inverted.givens["mu_l"].per_mm, "mm", rho=rho, rho_candidates=np.stack(candidates, axis=-1))
     return Construction(
         "curvature",
         {"inverted": inverted, "corner": corner, "pencil": pencil},
-        {
-            "rho": reading(hand.read(rho), mu_l, "mm"),
-            "rho_candidates": reading(hand.read(np.stack(candidates, axis=-1)), mu_l, "mm"),
-            "phi": reading(np.where(unread[..., None], np.nan, turns), 1.0, "rad"),
-        },
+        {**lengths, "phi": reading(np.where(unread[..., None], np.nan, turns), 1.0, "rad")},
         {
             "triple": np.where(unread[..., None], np.nan, triple),
             "centre": np.where(unread, np.nan, _centres(inverted, triple)),
@@ -68,6 +64,12 @@ def curvature(inverted: Construction, pencil: Pencil) -> Construction:
 
 Triples = tuple[Points, Floats]
 """(..., k, 3) three points each, and their cam angles [rad]."""
+
+
+def _none(pitch: Points) -> Triples:
+    """A triple that cannot be read, where there is none."""
+    unread = np.full((*pitch.shape[:-1], 1, 3), np.nan)
+    return unread + 0j, unread
 
 
 def _moving(inverted: Construction) -> Triples:
@@ -83,7 +85,7 @@ def _moving(inverted: Construction) -> Triples:
         for k in range(piece.start + 1, piece.stop - 1)
     ]
     if not places:
-        return np.full((*pitch.shape[:-1], 1, 3), np.nan + 0j), np.full((*pitch.shape[:-1], 1, 3), np.nan)
+        return _none(pitch)
     middle, reach = np.transpose(places)
     step = np.ones((*pitch.shape[:-1], middle.size), dtype=np.intp)
     while True:
@@ -107,11 +109,8 @@ def _resting(inverted: Construction) -> Triples:
     Where two moving phases meet and the acceleration of either vanishes, it rests for an instant on such an arc.
     """
     integrated, pitch = inverted.givens["integrated"], inverted.points["pitch"]
-    motion, stations, sigma = (
-        integrated.givens["motion"],
-        integrated.givens["stations"],
-        sense(inverted.givens["rotation"]),
-    )
+    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    sigma = sense(inverted.givens["rotation"])
     arcs: list[Points] = []
     phi: list[Floats] = []
     for k, last in zip(stations.phase[stations.last], stations.last, strict=True):
@@ -126,7 +125,7 @@ def _resting(inverted: Construction) -> Triples:
         arcs.append(stepped_off(pitch[..., last, None], 0j, -sigma * turns))
         phi.append(stations.phi[last] + turns)
     if not arcs:
-        return np.full((*pitch.shape[:-1], 1, 3), np.nan + 0j), np.full((*pitch.shape[:-1], 1, 3), np.nan)
+        return _none(pitch)
     points = np.stack(arcs, axis=-2)
     return points, np.broadcast_to(np.stack(phi), points.shape)
 
@@ -204,57 +203,36 @@ def _draw(curved: Construction) -> list[Step]:
         return [Step(say("Curvature at the sharpest place"), _unreadable(curved), PROFILE, ())]
     phi = curved.first("phi")
     place, names = _named(inverted.givens["integrated"].givens["motion"], stations, phi)
-    scale = standard_scale(float(curved.value("rho")), DETAIL)
+    rho = float(curved.value("rho"))
+    scale = standard_scale(rho, DETAIL)
     curvature = at_scale(CURVATURE, scale)
     enlarged = (triple - triple[1]) * mu_l.per_mm / scale.per_mm
     hub = complex(centre - triple[1]) * mu_l.per_mm / scale.per_mm
-    chords = np.abs(np.diff(enlarged))
+    first, second = np.abs(np.diff(enlarged))
+    sharpest = say(
+        "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn enlarged, at "
+        "{ratio}: {first:.2f} mm and {second:.2f} mm. {spread}"
+    )
+    sharpest = sharpest.where(place=place, phi=np.degrees(phi[1] % FULL_TURN), ratio=ratio_text(scale.per_mm))
+    named = zip(enlarged.tolist(), (names[0], "B", names[1]), strict=True)
+    chords = (Line(enlarged, Role.CURVE), Dots(enlarged), *(Label(at, name, towards=-hub) for at, name in named))
+    bisected = say("The chords are bisected; the perpendiculars meet in O, the centre of curvature.")
+    bisectors = tuple(mark for a, b in pairwise(enlarged) for mark in _bisector(a, b, hub))
+    measured = say(
+        "OB measures {paper:.2f} mm, so the least radius of curvature of the pitch curve is ρ = {rho:.3f} mm."
+    ).where(paper=abs(hub), rho=rho)
+    marked = say("On the profile the centre of curvature of the sharpest place is marked.")
+    on_profile = (
+        *(Line(np.array([centre, triple[1]]), Role.LIMIT), Dots(np.array([centre]), Role.LIMIT)),
+        Label(centre, "O", towards=centre - triple[1]),
+    )
+    enlarging = sharpest.where(first=first, second=second, spread=_spread(curved))
     return [
-        Step(
-            say("Chords at the sharpest place"),
-            say(
-                "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn "
-                "enlarged, at {ratio}: {first:.2f} mm and {second:.2f} mm. {spread}",
-                place=place, phi=np.degrees(phi[1] % FULL_TURN), ratio=ratio_text(scale.per_mm), first=chords[0],
-                second=chords[1], spread=_spread(curved),
-            ),
-            curvature,
-            (
-                Line(enlarged, Role.CURVE),
-                Dots(enlarged),
-                Label(complex(enlarged[0]), names[0], towards=-hub),
-                Label(complex(enlarged[1]), "B", towards=-hub),
-                Label(complex(enlarged[2]), names[1], towards=-hub),
-            ),
-            reads=("phi",),
-        ),
-        Step(
-            say("Perpendicular bisectors"),
-            say("The chords are bisected; the perpendiculars meet in O, the centre of curvature."),
-            curvature,
-            tuple(mark for a, b in ((0, 1), (1, 2)) for mark in _bisector(enlarged[a], enlarged[b], hub)),
-        ),
-        Step(
-            say("Radius of curvature"),
-            say(
-                "OB measures {paper:.2f} mm, so the least radius of curvature of the pitch curve is ρ = {rho:.3f} mm.",
-                paper=abs(hub), rho=float(curved.value("rho")),
-            ),
-            curvature,
-            _radius(enlarged, hub, float(curved.value("rho"))),
-        ),
-        Step(
-            say("Centre of curvature on the profile"),
-            say("On the profile the centre of curvature of the sharpest place is marked."),
-            PROFILE,
-            (
-                Line(np.array([centre, triple[1]]), Role.LIMIT),
-                Dots(np.array([centre]), Role.LIMIT),
-                Label(centre, "O", towards=centre - triple[1]),
-            ),
-            reads=("rho",),
-        ),
-    ]  # fmt: skip
+        Step(say("Chords at the sharpest place"), enlarging, curvature, chords, reads=("phi",)),
+        Step(say("Perpendicular bisectors"), bisected, curvature, bisectors),
+        Step(say("Radius of curvature"), measured, curvature, _radius(enlarged, hub, rho)),
+        Step(say("Centre of curvature on the profile"), marked, PROFILE, on_profile, reads=("rho",)),
+    ]
 
 
 def _spread(curved: Construction) -> Caption:
@@ -287,10 +265,8 @@ def _named(motion: Motion, stations: Stations, phi: Floats) -> tuple[Caption, tu
     names, k = station_names(stations), int(here[0])
     around = [np.flatnonzero(np.abs(stations.phi - phi[side]) < SAME_ANGLE) for side in (0, 2)]
     if not all(found.size for found in around):  # three points of the arc of an instant
-        resting = say(
-            "station {name}, where the follower rests for an instant on an arc about the cam centre", name=names[k]
-        )
-        return resting, ("", "")
+        resting = say("station {name}, where the follower rests for an instant on an arc about the cam centre")
+        return resting.where(name=names[k]), ("", "")
     return say("station {name}", name=names[k]), (names[int(around[0][-1])], names[int(around[1][0])])
 
 
@@ -299,14 +275,9 @@ def _bisector(a: complex, b: complex, hub: complex) -> tuple[Mark, ...]:
     middle, direction = (complex(x) for x in perpendicular_bisector(np.asarray(a), np.asarray(b)))
     reach = abs(b - a) * 0.8
     out = direction / abs(direction) * math.sqrt(reach**2 - abs(b - a) ** 2 / 4)
-    marks: list[Mark] = [
-        Line(np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06]), Role.CONSTRUCTION)
-    ]
-    for meeting in (middle + out, middle - out):
-        for end in (a, b):
-            towards = float(np.angle(meeting - end))
-            marks.append(Arc(end, reach, towards - 0.12, towards + 0.12, Role.CONSTRUCTION))
-    return tuple(marks)
+    line = Line(np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06]), Role.CONSTRUCTION)
+    settings = [(end, float(np.angle(meeting - end))) for meeting in (middle + out, middle - out) for end in (a, b)]
+    return (line, *(Arc(end, reach, to - 0.12, to + 0.12, Role.CONSTRUCTION) for end, to in settings))
 
 
 def _radius(triple: Points, hub: complex, rho: float) -> tuple[Mark, ...]:

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import OVERHANG, station_names
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.curve import faired, farthest
+from graphcam.drafting.curve import at_greatest, faired, farthest
 from graphcam.drafting.euclid import RIGHT, UP, dot, meet
-from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Dwell
@@ -47,18 +47,14 @@ def flat_least_radius(integrated: Construction, least_curvature: float, pencil: 
     # Where the follower rests there is no acceleration: a point of the axis of s.
     rests = UP * height[..., _rests(integrated)]
     tops = np.concatenate([np.stack([farthest(piece, DOWN_LEFT) for piece in pieces], axis=-1), rests], axis=-1)
-    lowest = np.argmax(dot(DOWN_LEFT, tops), axis=-1)[..., None]
-    touch = np.take_along_axis(tops, lowest, -1)[..., 0]
+    touch = at_greatest(tops, dot(DOWN_LEFT, tops))
     zero = meet(touch, np.asarray(RIGHT - UP), np.asarray(0j), np.asarray(UP))
     # Where s + a is never negative any radius will do that the permitted curvature itself needs.
     prime_radius = np.maximum(least_curvature / mu - zero.imag, 0.0)
     return Construction(
         "minimum_radius",
         {"integrated": integrated, "least_curvature": least_curvature, "pencil": pencil},
-        {
-            "prime_radius": reading(hand.read(prime_radius), mu, "mm"),
-            "need": reading(hand.read(0.0 - zero.imag), mu, "mm"),
-        },
+        hand.readings(mu, "mm", prime_radius=prime_radius, need=0.0 - zero.imag),
         {"curve": np.concatenate(pieces, axis=-1), "rests": rests, "touch": touch, "zero": zero},
         _draw,
     )
@@ -84,86 +80,57 @@ def flat_curvature(region: Construction, prime_radius: float, pencil: Pencil) ->
     return Construction(
         "curvature",
         {"region": region, "prime_radius": prime_radius, "pencil": pencil},
-        {
-            "rho": reading(hand.read(rho), need.scale, "mm"),
-            "rho_candidates": reading(hand.read(rho)[..., None], need.scale, "mm"),
-        },
+        hand.readings(need.scale, "mm", rho=rho, rho_candidates=rho[..., None]),
         {"zero": region.points["zero"]},
         _draw_curvature,
     )
 
 
 def _draw_curvature(curved: Construction) -> list[Step]:
-    zero, rho = complex(curved.first("zero")), float(curved.first("rho"))
-    return [
-        Step(
-            say("The least radius of curvature"),
-            say(
-                "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent "
-                "meets the axis is the least radius of curvature of the profile, {rho:.3f} mm.",
-                r0=curved.givens["prime_radius"], rho=float(curved.value("rho")),
-            ),
-            COMBINED,
-            (
-                Dots(np.array([zero - rho * UP]), Role.RESULT),
-                Dimension(zero - rho * UP, zero, say("ρ = {rho:.2f}", rho=float(curved.value("rho"))), aside=-14.0),
-            ),
-            reads=("rho",),
-        )
-    ]  # fmt: skip
+    zero, rho = complex(curved.first("zero")), float(curved.value("rho"))
+    centre = zero - float(curved.first("rho")) * UP
+    said = say(
+        "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent meets the "
+        "axis is the least radius of curvature of the profile, {rho:.3f} mm."
+    ).where(r0=curved.givens["prime_radius"], rho=rho)
+    radius = Dimension(centre, zero, say("ρ = {rho:.2f}", rho=rho), aside=-14.0)
+    marks = (Dots(np.array([centre]), Role.RESULT), radius)
+    return [Step(say("The least radius of curvature"), said, COMBINED, marks, reads=("rho",))]
 
 
 def _draw(region: Construction) -> list[Step]:
     curve = region.first("curve")
     touch, zero = complex(region.first("touch")), complex(region.first("zero"))
     r0, need = float(region.first("prime_radius")), float(region.first("need"))
-    mu = float(np.ravel(region.readings["need"].scale)[0])
+    mu, centre = region.readings["need"].per_mm, -r0 * UP
     axes = _axes(curve, min(-r0, zero.imag) - OVERHANG)
+    laid_off = say(
+        "At every displacement the acceleration is laid off in the scale of s, to the right where it is positive; the "
+        "longest measures {longest:.1f} mm. The ends are joined by smooth curves between jumps and corners of the "
+        "acceleration; a dwell is a point of the axis."
+    ).where(longest=float(np.abs(curve.real).max()))
+    touching = say(
+        "Where s + a is least the tangent at 45° touches the curve; it meets the axis of s at {meets:.2f} mm, so the "
+        "greatest of −(s + a) is {need:.3f} mm. With unequal scales it would have to lean by arctan(μₐ/μₛ)."
+    ).where(meets=zero.imag, need=need * mu)
+    tangent = (
+        Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT),
+        Dots(np.array([touch, zero]), Role.LIMIT),
+        AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°"),
+    )
+    found = say(
+        "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; it is laid "
+        "off below the start of the lift to the cam centre A."
+    ).where(least=region.givens["least_curvature"], need=need * mu, r0=r0 * mu)
+    radius = (
+        *(Dots(np.array([centre]), Role.RESULT), Label(centre, "A", towards=1 - 1j)),
+        Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=r0 * mu), aside=-10.0),
+    )
     return [
-        Step(
-            say("Displacement over acceleration"),
-            say(
-                "At every displacement the acceleration is laid off in the scale of s, to the right where it is "
-                "positive; the longest measures {longest:.1f} mm. The ends are joined by smooth curves between jumps "
-                "and corners of the acceleration; a dwell is a point of the axis.",
-                longest=float(np.abs(curve.real).max()),
-            ),
-            COMBINED,
-            (*axes, *_curve(region)),
-            given=axes,
-        ),
-        Step(
-            say("The tangent at 45 degrees"),
-            say(
-                "Where s + a is least the tangent at 45° touches the curve; it meets the axis of s at {meets:.2f} "
-                "mm, so the greatest of −(s + a) is {need:.3f} mm. With unequal scales it would have to lean by "
-                "arctan(μₐ/μₛ).",
-                meets=zero.imag, need=need * mu,
-            ),
-            COMBINED,
-            (
-                Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT),
-                Dots(np.array([touch, zero]), Role.LIMIT),
-                AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°"),
-            ),
-            reads=("need",),
-        ),
-        Step(
-            say("The least prime radius"),
-            say(
-                "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; "
-                "it is laid off below the start of the lift to the cam centre A.",
-                least=region.givens["least_curvature"], need=need * mu, r0=r0 * mu,
-            ),
-            COMBINED,
-            (
-                Dots(np.array([-r0 * UP]), Role.RESULT),
-                Label(-r0 * UP, "A", towards=1 - 1j),
-                Dimension(0j, -r0 * UP, say("r₀ = {r0:.2f}", r0=r0 * mu), aside=-10.0),
-            ),
-            reads=("prime_radius",),
-        ),
-    ]  # fmt: skip
+        Step(say("Displacement over acceleration"), laid_off, COMBINED, (*axes, *_curve(region)), given=axes),
+        Step(say("The tangent at 45 degrees"), touching, COMBINED, tangent, reads=("need",)),
+        Step(say("The least prime radius"), found, COMBINED, radius, reads=("prime_radius",)),
+    ]
 
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
@@ -182,13 +149,11 @@ def _curve(region: Construction) -> tuple[Mark, ...]:
     stations, curve = region.givens["integrated"].givens["stations"], region.first("curve")
     ends = np.cumsum([stretch.stop - stretch.start for stretch in stations.stretches])
     pieces = np.split(curve, ends[:-1])
-    names = station_names(stations)
+    names = [station_names(stations)[stretch.start] for stretch in stations.stretches]
+    begins = [complex(piece[0]) for piece in pieces]
     return (
         Segments(UP * curve.imag, curve, Role.CONSTRUCTION),
         *(Line(faired(piece), Role.RESULT) for piece in pieces),
         Dots(region.first("rests"), Role.RESULT),
-        *(
-            Label(complex(piece[0]), names[stretch.start], towards=complex(np.sign(piece[0].real)), small=True)
-            for piece, stretch in zip(pieces, stations.stretches, strict=True)
-        ),
+        *(Label(at, k, towards=np.sign(at.real) + 0j, small=True) for at, k in zip(begins, names, strict=True)),
     )

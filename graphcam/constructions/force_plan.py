@@ -19,7 +19,7 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import UP, dot, meet, turned
-from graphcam.drafting.ink import Caption, Construction, Step, reading, say
+from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -71,18 +71,16 @@ def force_plan(
     # Beyond the jamming angle the lines meet on the other side, where no force can push.
     pushes = (foot.imag < 0) & (dot(corner - foot, normal) > 0)
     corner = np.asarray(np.where(pushes, corner, np.nan), dtype=np.complex128)
-    lengths = {
-        "load": -foot.imag, "normal": np.abs(corner - foot), "along": (corner - foot).imag,
-        "side": np.abs(corner.real), "friction": np.abs(corner.imag), "reaction": np.abs(corner),
-    }  # fmt: skip
+    contact = {"normal": np.abs(corner - foot), "along": (corner - foot).imag, "side": np.abs(corner.real)}
+    bearing = {"friction": np.abs(corner.imag), "reaction": np.abs(corner)}
+    givens = {"measured": measured, "load": load, "guide": guide, "station": k, "mu_force": mu, "pencil": pencil}
     return Construction(
         "force_plan",
-        {"measured": measured, "load": load, "guide": guide, "station": k, "mu_force": mu, "pencil": pencil,
-         "direction": direction},
-        {name: reading(hand.read(length), mu.per_mm, "N") for name, length in lengths.items()},
+        givens | {"direction": direction},
+        hand.readings(mu.per_mm, "N", load=-foot.imag, **contact, **bearing),
         {"foot": foot, "corner": corner, "contact_normal": normal, "across": across},
         _draw,
-    )  # fmt: skip
+    )
 
 
 def plan_station(measured: Construction, load: SpringLoad) -> int:
@@ -122,38 +120,28 @@ BEYOND = 8.0
 
 
 def _draw(plan: Construction) -> list[Step]:
-    k, guide, mu = plan.givens["station"], plan.givens["guide"], plan.givens["mu_force"]
-    integrated = plan.givens["measured"].givens["integrated"]
-    name = station_names(integrated.givens["stations"])[k]
+    k, guide, mu = plan.givens["station"], plan.givens["guide"], plan.givens["mu_force"].per_mm
+    measured = plan.givens["measured"]
+    name = station_names(measured.givens["integrated"].givens["stations"])[k]
     foot, corner, normal, across = (complex(plan.first(key)) for key in ("foot", "corner", "contact_normal", "across"))
-    alpha = float(plan.givens["measured"].first("alpha")[k])
-    lengths = {key: float(plan.first(key)) for key in plan.readings}
+    alpha, length = float(measured.first("alpha")[k]), float(plan.first("normal"))
     forces = {key: float(plan.value(key)) for key in plan.readings}
-    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu.per_mm))
+    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu))
+    loaded = say(
+        "At station {name} inertia, spring and preload hold the follower down with Q = {load:.1f} N, found from the "
+        "drawn a and s. At μF = {mu:g} N/mm its arrow is {paper:.1f} mm long, against the motion."
+    ).where(name=name, load=forces["load"], mu=mu, paper=float(plan.first("load")))
+    load = (Arrow(0j, foot, Role.CURVE), Label(foot / 2, "Q", towards=-across.real), Dots(np.array([0j, foot])))
+    parallel = say(
+        "Through the head of Q the line of the contact force is drawn parallel to the contact normal, at the measured "
+        "pressure angle of {alpha:.2f}° with the motion."
+    ).where(alpha=math.degrees(alpha))
+    contact = _normal_line(foot, normal, length, alpha)
     steps = [
-        Step(
-            say("Force plan at station {name}: the load", name=name),
-            say(
-                "At station {name} inertia, spring and preload hold the follower down with Q = {load:.1f} N, found "
-                "from the drawn a and s. At μF = {mu:g} N/mm its arrow is {paper:.1f} mm long, against the motion.",
-                name=name, load=forces["load"], mu=mu.per_mm, paper=lengths["load"],
-            ),
-            view,
-            (Arrow(0j, foot, Role.CURVE), Label(foot / 2, "Q", towards=-across.real), Dots(np.array([0j, foot]))),
-            reads=("load",),
-        ),
-        Step(
-            say("The line of the contact force"),
-            say(
-                "Through the head of Q the line of the contact force is drawn parallel to the contact normal, at the "
-                "measured pressure angle of {alpha:.2f}° with the motion.",
-                alpha=math.degrees(alpha),
-            ),
-            view,
-            _normal_line(foot, normal, lengths["normal"], alpha),
-        ),
+        Step(say("Force plan at station {name}: the load", name=name), loaded, view, load, reads=("load",)),
+        Step(say("The line of the contact force"), parallel, view, contact),
         Step(say("The line of the guide's reaction"), _reaction_caption(guide), view, _reaction_line(across)),
-    ]  # fmt: skip
+    ]
     if math.isnan(corner.real):
         unreadable = say(
             "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
@@ -163,15 +151,11 @@ def _draw(plan: Construction) -> list[Step]:
     closing = say(
         "The lines meet in the third corner. The contact force is F = {f_mm:.1f} mm · {mu:g} = {f:.1f} N; along the "
         "motion it gives F cos α = {along:.1f} N, across it F sin α = {side:.1f} N, which the guide bears with the "
-        "friction of {friction:.1f} N.",
-        f_mm=lengths["normal"], mu=mu.per_mm, f=forces["normal"], along=forces["along"], side=forces["side"],
-        friction=forces["friction"],
-    )  # fmt: skip
+        "friction of {friction:.1f} N."
+    ).where(f_mm=length, mu=mu, f=forces["normal"], **forces)
     marks: tuple[Mark, ...] = (
-        Arrow(foot, corner, Role.RESULT),
-        Arrow(corner, 0j, Role.RESULT),
-        Line(np.array([corner, complex(0, corner.imag)]), Role.CONSTRUCTION),
-        Dots(np.array([corner])),
+        *(Arrow(foot, corner, Role.RESULT), Arrow(corner, 0j, Role.RESULT)),
+        *(Line(np.array([corner, complex(0, corner.imag)]), Role.CONSTRUCTION), Dots(np.array([corner]))),
         Label((foot + corner) / 2, "F", towards=across.real + 0j - 0.5j),
         Label(corner / 2, "R", towards=UP),
     )
@@ -196,9 +180,8 @@ def _reaction_caption(guide: Guide | None) -> Caption:
     return say(
         "The nearer bearing bears (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
         "it. With l laid off across the motion and μ(l + 2b) along it, μ = {mu:g}, l = {length:g} mm, the slope of "
-        "the reaction through the tail of Q is found.",
-        mu=guide.friction, length=guide.length,
-    )  # fmt: skip
+        "the reaction through the tail of Q is found."
+    ).where(mu=guide.friction, length=guide.length)
 
 
 def _reaction_line(across: complex) -> tuple[Mark, ...]:

@@ -62,10 +62,9 @@ def _draw(inverted: Construction) -> list[Step]:
         "greatest is {longest:.1f} mm. The ends are points of the pitch curve."
     ).where(longest=float(np.abs(pitch - starts).max()))
     lines = (Segments(feet, pitch, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    laid_off = Step(say("Displacements laid off"), ends, PROFILE, (), reads=profile_view.CURVE_READINGS)
     return [
         profile_view.prime_step(inverted, say("Prime circle and offset circle"), circles, start, circle, arrow),
         Step(say("Inverted positions of the follower's line"), tangents, PROFILE, lines),
-        *profile_view.pitch_steps(
-            inverted, Step(say("Displacements laid off"), ends, PROFILE, (), reads=profile_view.CURVE_READINGS)
-        ),
+        *profile_view.pitch_steps(inverted, laid_off),
     ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -103,12 +103,10 @@ class ReadingRow:
             return say("{value:.2f}°", value=value) if self.unit == "°" else say("{paper:.2f} mm", paper=paper)
         if self.unit == "°":
             return say("{paper:.2f} mm × {mu:.5g}°/mm = {value:.5g}°", paper=paper, mu=self.mu, value=value)
-        said = (
-            say("{paper:.2f} mm × {mu:.5g} ({unit})/mm = {value:.5g} {unit}")
-            if "/" in self.unit
-            else say("{paper:.2f} mm × {mu:.5g} {unit}/mm = {value:.5g} {unit}")
-        )
-        return replace(said, values={"paper": paper, "mu": self.mu, "value": value, "unit": unit(self.unit)})
+        said = say("{paper:.2f} mm × {mu:.5g} {unit}/mm = {value:.5g} {unit}")
+        if "/" in self.unit:
+            said = say("{paper:.2f} mm × {mu:.5g} ({unit})/mm = {value:.5g} {unit}")
+        return said.where(paper=paper, mu=self.mu, value=value, unit=unit(self.unit))
 
 
 def rows(construction: Construction, step: Step) -> list[ReadingRow]:
@@ -134,22 +132,14 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
     title = TITLES.get(f"{construction.name}.{name}") or TITLES[name]
     places = _places(construction, paper.size) if paper.ndim else ()
-    mu = float(np.ravel(reading.scale)[0])
+    mu = reading.per_mm
     if reading.unit == PAPER:
         return ReadingRow(name, title, paper, None, paper, "mm", places)
     if reading.unit == "rad":
-        # An angle that was measured as such has the scale 1 on every sheet.
-        measured = mu == 1
         degrees = np.degrees(paper * mu)
-        return ReadingRow(
-            name,
-            title,
-            degrees if measured else paper,
-            None if measured else float(np.degrees(mu)),
-            degrees,
-            "°",
-            places,
-        )
+        # An angle that was measured as such has the scale 1 on every sheet.
+        measured, scale = (degrees, None) if mu == 1 else (paper, float(np.degrees(mu)))
+        return ReadingRow(name, title, measured, scale, degrees, "°", places)
     return ReadingRow(name, title, paper, mu, paper * mu, reading.unit, places)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from graphcam.constructions.profile_view import closed_curve
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.ink import Construction, Step, reading, say
+from graphcam.drafting.ink import Caption, Construction, Step, reading, say
 from graphcam.drafting.marks import AngleMark, Circle, Dots, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import sense
@@ -114,20 +114,23 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 
 def _draw(rolled: Construction) -> list[Step]:
     rule, given, candidates = rolled.givens["rule"], rolled.givens["given"], rolled.value("candidates")
-    proposed = sequence([
-        say("{term} = {radius:.2f} mm", term=term.said, radius=radius) if np.isfinite(radius)
-        else say("{term}, which cannot be read", term=term.said)
-        for term, radius in zip(rule, candidates, strict=False)
-    ])  # fmt: skip
     taken = float(rolled.value("roller_radius"))
     if given is None:
-        caption = say("The rule proposes {proposed}; the smallest is taken, {taken:.2f} mm.", proposed=proposed,
-                      taken=taken)  # fmt: skip
+        terms = [_proposal(term, radius) for term, radius in zip(rule, candidates, strict=True)]
+        caption = say("The rule proposes {proposed}; the smallest is taken, {taken:.2f} mm.").where(
+            proposed=sequence(terms), taken=taken
+        )
         if rule and rule[0].source:
             caption = sequence([caption, say("It is a rule of {source}.", source=rule[0].source)], " ")
     else:
         caption = say("The task gives a roller of {taken:g} mm; the rule is not asked.", taken=taken)
     return [Step(say("Roller radius"), caption, PROFILE, (), reads=("candidates", "roller_radius"))]
+
+
+def _proposal(term: Candidate, radius: float) -> Caption:
+    if np.isfinite(radius):
+        return say("{term} = {radius:.2f} mm", term=term.said, radius=radius)
+    return say("{term}, which cannot be read", term=term.said)
 
 
 def _draw_profile(profile: Construction) -> list[Step]:
@@ -140,15 +143,12 @@ def _draw_profile(profile: Construction) -> list[Step]:
     if not roller:
         caption = say(
             "Without a roller the curve is the working profile itself; its radii run from {least:.2f} to "
-            "{greatest:.2f} mm.",
-            **radii,
-        )
+            "{greatest:.2f} mm."
+        ).where(**radii)
         return [Step(say("Working profile"), caption, PROFILE, (curve,), reads=("radius",))]
     envelope = say(
-        "The inner envelope of the circles is the working profile; its radii run from {least:.2f} to {greatest:.2f} "
-        "mm.",
-        **radii,
-    )
+        "The inner envelope of the circles is the working profile; its radii run from {least:.2f} to {greatest:.2f} mm."
+    ).where(**radii)
     undercut = say_many(
         "At {count} station the touch point lies inside another roller circle: the profile is undercut and cannot be "
         "cut so.",
@@ -156,36 +156,25 @@ def _draw_profile(profile: Construction) -> list[Step]:
         "cut so.",
         lost,
     )
+    drawn = say(
+        "From every point of the pitch curve the circle of the adopted roller is drawn, r = {roller:g} mm, "
+        "{paper:.1f} mm on paper."
+    ).where(roller=roller, paper=roller / mu_l.per_mm)
+    circles = tuple(Circle(complex(at), roller / mu_l.per_mm, Role.CONSTRUCTION) for at in pitch)
+    said, marks = envelope, (curve,)
+    if lost:
+        said, marks = sequence([envelope, undercut], " "), (curve, Dots(covered[~np.isnan(covered)], Role.LIMIT))
+    measured_anew = say(
+        "Where the profile was touched its normal runs through the roller's centre; its angle with the follower's line "
+        "is the pressure angle of that station, shown where it is greatest in each phase. It is measured anew on this "
+        "drawing, so it agrees with the diagram only as well as the touch points are found."
+    )
+    normals = tuple(mark for at in _steepest(profile) for mark in _normal(profile, at))
     return [
-        Step(
-            say("Roller circles"),
-            say(
-                "From every point of the pitch curve the circle of the adopted roller is drawn, r = {roller:g} mm, "
-                "{paper:.1f} mm on paper.",
-                roller=roller, paper=roller / mu_l.per_mm,
-            ),
-            PROFILE,
-            tuple(Circle(complex(at), roller / mu_l.per_mm, Role.CONSTRUCTION) for at in pitch),
-        ),
-        Step(
-            say("Working profile"),
-            sequence([envelope, undercut], " ") if lost else envelope,
-            PROFILE,
-            (curve, *((Dots(covered[~np.isnan(covered)], Role.LIMIT),) if lost else ())),
-            reads=("radius",),
-        ),
-        Step(
-            say("Pressure angles on the profile"),
-            say(
-                "Where the profile was touched its normal runs through the roller's centre; its angle with the "
-                "follower's line is the pressure angle of that station, shown where it is greatest in each phase. It "
-                "is measured anew on this drawing, so it agrees with the diagram only as well as the touch points are "
-                "found."
-            ),
-            PROFILE,
-            tuple(mark for at in _steepest(profile) for mark in _normal(profile, at)),
-        ),
-    ]  # fmt: skip
+        Step(say("Roller circles"), drawn, PROFILE, circles),
+        Step(say("Working profile"), said, PROFILE, marks, reads=("radius",)),
+        Step(say("Pressure angles on the profile"), measured_anew, PROFILE, normals),
+    ]
 
 
 def _angles(profile: Construction) -> Floats:
@@ -204,9 +193,8 @@ def _steepest(profile: Construction) -> list[int]:
 
 def _normal(profile: Construction, at: int) -> tuple[Mark, ...]:
     inverted, angle = profile.givens["inverted"], float(_angles(profile)[at])
-    pitch, line, touch = (
-        complex(p[at]) for p in (inverted.first("pitch"), inverted.first("motion"), profile.first("touch"))
-    )
+    places = (inverted.first("pitch"), inverted.first("motion"), profile.first("touch"))
+    pitch, line, touch = (complex(place[at]) for place in places)
     normal = (pitch - touch) / abs(pitch - touch)
     start, end = sorted((float(np.angle(line)), float(np.angle(line)) + angle))
     return (

@@ -44,11 +44,5 @@ def _draw(drawn: Construction) -> list[Step]:
         Label(radius * complex(-sigma, 1), "ω", towards=complex(-sigma)),
         Label(0j, "A", towards=1 - 1j),
     )
-    return [
-        Step(
-            say("Scheme of the mechanism"),
-            say("Cam, follower and frame at the start of the turn, at {ratio}.", ratio=ratio_text(scale.per_mm)),
-            scheme,
-            marks,
-        )
-    ]
+    said = say("Cam, follower and frame at the start of the turn, at {ratio}.", ratio=ratio_text(scale.per_mm))
+    return [Step(say("Scheme of the mechanism"), said, scheme, marks)]
