@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphcam.given.laws import Law
+from graphcam.given.motion_law import Law
 from graphcam.words import Caption, Words, say
 
 LAWS: Mapping[str, Caption] = {

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.laws import Floats, Law, Side, law
+from graphcam.given.laws import Floats, Side, law
+from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, chunks
 
 CLOSURE = 1e-9
@@ -93,8 +94,8 @@ class Moving:
 
     @property
     def normalised(self) -> Law:
-        """The phase's law on [0, 1]: the one of that name, or the given one, as of a measured motion."""
-        return self.law if isinstance(self.law, Law) else law(self.law, self.ratio)
+        """The phase's law on [0, 1]: the one of that name, or the given one."""
+        return law(self.law, self.ratio)
 
 
 @dataclass(frozen=True)
