@@ -139,7 +139,8 @@ class Law:
         """The inner places u where a derivative may jump, in order."""
         # Where a formula meets its own mirror image, only the acceleration can jump.
         met = zip(self.edges, pairwise(self.pieces), strict=True)
-        return tuple(u for u, (a, b) in met if a.formula is not b.formula or u in self.jumps)
+        mirrors = [u for u, (a, b) in met if a.formula is b.formula and a.length != b.length]
+        return tuple(u for u in self.edges if u not in mirrors or u in self.jumps)
 
     @cached_property
     def jumps(self) -> tuple[float, ...]:
@@ -167,7 +168,8 @@ class Law:
         formulas, edges = [piece.formula for piece in self.pieces], tuple(1 - u for u in reversed(self.edges))
         if (formulas[::-1], edges, self.middle) == (formulas, self.edges, 0.5):
             return self
-        return Law(self.name, formulas[::-1], edges, 1 - self.middle, 1 / self.ratio, self.peaks, self.tangents[::-1])
+        ahead, back = self.tangents
+        return Law(self.name, formulas[::-1], edges, 1 - self.middle, 1 / self.ratio, self.peaks, (back, ahead))
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
@@ -242,7 +244,9 @@ class Law:
             if abs(peak - (found := self._greatest(order))) > CLOSE * found:
                 raise self._wrong(f"given {name}", peak, f"{found:.10g}")
         for tangent, lift, at_end in zip(self.tangents, (inside[0], 1 - inside[0]), (False, True), strict=True):
-            for k in (0.05, 0.5, 5.0) if tangent else ():
+            if tangent is None:
+                continue
+            for k in (0.05, 0.5, 5.0):
                 u, height = tangent(k)
                 f, f1 = self(1 - u if at_end else u, 1)
                 there = f1 - (1 - f if at_end else f) / k

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -15,11 +16,13 @@ from graphcam.given.monotone_spline import DEGREE, Fit
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Floats
 
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
+
 MEASURED = "measured"
 """The name of the law of a measured motion."""
-AT_REST, WITHOUT_IMPACT, TURNING = 4, 3, 2
-"""So many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, or else to the
-second, or only v is zero."""
+AT_REST, TURNING = 4, 2
+"""So many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
 FEWEST = 3
 """Samples of a law."""
 SAME_KNOT = 1e-9
@@ -58,7 +61,7 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int], nam
         for x, piece in zip(begins, pieces, strict=True)
     ]
     velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    return lift, Law(name, formulas, u[1:-1].tolist(), float(u[half]), peaks=(velocity, acceleration))
+    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), float(u[half]), peaks=(velocity, acceleration))
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
@@ -89,10 +92,18 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
         if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
             raise DesignError(f"samples {symbol} of the law '{name}'", f"{values}", "numbers that grow from 0 to 1")
-    ends = ([(1, 0.0), (2, acceleration)] for acceleration in accelerations)
-    spline = make_interp_spline(u, f, k=DEGREE, bc_type=tuple(ends))
-    contact = tuple(TURNING if acceleration else WITHOUT_IMPACT for acceleration in accelerations)
-    return spline_law(Fit(spline, np.unique(spline.t)), 0.0, 1.0, contact, name)[1]
+    ends = tuple([(1, 0.0), (2, acceleration)] for acceleration in accelerations)
+    spline = make_interp_spline(u, f, k=DEGREE, bc_type=ends)
+    # These coefficients are the ends' f, f' and f''; without their rounding what is small near an end keeps its digits.
+    at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
+    spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
+    knots = np.unique(spline.t)
+    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist())
+
+
+def _spline(u: Floats, *, spline: BSpline):
+    """A spline and its first three derivatives."""
+    return [spline(u, nu=order) for order in range(4)]
 
 
 def _polynomial(x: Floats, *, start: float, coefficients: tuple[float, ...]):
