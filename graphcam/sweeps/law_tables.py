@@ -1,7 +1,7 @@
 """The rises, or the returns, of many cams, which follow one law: a table of the law serves them all.
 
 A return is a rise seen backwards: with w the distance from the low end, as a fraction of the phase, both have
-s = h f(w), and a return's odd derivatives change their sign.
+s = h f(w), of a return with f of the law reversed, and its odd derivatives change their sign.
 """
 
 from __future__ import annotations

@@ -120,8 +120,9 @@ class Chunk:
 
     @cached_property
     def _laws(self) -> dict[str, list[tuple[Law, Numbers | slice]]]:
-        """Of rises and returns the laws that occur, and whose they are."""
-        return {key: _by_law(getattr(self.designs, key)) for key in ("rise_law", "return_law")}
+        """Of rises and returns the laws that occur, as seen from the low end, and whose they are."""
+        rises, returns = (_by_law(laws) for laws in (self.designs.rise_law, self.designs.return_law))
+        return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 
     def _peak(self, coefficient: Callable[[Law], float], power: int) -> Floats:
         peaks = np.empty((2, len(self.designs)))
