@@ -20,8 +20,8 @@ from reference import EPS
 import graphcam as gc
 from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.laws import LAWS, law
-from graphcam.given.motion_law import Law
 from graphcam.given.motion import FULL_TURN, cam_angle
+from graphcam.given.motion_law import Law
 from graphcam.mechanism.three_points import circumradius
 from graphcam.solving.solution import Solution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable

@@ -253,7 +253,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
 def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
     if name != "rectangular":
-        return Law.mirrored(name, *_MIRRORED[name])
+        formulas, edges, peaks, tangent = _MIRRORED[name]
+        return Law(name, formulas, edges, mirrored=True, peaks=peaks, tangents=(tangent, tangent))
     middle, back = 1 / (1 + ratio), 1 / ratio
     first = partial(_constant, height=2 * (1 + ratio))
     second = first if ratio == 1 else partial(_constant, height=2 * (1 + back))
@@ -261,4 +262,5 @@ def _built(name: str, ratio: float) -> Law:
         partial(_rectangular_tangent, ratio=ratio, middle=middle),
         partial(_rectangular_tangent, ratio=back, middle=1 - middle),
     )
-    return Law(name, (first, second), (middle,), middle, ratio, (2.0, 2 * (1 + max(ratio, back))), tangents)
+    peaks = 2.0, 2 * (1 + max(ratio, back))
+    return Law(name, (first, second), (middle,), middle=middle, ratio=ratio, peaks=peaks, tangents=tangents)

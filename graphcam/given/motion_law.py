@@ -8,7 +8,7 @@ just begun, the lift still missing, the velocity) keeps all its digits there, wh
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
@@ -42,6 +42,7 @@ class Law:
     name : what it is called on the sheet
     formulas : a function that returns f, f', f'', f''' at an array of u; or several, one for every piece
     edges : the inner places u where one formula takes over from another, in order
+    mirrored : whether the second half mirrors the first, 1 - f(1 - u); formulas and edges are then those of the first
     middle : from here on formulas are functions of w = 1 - u that return 1 - f and its derivatives by w
     ratio : |a1|/|a2|, first part's acceleration over the second's, if the law has two such parts
     peaks : max f' and max |f''|; None has them found
@@ -58,11 +59,14 @@ class Law:
     >>> law = Law("my own", formula)
     >>> [float(x) for x in law(0.5)], law.peak_velocity
     ([0.5, 1.5, 0.0, -12.0], 1.5)
+    >>> Law("constant acceleration", lambda u: (2 * u**2, 4 * u, 4, 0), mirrored=True).jumps
+    (0.5,)
     """
 
     name: str
     formulas: Formula | Sequence[Formula] = field(repr=False)
     edges: Sequence[float] = field(default=(), repr=False)
+    mirrored: InitVar[bool] = False
     middle: float = field(default=1.0, repr=False)
     ratio: float = 1.0
     peaks: tuple[float, float] | None = field(default=None, repr=False)
@@ -70,9 +74,12 @@ class Law:
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
     """the pieces between 0, the edges and 1"""
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, mirrored: bool) -> None:
         formulas = (self.formulas,) if callable(self.formulas) else tuple(self.formulas)
-        starts = (0.0, *map(float, self.edges))
+        starts, middle = (0.0, *map(float, self.edges)), self.middle
+        if mirrored:
+            formulas, middle = (*formulas, *formulas[::-1]), 0.5
+            starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
         if not all(a < b for a, b in pairwise((*starts, 1.0))):
             raise self._wrong("edges", list(starts[1:]), "between 0 and 1, in order")
         if len(formulas) != len(starts):
@@ -81,31 +88,14 @@ class Law:
         # Seen from the end the lift is the missing lift and the acceleration its negative.
         pieces = (
             Piece(formula, u, 0.0, 1.0, 0.0, (1, 1, 1, 1))
-            if u < self.middle
+            if u < middle
             else Piece(formula, u, 1.0, -1.0, 1.0, (-1, 1, -1, 1))
             for formula, u in zip(formulas, starts, strict=True)
         )
-        for name, value in (("formulas", formulas), ("edges", starts[1:]), ("pieces", tuple(pieces))):
+        made = {"formulas": formulas, "edges": starts[1:], "middle": middle, "pieces": tuple(pieces)}
+        for name, value in made.items():
             object.__setattr__(self, name, value)
         self._check()
-
-    @classmethod
-    def mirrored(
-        cls,
-        name: str,
-        formulas: Formula | Sequence[Formula],
-        edges: Sequence[float] = (),
-        peaks: tuple[float, float] | None = None,
-        tangent: Tangent | None = None,
-    ) -> Law:
-        """The law whose second half mirrors its first: 1 - f(1 - u); formulas and edges are those of the first half.
-
-        >>> Law.mirrored("constant acceleration", lambda u: (2 * u**2, 4 * u, 4, 0)).jumps
-        (0.5,)
-        """
-        half = (formulas,) if callable(formulas) else tuple(formulas)
-        edges = (*edges, 0.5, *(1.0 - u for u in reversed(edges)))
-        return cls(name, (*half, *half[::-1]), edges, 0.5, peaks=peaks, tangents=(tangent, tangent))
 
     def __call__(self, u: ArrayLike, derivatives: int = 3, side: Side = "right") -> tuple[Floats, ...]:
         """The lift f and its first ``derivatives`` derivatives at u, each shaped like u; NaN outside [0, 1].
@@ -169,7 +159,7 @@ class Law:
         if (formulas[::-1], edges, self.middle) == (formulas, self.edges, 0.5):
             return self
         ahead, back = self.tangents
-        return Law(self.name, formulas[::-1], edges, 1 - self.middle, 1 / self.ratio, self.peaks, (back, ahead))
+        return Law(self.name, formulas[::-1], edges, False, 1 - self.middle, 1 / self.ratio, self.peaks, (back, ahead))
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 

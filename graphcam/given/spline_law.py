@@ -61,7 +61,7 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int], nam
         for x, piece in zip(begins, pieces, strict=True)
     ]
     velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), float(u[half]), peaks=(velocity, acceleration))
+    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), middle=float(u[half]), peaks=(velocity, acceleration))
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:

@@ -135,7 +135,7 @@ def test_samples_are_met_and_what_is_between_them_comes_near_their_law():
 
 
 def test_a_mirrored_law_keeps_its_digits_to_the_end():
-    law = gc.Law.mirrored("5-6-7-8-9", smooth)
+    law = gc.Law("5-6-7-8-9", smooth, mirrored=True)
     motion = motion_of(law)
     for w in (2.0**-20, 2.0**-40):
         s, v, *_ = (float(x) for x in motion.at(2, 1 - w))
