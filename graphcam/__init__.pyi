@@ -30,6 +30,8 @@ from .given.motion import Motion as Motion
 from .given.motion import Return as Return
 from .given.motion import Rise as Rise
 from .given.motion import cam_angle as cam_angle
+from .given.motion_law import Law as Law
+from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.arcs import ThreeArcCam as ThreeArcCam

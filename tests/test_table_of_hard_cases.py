@@ -19,8 +19,9 @@ from reference import EPS
 
 import graphcam as gc
 from graphcam.comparison.integrals import accurate_cumsum
-from graphcam.given.laws import LAWS, Law, law
+from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, cam_angle
+from graphcam.given.motion_law import Law
 from graphcam.mechanism.three_points import circumradius
 from graphcam.solving.solution import Solution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
@@ -96,7 +97,7 @@ def test_laws_keep_their_digits_to_their_ends(row):
     """4 eps of each function's maximum everywhere; s and v of the polynomials to 4 eps of themselves."""
     normalised, x = law(row["law"], row["ratio"]), row["x"]
     greatest = [1.0, normalised.peak_velocity, normalised.peak_acceleration, greatest_jerk(normalised)]
-    end = [piece[0] for piece in normalised.halves[1].pieces[0](np.array([x]))]
+    end = [piece[0] for piece in normalised.pieces[-1].formula(np.array([x]))]
     for computed, exact in ((normalised(x), row["start"]), (end, row["end"])):
         for order, (c, e, most) in enumerate(zip(computed, exact, greatest, strict=True)):
             assert off(c, e) <= 4 * EPS * most, order

@@ -13,7 +13,7 @@ from graphcam.bench.exact_rows import ExactRow, exact_rows
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS
 from graphcam.bench.hand_errors import SIGMA, Hands, bands, by_hand
 from graphcam.bench.peers import Peer, peers
-from graphcam.bench.scenes import LAWS
+from graphcam.bench.scenes import BENCH_LAWS
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
@@ -40,7 +40,7 @@ STEP_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 STEP_BY_THREE = (12, 36, 120, 360, 1080, 3240, 9720, 29160)
 CORNERS = (24, 96, 360, 1440, 5760, 23040)
 FULL = Effort(
-    *(PARTS, LAWS, 2000, PENCIL_PARTS),
+    *(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS),
     TimedSizes(STEP_BY_FOUR, STEP_BY_FOUR[:7], STEP_BY_FOUR, STEP_BY_THREE, STEP_BY_THREE[:4], CORNERS),
     *(100_000, 1_000_000, 0.2),
 )

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.bench.scenes import FOLLOWERS, LAWS, TestScene, scene
+from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, TestScene, scene
 from graphcam.constructions.chain import Chain
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -74,7 +74,7 @@ def fitted_order(parts: Sequence[int], errors: Sequence[float]) -> float | None:
     return round(-float(np.polyfit(n, error, 1)[0]), 12)
 
 
-def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = LAWS) -> list[Series]:
+def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = BENCH_LAWS) -> list[Series]:
     """The errors of all constructions of all scenes."""
     found: list[Series] = []
     for follower in FOLLOWERS:

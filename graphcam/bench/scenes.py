@@ -20,7 +20,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import LeastRadius, minimum_radius
 
 FOLLOWERS = ("translating", "arm", "flat")
-LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
+BENCH_LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
 LIFT = 30.0
 """Of the translating and the flat-faced follower [mm]."""
 ARM = 100.0

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from graphcam.given.laws import Law
+from graphcam.given.motion_law import Law
 from graphcam.words import Caption, Words, say
 
-LAWS: Mapping[str, Caption] = {
+LAW_TITLES: Mapping[str, Caption] = {
     "rectangular": say("rectangular"),
     "triangular": say("triangular"),
     "cosine": say("cosine"),
@@ -21,7 +21,7 @@ LAWS: Mapping[str, Caption] = {
     "3-4-5": say("3-4-5"),
     "4-5-6-7": say("4-5-6-7"),
 }
-"""What the laws are called; one that is not among them by its name."""
+"""What the laws are called; one that is not among them, as one of one's own, by its name."""
 
 
 def law_name(law: Law) -> Words:
@@ -31,4 +31,4 @@ def law_name(law: Law) -> Words:
     >>> str(law_name(law("cosine"))), str(law_name(law("3-4-5")))
     ('cosine', '3-4-5')
     """
-    return LAWS.get(law.name, law.name)
+    return LAW_TITLES.get(law.name, law.name)

@@ -1,9 +1,8 @@
-"""The ten normalised motion laws: a lift f from 0 to 1 while u runs from 0 to 1.
+"""The ten normalised motion laws.
 
 Every law is written as it looks from the nearer end of the phase: the first half as a function of the distance
-x = u from the start, the second half as a function of the distance x = w = 1 - u from the end.  So what is small
-near an end (the lift just begun, the lift still missing, the velocity) keeps all its digits there, which
-1 - f(u) would lose.  The formulas are factored, because a product costs less than a power and rounds less than a sum.
+x = u from the start, the second half as a function of the distance x = w = 1 - u from the end.  The formulas are
+factored, because a product costs less than a power and rounds less than a sum.
 
 Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapters 2 and 3; R. L. Norton, *Cam Design and
 Manufacturing Handbook* (2009), chapters 2 to 4.
@@ -12,122 +11,16 @@ Manufacturing Handbook* (2009), chapters 2 to 4.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, nearest
 from graphcam.given.circular import sine_cosine
-from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks
+from graphcam.given.motion_law import Law
+from graphcam.given.pieces import Floats, Side
 
-__all__ = ["LAWS", "Floats", "Half", "Law", "Side", "law"]
-
-SHARP = 1e-6
-"""Where the slope of the acceleration jumps by more than this part of the greatest acceleration, there is a corner."""
-
-
-@dataclass(frozen=True)
-class Half:
-    """One half of a law, seen from its end: its pieces of x and the places where one piece takes over from another."""
-
-    pieces: tuple[Formula, ...]
-    breaks: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True)
-class Law:
-    """A normalised motion law; call it with u in [0, 1] for (f, f', f'', f''').
-
-    Attributes
-    ----------
-    name, ratio : as given to :func:`law`
-    middle : the u at which the second half begins
-    halves : the pieces seen from the start and from the end
-    peak_velocity, peak_acceleration : C_v = max f' and C_a = max |f''|, so v_max = C_v h/F and a_max = C_a h/F^2
-    """
-
-    name: str
-    ratio: float
-    middle: float
-    halves: tuple[Half, Half]
-    peak_velocity: float
-    peak_acceleration: float
-
-    @property
-    def edges(self) -> tuple[float, ...]:
-        """The inner places u where one piece takes over from another, in order; the middle is one of them."""
-        first, second = self.halves
-        return (*first.breaks, self.middle, *(1.0 - x for x in reversed(second.breaks)))
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """The inner places u where a derivative may jump, in order."""
-        return tuple(u for u in self.edges if u != self.middle or u in self.jumps)
-
-    @property
-    def jumps(self) -> tuple[float, ...]:
-        """The inner places u where the acceleration itself jumps."""
-        return (self.middle,) if self.name == "rectangular" else ()
-
-    @property
-    def corners(self) -> tuple[float, ...]:
-        """The inner places u where the acceleration turns a corner: it is continuous, its slope jumps.
-
-        >>> law("trapezoidal").corners, law("modified-trapezoidal").corners
-        ((0.125, 0.375, 0.625, 0.875), ())
-        """
-        breaks = np.array([u for u in self.breaks if u not in self.jumps])
-        before, after = (self(breaks, side=side)[3] for side in ("left", "right"))
-        return tuple(breaks[np.abs(after - before) > SHARP * self.peak_acceleration].tolist())
-
-    @property
-    def reversed(self) -> Law:
-        """The law that runs backwards: 1 - f(1 - u).
-
-        >>> law("rectangular", ratio=4.0).reversed.ratio
-        0.25
-        """
-        if self.halves[0] is self.halves[1]:
-            return self
-        return replace(self, ratio=1 / self.ratio, middle=1 - self.middle, halves=(self.halves[1], self.halves[0]))
-
-    def __call__(self, u: ArrayLike, derivatives: int = 3, side: Side = "right") -> tuple[Floats, ...]:
-        """The lift f and its first ``derivatives`` derivatives at u, each shaped like u; NaN outside [0, 1].
-
-        At a break the value of the named side is returned; u = 0 and u = 1 have only one.
-
-        >>> [float(x) for x in law("3-4-5")(0.5)]
-        [0.5, 1.875, 0.0, -30.0]
-        """
-        u = np.asarray(u, dtype=np.float64)
-        flat = u.ravel()
-        out = np.empty((4, flat.size))
-        for here in chunks(flat.size):
-            inside = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
-            self._piecewise.fill(inside, side, out[:, here])
-        return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
-
-    @cached_property
-    def _piecewise(self) -> Piecewise:
-        return Piecewise(self.pieces)
-
-    @cached_property
-    def pieces(self) -> tuple[Piece, ...]:
-        """The pieces between 0, the edges and 1."""
-        first, second = self.halves
-        starts = (0.0, *self.edges)
-        n = len(first.pieces)
-        return (
-            *(Piece(f, u, 0.0, 1.0, 0.0, (1, 1, 1, 1)) for f, u in zip(first.pieces, starts[:n], strict=True)),
-            # Seen from the end the lift is the missing lift and the acceleration its negative.
-            *(
-                Piece(g, u, 1.0, -1.0, 1.0, (-1, 1, -1, 1))
-                for g, u in zip(second.pieces[::-1], starts[n:], strict=True)
-            ),
-        )
-
+__all__ = ["LAWS", "Floats", "Side", "law"]
 
 # --- the pieces ------------------------------------------------------------------------------------------------------
 # Each takes x, the distance from its end of the phase, and returns f, f', f'', f''' (from the end: the missing lift).
@@ -235,64 +128,101 @@ def _less_sine(t: Floats, sine: Floats) -> Floats:
     return difference
 
 
+# --- the tangents ----------------------------------------------------------------------------------------------------
+# Each takes k and returns the place u where f' - f/k is greatest, the root of k f'' = f', and that value; with
+# k = cot(A)/F it is where the line at the permitted pressure angle A touches the s - v diagram, and its height there.
+
+
+def _rectangular_tangent(k: float, *, ratio: float, middle: float) -> tuple[float, float]:
+    u = min(k, middle)
+    return u, 2 * (1 + ratio) * u * (1 - u / k / 2)
+
+
+def _cosine_tangent(k: float) -> tuple[float, float]:
+    q = _PI * k
+    return math.atan(q) / _PI, _PI / 2 * q / (1 + math.hypot(1, q))
+
+
+def _cycloidal_tangent(k: float) -> tuple[float, float]:
+    q = 2 * _PI * k
+    return math.atan(q) / _PI, 2 * _less_atan(q) / q
+
+
+def _less_atan(q: float) -> float:
+    """q - atan(q) for q > 0, to its own last digits."""
+    if q > 2:
+        return q - math.atan(q)
+    if q > 0.3:
+        # atan(q) = 2 atan(t) with q = 2t/(1 - t^2), and both terms are positive.
+        t = q / (1 + math.hypot(1, q))
+        return 2 * (t**3 / ((1 - t) * (1 + t)) + _less_atan(t))
+    series = 0.0
+    for n in range(33, 1, -2):
+        series = 1 / n - q * q * series
+    return q**3 * series
+
+
+def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[float, float]:
+    """Of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
+
+    rest : coefficients of what is left, C (1 - u)^(n + 1) - n (1 - 2u) f/u^(n + 1), without the cancellation of the two
+    """
+    q = 2 * n * k
+    u = q / (1 + q + math.hypot(1, q))
+    height = 0.0
+    for coefficient in reversed(rest):
+        height = coefficient + u * height
+    return u, u**n / (1 - u) * height
+
+
 # --- the laws --------------------------------------------------------------------------------------------------------
 
 _PI = math.pi
 _MODIFIED_TRAPEZOIDAL = 8 * _PI / (2 + _PI)
 _MODIFIED_SINE = 4 * _PI / (4 + _PI)
 
-_SYMMETRIC: dict[str, tuple[Half, float, float]] = {
-    "triangular": (
-        Half((partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)), (1 / 4,)), 2.0, 8.0,
-    ),
-    "cosine": (Half((_cosine,)), _PI / 2, _PI**2 / 2),
-    "cycloidal": (Half((partial(_sine_up, height=2 * _PI, k=2 * _PI),)), 2.0, 2 * _PI),
-    "trapezoidal": (
-        Half(
-            (
-                partial(_linear_up, slope=128 / 3),
-                partial(_trapezoid_top, height=16 / 3),
-                partial(_linear_down, slope=128 / 3),
-            ),
-            (1 / 8, 3 / 8),
-        ), 2.0, 16 / 3,
-    ),
-    "modified-trapezoidal": (
-        Half(
-            (
-                partial(_sine_up, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI),
-                partial(_sine_top, height=_MODIFIED_TRAPEZOIDAL),
-                partial(_sine_down, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI, peak=2.0),
-            ),
-            (1 / 8, 3 / 8),
-        ), 2.0, _MODIFIED_TRAPEZOIDAL,
-    ),
-    "modified-sine": (
-        Half(
-            (
-                partial(_sine_up, height=_PI * _MODIFIED_SINE, k=4 * _PI),
-                partial(_sine_down, height=_PI * _MODIFIED_SINE, k=4 * _PI / 3, peak=_MODIFIED_SINE),
-            ),
-            (1 / 8,),
-        ), _MODIFIED_SINE, _PI * _MODIFIED_SINE,
-    ),
-    "2-3": (Half((_poly_2_3,)), 1.5, 6.0),
-    "3-4-5": (Half((_poly_3_4_5,)), 1.875, 10 / math.sqrt(3)),
-    "4-5-6-7": (Half((_poly_4_5_6_7,)), 2.1875, 84 / (5 * math.sqrt(5))),
-}  # fmt: skip
+_TRIANGULAR = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
+_CYCLOIDAL = partial(_sine_up, height=2 * _PI, k=2 * _PI)
+_TRAPEZOIDAL_PIECES = (
+    partial(_linear_up, slope=128 / 3),
+    partial(_trapezoid_top, height=16 / 3),
+    partial(_linear_down, slope=128 / 3),
+)
+_MODIFIED_TRAPEZOIDAL_PIECES = (
+    partial(_sine_up, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI),
+    partial(_sine_top, height=_MODIFIED_TRAPEZOIDAL),
+    partial(_sine_down, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI, peak=2.0),
+)
+_MODIFIED_SINE_PIECES = (
+    partial(_sine_up, height=_PI * _MODIFIED_SINE, k=4 * _PI),
+    partial(_sine_down, height=_PI * _MODIFIED_SINE, k=4 * _PI / 3, peak=_MODIFIED_SINE),
+)
+_TANGENT_2_3 = partial(_polynomial_tangent, n=1, rest=(3, -4, 2))
+_TANGENT_3_4_5 = partial(_polynomial_tangent, n=2, rest=(10, -20, 18, -6))
+_TANGENT_4_5_6_7 = partial(_polynomial_tangent, n=3, rest=(35, -98, 126, -80, 20))
 
-LAWS: tuple[str, ...] = (
-    "rectangular", "triangular", "cosine", "cycloidal", "trapezoidal",
-    "modified-trapezoidal", "modified-sine", "2-3", "3-4-5", "4-5-6-7",
-)  # fmt: skip
+# The formulas of the first half and where one takes over from another, the peaks, the tangent in closed form.
+_MIRRORED = {
+    "triangular": (_TRIANGULAR, (1 / 4,), (2.0, 8.0), None),
+    "cosine": (_cosine, (), (_PI / 2, _PI**2 / 2), _cosine_tangent),
+    "cycloidal": (_CYCLOIDAL, (), (2.0, 2 * _PI), _cycloidal_tangent),
+    "trapezoidal": (_TRAPEZOIDAL_PIECES, (1 / 8, 3 / 8), (2.0, 16 / 3), None),
+    "modified-trapezoidal": (_MODIFIED_TRAPEZOIDAL_PIECES, (1 / 8, 3 / 8), (2.0, _MODIFIED_TRAPEZOIDAL), None),
+    "modified-sine": (_MODIFIED_SINE_PIECES, (1 / 8,), (_MODIFIED_SINE, _PI * _MODIFIED_SINE), None),
+    "2-3": (_poly_2_3, (), (1.5, 6.0), _TANGENT_2_3),
+    "3-4-5": (_poly_3_4_5, (), (1.875, 10 / math.sqrt(3)), _TANGENT_3_4_5),
+    "4-5-6-7": (_poly_4_5_6_7, (), (2.1875, 84 / (5 * math.sqrt(5))), _TANGENT_4_5_6_7),
+}
+
+LAWS: tuple[str, ...] = ("rectangular", *_MIRRORED)
 
 
-def law(name: str, ratio: float = 1.0) -> Law:
-    """The normalised motion law of that name.
+def law(name: str | Law, ratio: float = 1.0) -> Law:
+    """The normalised motion law of that name; a law of one's own as it is.
 
     Parameters
     ----------
-    name : one of :data:`LAWS`
+    name : one of :data:`LAWS`, or a :class:`~graphcam.given.motion_law.Law`
     ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one
 
     Raises
@@ -304,23 +234,33 @@ def law(name: str, ratio: float = 1.0) -> Law:
     >>> f, df, ddf, dddf = law("rectangular", ratio=2.0)(1 / 3)
     >>> round(float(f), 12), float(df), float(ddf)
     (0.333333333333, 2.0, -3.0)
+    >>> law("trapezoidal").corners, law("modified-trapezoidal").corners
+    ((0.125, 0.375, 0.625, 0.875), ())
     """
-    if name not in LAWS:
-        raise DesignError("law", name, "a motion law that graphcam knows", nearest(name, LAWS))
+    own = isinstance(name, Law)
+    if not own and name not in LAWS:
+        limit = "a motion law that graphcam knows"
+        raise DesignError("law", name, limit, nearest(f"{name}", LAWS))
     if not (math.isfinite(ratio) and ratio > 0):
         raise DesignError("ratio", ratio, "a finite number greater than 0", "leave it out for equal parts")
     if name != "rectangular" and ratio != 1:
-        raise DesignError("ratio", ratio, f"1 for the {name} law", "only the rectangular law has unequal parts")
-    return _built(name, ratio)
+        called = name.name if own else name
+        raise DesignError("ratio", ratio, f"1 for the {called} law", "only the rectangular law has unequal parts")
+    return name if own else _built(name, ratio)
 
 
 @lru_cache(maxsize=256)
 def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
-    if name == "rectangular":
-        first = Half((partial(_constant, height=2 * (1 + ratio)),))
-        second = first if ratio == 1 else Half((partial(_constant, height=2 * (1 + 1 / ratio)),))
-        peak = 2 * (1 + max(ratio, 1 / ratio))
-        return Law(name, ratio, 1 / (1 + ratio), (first, second), 2.0, peak)
-    half, peak_velocity, peak_acceleration = _SYMMETRIC[name]
-    return Law(name, 1.0, 0.5, (half, half), peak_velocity, peak_acceleration)
+    if name != "rectangular":
+        formulas, edges, peaks, tangent = _MIRRORED[name]
+        return Law(name, formulas, edges, mirrored=True, peaks=peaks, tangents=(tangent, tangent))
+    middle, back = 1 / (1 + ratio), 1 / ratio
+    first = partial(_constant, height=2 * (1 + ratio))
+    second = first if ratio == 1 else partial(_constant, height=2 * (1 + back))
+    tangents = (
+        partial(_rectangular_tangent, ratio=ratio, middle=middle),
+        partial(_rectangular_tangent, ratio=back, middle=1 - middle),
+    )
+    peaks = 2.0, 2 * (1 + max(ratio, back))
+    return Law(name, (first, second), (middle,), middle=middle, ratio=ratio, peaks=peaks, tangents=tangents)

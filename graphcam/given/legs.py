@@ -78,10 +78,9 @@ def find_legs(phi: Floats, s: Floats, tolerance: float) -> list[Leg]:
     """
     lift = float(np.ptp(s))
     if not lift > DEPTH * tolerance:
-        raise DesignError(
-            "the table's lift", f"{lift:.4g}", f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance",
-            "give the table of a motion, or a smaller tolerance",
-        )  # fmt: skip
+        limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
+        remedy = "give the table of a motion, or a smaller tolerance"
+        raise DesignError("the table's lift", f"{lift:.4g}", limit, remedy)
     # Begun where it moves fastest, the table has no rest across its ends.
     steepness = np.abs(np.roll(s, -1) - s) / ((np.roll(phi, -1) - phi) % FULL_TURN)
     first = (int(np.argmax(steepness)) + 1) % s.size

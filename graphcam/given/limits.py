@@ -25,9 +25,8 @@ class Limits:
     rest: bool = True
 
     def __post_init__(self) -> None:
+        limit, remedy = "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower"
         for name, value in (("rise", self.rise), ("return", self.return_)):
             if value is not None and not 0 < value < math.pi / 2:
-                raise DesignError(
-                    f"permitted pressure angle on the {name}", f"{math.degrees(value):g} degrees",
-                    "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower",
-                )  # fmt: skip
+                what = f"permitted pressure angle on the {name}"
+                raise DesignError(what, f"{math.degrees(value):g} degrees", limit, remedy)

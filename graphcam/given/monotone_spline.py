@@ -33,6 +33,7 @@ MOST_LEGS = 24
 """What rises and falls more often is noise."""
 CLOSING = 1e4
 """Weight of the closure in the least squares, before it is made exact."""
+LESS_NOISE = "give a greater tolerance, or a table with less noise"
 STIFFNESS = 1e-6
 """Weight of the spline's stiffness, which settles what the rows leave open."""
 
@@ -56,10 +57,8 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float) -> Fit:
     DesignError : there are too many legs, or no spline keeps to the tolerance that does not follow every row
     """
     if len(legs) > MOST_LEGS:
-        raise DesignError(
-            "tolerance", tolerance, f"greater than the noise that turns the table {len(legs)} times",
-            "give a greater tolerance, or a table with less noise",
-        )  # fmt: skip
+        limit = f"greater than the noise that turns the table {len(legs)} times"
+        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
     rows = [np.flatnonzero((phi >= leg.start) & (phi <= leg.end)) for leg in legs]
     most = [min(math.floor(PARTS_OF_ROWS * here.size), MOST) for here in rows]
     parts = [FEWEST] * len(legs)
@@ -73,10 +72,8 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float) -> Fit:
         # A rest that is off its level is drawn there by the legs beside it.
         finer = [k for k in coarse or range(len(legs)) if parts[k] < most[k]]
         if not finer:
-            raise DesignError(
-                "tolerance", tolerance, f"more than {off.max():.3g}, what the best spline leaves at a row",
-                "give a greater tolerance, or a table with less noise",
-            )  # fmt: skip
+            limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
+            raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
         for k in finer:
             parts[k] = min(math.ceil(parts[k] * GROWTH), most[k])
 
@@ -118,11 +115,8 @@ def _least_squares(phi: Floats, s: Floats, legs: list[Leg], knots: Floats) -> Fi
     columns = np.append(0, 1 + free)
     lift = float(np.ptp(s))
     stiff = STIFFNESS * np.diff(np.eye(n), n=2, axis=0)[:, free]
-    equations = np.vstack([
-        basis[:, columns],
-        CLOSING * np.append(0.0, rise[free]),
-        np.hstack([np.zeros((stiff.shape[0], 1)), stiff]),
-    ])  # fmt: skip
+    closing, stiffness = CLOSING * np.append(0.0, rise[free]), np.hstack([np.zeros((stiff.shape[0], 1)), stiff])
+    equations = np.vstack([basis[:, columns], closing, stiffness])
     target = np.concatenate([s, np.zeros(1 + stiff.shape[0])])
     bounds = np.append(-np.inf, lower[free]), np.append(np.inf, upper[free])
     solution = lsq_linear(equations, target / lift, bounds, method="bvls").x * lift

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.laws import Floats, Law, Side, law
+from graphcam.given.laws import Floats, Side, law
+from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, chunks
 
 CLOSURE = 1e-9
@@ -93,8 +94,8 @@ class Moving:
 
     @property
     def normalised(self) -> Law:
-        """The phase's law on [0, 1]: the one of that name, or the given one, as of a measured motion."""
-        return self.law if isinstance(self.law, Law) else law(self.law, self.ratio)
+        """The phase's law on [0, 1]: the one of that name, or the given one."""
+        return law(self.law, self.ratio)
 
 
 @dataclass(frozen=True)
@@ -159,15 +160,12 @@ class Motion:
                 raise DesignError("motion", f"without a {kind}", "at least one rise and one return", f"add a {kind}")
         turn = math.fsum(angles)
         if abs(turn - FULL_TURN) > CLOSURE:
-            raise DesignError(
-                "sum of the phase angles", f"{math.degrees(turn):.10g} degrees", "360 degrees",
-                "lengthen or shorten a dwell by the difference",
-            )  # fmt: skip
+            total, remedy = f"{math.degrees(turn):.10g} degrees", "lengthen or shorten a dwell by the difference"
+            raise DesignError("sum of the phase angles", total, "360 degrees", remedy)
         closing = math.fsum(steps)
         if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
-            raise DesignError(
-                "sum of rises less returns", f"{closing:.10g} mm", "0 mm", "make the lifts of rises and returns equal"
-            )
+            remedy = "make the lifts of rises and returns equal"
+            raise DesignError("sum of rises less returns", f"{closing:.10g} mm", "0 mm", remedy)
         heights = [math.fsum(steps[:k]) for k in range(len(phases))]
         heights.append(heights[0])  # closed by definition: what the sum misses is rounding
         object.__setattr__(self, "phases", phases)
@@ -283,15 +281,13 @@ def _pieces(phase: Phase, ends: tuple[float, float], levels: tuple[float, float]
     """The pieces of a phase between two cam angles [rad] and two displacements."""
     if isinstance(phase, Dwell):
         return [Piece(_rest, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
-    h, angle = phase.lift, phase.angle
+    h, angle, up = phase.lift, phase.angle, phase.direction > 0
     # A return is measured from its lower end, where the missing lift keeps its digits.
-    low = levels[0] if phase.direction > 0 else levels[1]
+    low = levels[0] if up else levels[1]
     units = [phase.direction * h / angle**n for n in range(4)]
-    return [
-        Piece(
-            formula, ends[0] + angle * start, ends[int(origin)], angle * length,
-            low + h * (base if phase.direction > 0 else 1 - base),
-            (factors[0] * units[0], factors[1] * units[1], factors[2] * units[2], factors[3] * units[3]),
-        )
-        for formula, start, origin, length, base, factors in phase.normalised.pieces
-    ]  # fmt: skip
+    pieces: list[Piece] = []
+    for formula, start, origin, length, base, (c0, c1, c2, c3) in phase.normalised.pieces:
+        factors = c0 * units[0], c1 * units[1], c2 * units[2], c3 * units[3]
+        level = low + h * (base if up else 1 - base)
+        pieces.append(Piece(formula, ends[0] + angle * start, ends[int(origin)], angle * length, level, factors))
+    return pieces

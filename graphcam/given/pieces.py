@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.floating[Any]]
 Side = Literal["right", "left"]
-Formula = Callable[[Floats], tuple[Floats, Floats, Floats, Floats]]
+Formula = Callable[[Floats], Sequence[Floats | float]]
 """f, f', f'', f''' of the distance x from an end of a phase, as a fraction of the phase."""
 
 CHUNK = 16_384
@@ -117,7 +117,7 @@ class Piecewise:
 
 
 def _store(
-    out: Floats, here: slice | NDArray[np.intp], values: Sequence[Floats], units: Sequence[Floats | float]
+    out: Floats, here: slice | NDArray[np.intp], values: Sequence[Floats | float], units: Sequence[Floats | float]
 ) -> None:
     """Write the values, in those units, to some columns: s = base + factor f, and the derivatives."""
     base, *factors = units

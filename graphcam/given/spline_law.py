@@ -1,26 +1,35 @@
-"""The law of a phase whose displacement is a spline: its pieces between the knots, seen from the nearer end."""
+"""Laws whose lift is a spline: their pieces between the knots, seen from the nearer end."""
 
 from __future__ import annotations
 
 import math
 from functools import partial
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike
 
-from graphcam.given.laws import Floats, Formula, Half, Law
+from graphcam.errors import DesignError
 from graphcam.given.monotone_spline import DEGREE, Fit
+from graphcam.given.motion_law import Law
+from graphcam.given.pieces import Floats
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline
 
 MEASURED = "measured"
-"""The name of such a law."""
+"""The name of the law of a measured motion."""
 AT_REST, TURNING = 4, 2
 """So many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
+FEWEST = 3
+"""Samples of a law."""
 SAME_KNOT = 1e-9
 """Knots nearer to one another than this fraction of the phase are one."""
 
 
-def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> tuple[float, Law]:
+def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int], name: str = MEASURED) -> tuple[float, Law]:
     """The signed lift and the normalised law of the spline between two cam angles [rad] where its velocity is zero.
 
     contact : :data:`AT_REST` or :data:`TURNING`, at the start and at the end
@@ -32,6 +41,7 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     slack = SAME_KNOT * angle
     inner = fit.knots[(fit.knots > start + slack) & (fit.knots < end - slack)]
     u = np.concatenate([[0.0], (inner - start) / angle, [1.0]])
+    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
     level, top = (float(s) for s in fit.spline([start, end]))
     lift = top - level
     first: list[Polynomial] = []
@@ -39,26 +49,61 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     for a, b in pairwise(u):
         # Derivatives may jump at knots, so they are taken in the middle.
         middle = (a + b) / 2
-        at = start + angle * middle
-        series = (
-            np.array([float(fit.spline(at, nu=k)) * angle**k / math.factorial(k) for k in range(DEGREE + 1)]) / lift
-        )
-        first.append(Polynomial(series)(Polynomial([a - middle, 1.0])) - level / lift)
-        second.append(top / lift - Polynomial(series)(Polynomial([b - middle, -1.0])))
+        derivatives = [float(fit.spline(start + angle * middle, nu=n)) for n in range(DEGREE + 1)]
+        series = Polynomial([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
+        first.append(series(Polynomial([a - middle, 1.0])) - level / lift)
+        second.append(top / lift - series(Polynomial([b - middle, -1.0])))
     first[0].coef[: contact[0]] = 0.0
     second[-1].coef[: contact[1]] = 0.0
-    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
-    halves = _half(first[:half], u[: half + 1]), _half(second[half:][::-1], 1.0 - u[half:][::-1])
-    peaks = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    return lift, Law(MEASURED, 1.0, float(u[half]), halves, *peaks)
-
-
-def _half(pieces: list[Polynomial], edges: Floats) -> Half:
-    functions: list[Formula] = [
+    begins, pieces = (*u[:half], *(1.0 - u[half + 1 :])), (*first[:half], *second[half:])
+    formulas = [
         partial(_polynomial, start=float(x), coefficients=tuple(piece.coef.tolist()))
-        for piece, x in zip(pieces, edges, strict=False)
+        for x, piece in zip(begins, pieces, strict=True)
     ]
-    return Half(tuple(functions), tuple(edges[1:-1].tolist()))
+    velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
+    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), middle=float(u[half]), peaks=(velocity, acceleration))
+
+
+def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
+    """The law through samples, smooth to the fourth derivative: a quintic spline from rest to rest.
+
+    Parameters
+    ----------
+    name : what it is called on the sheet
+    u : (n,) growing from 0 to 1;  f : (n,) the lift there, growing from 0 to 1
+    accelerations : f'' at the start and at the end, 0 for a law without impact
+
+    Raises
+    ------
+    DesignError : the samples are fewer than three, not numbers, or not in order; or the spline through them is no law
+
+    >>> u = np.linspace(0, 1, 21)
+    >>> law = sampled_law("half a turn", u, (1 - np.cos(np.pi * u)) / 2, accelerations=(np.pi**2 / 2, -np.pi**2 / 2))
+    >>> round(law.peak_velocity, 6)
+    1.570796
+    """
+    from scipy.interpolate import make_interp_spline
+
+    u, f = np.asarray(u, dtype=np.float64), np.asarray(f, dtype=np.float64)
+    if u.ndim != 1 or u.shape != f.shape or u.size < FEWEST:
+        shapes, limit = f"{u.shape} and {f.shape}", f"one f for every u, {FEWEST} or more"
+        raise DesignError(f"shapes of the samples of the law '{name}'", shapes, limit)
+    for symbol, values in (("u", u), ("f", f)):
+        least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
+        if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
+            raise DesignError(f"samples {symbol} of the law '{name}'", f"{values}", "numbers that grow from 0 to 1")
+    ends = tuple([(1, 0.0), (2, acceleration)] for acceleration in accelerations)
+    spline = make_interp_spline(u, f, k=DEGREE, bc_type=ends)
+    # These coefficients are the ends' f, f' and f''; without their rounding what is small near an end keeps its digits.
+    at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
+    spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
+    knots = np.unique(spline.t)
+    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist())
+
+
+def _spline(u: Floats, *, spline: BSpline):
+    """A spline and its first three derivatives."""
+    return [spline(u, nu=order) for order in range(4)]
 
 
 def _polynomial(x: Floats, *, start: float, coefficients: tuple[float, ...]):

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.laws import Floats, Law
+from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion_law import Law
 
 
 @dataclass(frozen=True, eq=False)

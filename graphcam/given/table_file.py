@@ -107,10 +107,9 @@ def _row(path: Path, number: int, line: str, column: Column) -> tuple[float, flo
     except ValueError:
         phi = value = math.nan
     if not (math.isfinite(phi) and math.isfinite(value)):
-        raise TaskError(
-            str(path), f"line {number}", _short(line), f"two finite numbers, {ANGLES} and {column}",
-            "write decimals with a point, and a comma between the numbers",
-        )  # fmt: skip
+        limit = f"two finite numbers, {ANGLES} and {column}"
+        remedy = "write decimals with a point, and a comma between the numbers"
+        raise TaskError(str(path), f"line {number}", _short(line), limit, remedy)
     return phi, value
 
 

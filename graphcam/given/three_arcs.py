@@ -58,10 +58,8 @@ class ThreeArcs:
         if self.C2 == self.G:
             raise DesignError("C2", self.C2, "away from G", "the second arc needs a radius")
         if self.C1 is None and self.rho1 >= math.hypot(*self.D):
-            raise DesignError(
-                "rho1", self.rho1, f"less than the {math.hypot(*self.D):g} mm from the cam centre to D",
-                "take a smaller radius, or give C1",
-            )  # fmt: skip
+            limit = f"less than the {math.hypot(*self.D):g} mm from the cam centre to D"
+            raise DesignError("rho1", self.rho1, limit, "take a smaller radius, or give C1")
 
     @property
     def design_case(self) -> int:

@@ -25,10 +25,10 @@ import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.laws import Floats, Law
+from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Dwell, Motion
-from graphcam.given.spline_law import MEASURED
+from graphcam.given.motion_law import Law
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, Line, arm_minimum_radius
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES, stationary_places
@@ -221,89 +221,37 @@ def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
             continue
         # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
         law = phase.normalised if direction > 0 else phase.normalised.reversed
-        height = phase.lift / phase.angle * steepest_line(law, 1 / (slope * phase.angle))
+        height = phase.lift / phase.angle * steepest_tangent(law, 1 / (slope * phase.angle))[1]
         base = motion.levels[k] if direction > 0 else motion.levels[k + 1]
         heights.append(height - slope * float(base))
     return max(heights)
 
 
-def steepest_line(law: Law, k: float) -> float:
-    """The greatest f' - f/k, k = cot(A)/F: the height at which the tangent at the angle A meets the axis of v.
+def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
+    """The u at which f' - f/k is greatest, k = cot(A)/F, and that value.
 
-    With q = pi k it is pi/2 q/(1 + sqrt(1 + q^2)) for the cosine, and with q = 2 pi k 2 - 2 atan(q)/q for the cycloid.
-    For a polynomial f' and f/k have u^n/(1 - u) in common at the tangent point, n k (1 - 2u) = u (1 - u); what is left
-    is a polynomial without the cancellation of the two.
+    There the tangent at the angle A touches the s - v diagram, and it meets the axis of v at that height.
 
     >>> from graphcam.given.laws import law
-    >>> round(steepest_line(law("cosine"), 1.5), 12)
-    1.272441311934
+    >>> u, height = steepest_tangent(law("cosine"), 1.5)
+    >>> round(u, 12), round(height, 12)
+    (0.433452128665, 1.272441311934)
     """
-    if law.name == "cosine":
-        q = math.pi * k
-        return math.pi / 2 * q / (1 + math.hypot(1, q))
-    q = 2 * math.pi * k
-    if law.name == "cycloidal":
-        return 2 * _less_atan(q) / q
-    u = tangent_point(law, k)
-    if law.name == "rectangular":
-        return 2 * (1 + law.ratio) * u * (1 - u / k / 2)
-    if law.name in _POLYNOMIALS:
-        n, coefficients = _POLYNOMIALS[law.name]
-        rest = 0.0
-        for coefficient in reversed(coefficients):
-            rest = coefficient + u * rest
-        return u**n / (1 - u) * rest
-    f, f1 = law(u, derivatives=1)
-    return float(f1 - f / k)
-
-
-def _less_atan(q: float) -> float:
-    """q - atan(q) for q > 0, to its own last digits."""
-    if q > 2:
-        return q - math.atan(q)
-    if q > 0.3:
-        # atan(q) = 2 atan(t) with q = 2t/(1 - t^2), and both terms are positive.
-        t = q / (1 + math.hypot(1, q))
-        return 2 * (t**3 / ((1 - t) * (1 + t)) + _less_atan(t))
-    series = 0.0
-    for n in range(33, 1, -2):
-        series = 1 / n - q * q * series
-    return q**3 * series
-
-
-def tangent_point(law: Law, k: float) -> float:
-    """The u at which f' - f/k is greatest, k = cot(A)/F: where the tangent at the angle A touches the s - v diagram.
-
-    It is the root of k f'' = f' in the first half of the law, and f'/f'' grows there from 0 without bound.  A measured
-    law may accelerate several times: then it is one of several roots.
-
-    >>> from graphcam.given.laws import law
-    >>> tangent_point(law("2-3"), 1.5)
-    0.4188611699158103
-    """
-    if law.name in _POLYNOMIALS:  # n k (1 - 2u) = u (1 - u)
-        q = 2 * _POLYNOMIALS[law.name][0] * k
-        return q / (1 + q + math.hypot(1, q))
-    if law.name in ("cosine", "cycloidal"):
-        return math.atan(math.pi * k if law.name == "cosine" else 2 * math.pi * k) / math.pi
-    if law.name == "rectangular":
-        return min(k, law.middle)
+    if closed_form := law.tangents[0]:
+        return closed_form(k)
 
     def slope(u: Floats) -> Floats:
         _, f1, f2 = law(u, derivatives=2)
         return k * f2 - f1
 
-    if law.name != MEASURED:
-        # Up to its first break the acceleration does not fall, so f' <= u f'', and half of k or of the break is below.
-        return float(roots(slope, min(k, law.breaks[0]) / 2, law.middle))
     edges = np.array([0.0, *law.edges, 1.0])
     u = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
+    # Of a law that begins as u^n the place is (n - 1) k for small k, which may lie before every sample.
+    u = np.append(min(k, u[0]) / 2, u)
     sign = np.sign(slope(u))
     top = np.flatnonzero((sign[:-1] > 0) & (sign[1:] <= 0))
     places = roots(slope, u[top], u[top + 1])
     f, f1 = law(places, derivatives=1)
-    return float(places[np.argmax(f1 - f / k)])
-
-
-_POLYNOMIALS = {"2-3": (1, (3, -4, 2)), "3-4-5": (2, (10, -20, 18, -6)), "4-5-6-7": (3, (35, -98, 126, -80, 20))}
-"""The laws with f' proportional to (u (1 - u))^n, their n, and (f' - f/k)(1 - u)/u^n at the tangent point."""
+    heights = f1 - f / k
+    best = np.argmax(heights)
+    return float(places[best]), float(heights[best])

@@ -223,10 +223,12 @@ def _fourth(envelope: Envelope, ends: Floats, at: Floats, piece: int) -> Floats:
 
 def _graded(steps: Floats, at: Floats, periodic: bool) -> Floats:
     """Steps that grow along the curve by no more than GRADE: a long one beside a short one would magnify its error."""
-    away = np.abs(at - at[:, None])
     if periodic:
-        away = np.minimum(away, at[0] + at[-1] - away)
-    return np.min(steps + GRADE * away, axis=1)
+        n, turn = at.size, at[0] + at[-1]
+        return _graded(np.tile(steps, 3), np.concatenate([at - turn, at, at + turn]), periodic=False)[n : 2 * n]
+    ahead = np.minimum.accumulate(steps - GRADE * at) + GRADE * at
+    back = np.minimum.accumulate((steps + GRADE * at)[::-1])[::-1] - GRADE * at
+    return np.minimum(ahead, back)
 
 
 def _through(envelope: Envelope, stretch: list[Span], cuts: list[Floats], *, periodic: bool) -> _Fit:

@@ -10,16 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating, sense
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 
-NUMBERS = (
-    "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius", "offset", "arm", "distance", "roller_radius",
-)  # fmt: skip
+_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
+_OF_FOLLOWERS = "offset", "arm", "distance", "roller_radius"
+NUMBERS = (*_SIZES, *_OF_FOLLOWERS)
 """The sizes of a design."""
 Kind = Literal["translating", "oscillating", "flat-faced"]
 OWN: dict[str, tuple[str, ...]] = {
@@ -41,7 +42,7 @@ class Designs:
     lift, prime_radius, roller_radius : mm; the lift of an arm is an angle [rad]
     rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
     offset : mm, of a translating follower;  arm, distance : mm, an arm's length and centre distance
-    rise_law, return_law : names of :data:`graphcam.LAWS`
+    rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of one's own
     rotation : "ccw" or "cw"
     follower : "translating", "oscillating", or "flat-faced", which has neither offset nor roller
 
@@ -73,20 +74,19 @@ class Designs:
     def __post_init__(self) -> None:
         for name in NUMBERS:
             object.__setattr__(self, name, _numbers(name, getattr(self, name)))
-        for name, known in (("rise_law", LAWS), ("return_law", LAWS), ("rotation", ("ccw", "cw"))):
-            object.__setattr__(self, name, _words(name, getattr(self, name), known))
-        _words("follower", self.follower, tuple(OWN))
+        for name in ("rise_law", "return_law"):
+            object.__setattr__(self, name, _choices(name, getattr(self, name), LAWS, Law))
+        object.__setattr__(self, "rotation", _choices("rotation", self.rotation, ("ccw", "cw")))
+        _choices("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            raise DesignError(
-                "number of designs", " and ".join(map(str, sorted(sizes))), "the same in every array",
-                "give one number for all cams, or one for each",
-            )  # fmt: skip
+            found, remedy = " and ".join(map(str, sorted(sizes))), "give one number for all cams, or one for each"
+            raise DesignError("number of designs", found, "the same in every array", remedy)
         self._check_follower()
 
     def _check_follower(self) -> None:
         own, a = OWN[self.follower], "an" if self.follower == "oscillating" else "a"
-        for name in ("offset", "arm", "distance", "roller_radius"):
+        for name in _OF_FOLLOWERS:
             given = bool(np.any(getattr(self, name)))
             if given and name not in own:
                 raise DesignError(name, "given", f"left out for {a} {self.follower} follower")
@@ -142,15 +142,15 @@ class Designs:
         DesignError : there can be no such cam
         """
         sizes = {name: float(self.column(name)[k]) for name in NUMBERS}
-        names = {name: str(self.column(name)[k]) for name in ("rise_law", "return_law", "rotation")}
+        rise_law, return_law, rotation = (self.column(name).item(k) for name in ("rise_law", "return_law", "rotation"))
         low = float(self.low_dwell[k])
-        phases: list[Phase] = [Rise(sizes["lift"], sizes["rise_angle"], names["rise_law"])]
+        phases: list[Phase] = [Rise(sizes["lift"], sizes["rise_angle"], rise_law)]
         phases += [Dwell(sizes["dwell_angle"])] if sizes["dwell_angle"] else []
-        phases += [Return(sizes["lift"], sizes["return_angle"], names["return_law"])]
+        phases += [Return(sizes["lift"], sizes["return_angle"], return_law)]
         phases += [Dwell(low)] if low else []
         own = {name: sizes[name] for name in OWN[self.follower]}
         follower: Follower = _FOLLOWERS[self.follower](**own)
-        return Cam(Motion(phases), follower, sizes["prime_radius"], "ccw" if sense(names["rotation"]) > 0 else "cw")
+        return Cam(Motion(phases), follower, sizes["prime_radius"], rotation)
 
 
 _FOLLOWERS = {"translating": Translating, "oscillating": Oscillating, "flat-faced": FlatFaced}
@@ -164,10 +164,11 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
     return _one_axis(name, array)
 
 
-def _words(name: str, values: ArrayLike, known: tuple[str, ...]) -> NDArray[np.str_]:
+def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[()] = ()) -> NDArray[Any]:
+    """Names that are known, or objects of one's own."""
     array = np.asarray(values)
-    for word in np.unique(array).tolist():
-        if word not in known:
+    for word in dict.fromkeys(array.ravel().tolist()):
+        if not isinstance(word, own) and word not in known:
             raise DesignError(name, word, "a name that graphcam knows", nearest(str(word), known))
     return _one_axis(name, array)
 

@@ -1,7 +1,7 @@
 """The rises, or the returns, of many cams, which follow one law: a table of the law serves them all.
 
 A return is a rise seen backwards: with w the distance from the low end, as a fraction of the phase, both have
-s = h f(w), and a return's odd derivatives change their sign.
+s = h f(w), of a return with f of the law reversed, and its odd derivatives change their sign.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.laws import Floats, law
+from graphcam.given.motion_law import Law
+from graphcam.given.pieces import Floats
 from graphcam.mechanism.kinematics import Values
 
 INSIDE = 40
@@ -52,20 +53,20 @@ class LawTable:
 
 
 @lru_cache(maxsize=64)
-def law_table(name: str) -> LawTable:
+def law_table(law: Law) -> LawTable:
     """The table of a law.
 
-    >>> table = law_table("rectangular")
+    >>> from graphcam.given.laws import law
+    >>> table = law_table(law("rectangular"))
     >>> first, last = table.seams
     >>> table.w[first].tolist(), table.w[last].tolist(), table.values[2, first].tolist()
     ([0.0, 0.5], [0.5, 1.0], [4.0, -4.0])
     """
-    the_law = law(name)
-    pieces = [_places(*ends) for ends in pairwise((0.0, *the_law.breaks, 1.0))]
-    values = np.hstack([np.array(the_law(w)) for w in pieces])
+    pieces = [_places(*ends) for ends in pairwise((0.0, *law.breaks, 1.0))]
+    values = np.hstack([np.array(law(w)) for w in pieces])
     ends = np.cumsum([len(w) for w in pieces])
     starts = np.concatenate([[0], ends[:-1]])
-    values[:, ends - 1] = np.array(the_law(np.array([w[-1] for w in pieces]), side="left"))
+    values[:, ends - 1] = np.array(law(np.array([w[-1] for w in pieces]), side="left"))
     sizes = np.diff(ends, prepend=0)
     return LawTable(np.concatenate(pieces), values, np.repeat(starts, sizes), np.repeat(ends - 1, sizes))
 
@@ -85,7 +86,7 @@ class Legs:
     lift : (n,) mm;  angle : (n,) rad
     """
 
-    law: str
+    law: Law
     direction: int
     lift: Floats
     angle: Floats
@@ -96,7 +97,7 @@ class Legs:
 
     def at(self, w: Floats) -> Values:
         """(s, v, a, j), one place w for each cam."""
-        return self.values(law(self.law)(w))
+        return self.values(self.law(w))
 
     def values(self, f: Floats | Sequence[Floats]) -> Values:
         """(s, v, a, j) from f, f', f'', f''', (4, n), or (4, m, 1) for m places on every cam.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.laws import LAWS, Floats, law
+from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
+from graphcam.given.motion_law import Law
 from graphcam.mechanism.flat_faced import FlatFacedKinematics
 from graphcam.mechanism.oscillating import ManyOscillating
 from graphcam.mechanism.translating import ManyTranslating
@@ -21,8 +22,9 @@ from graphcam.sweeps.law_tables import Legs
 from graphcam.sweeps.sought import FlatSharpness, Many, Sharpness, Steepness
 
 QUANTITIES = (
-    "max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius", "max_v", "max_a", "feasible",
-)  # fmt: skip
+    *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
+    *("max_v", "max_a", "feasible"),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,12 +58,12 @@ class Chunk:
     @cached_property
     def max_v(self) -> Floats:
         """The greatest |v| [mm/rad], of an arm [rad/rad]: C_v h/F."""
-        return self._peak(lambda name: law(name).peak_velocity, 1)
+        return self._peak(lambda law: law.peak_velocity, 1)
 
     @cached_property
     def max_a(self) -> Floats:
         """The greatest |a|, of both sides of a jump [mm/rad^2], of an arm [rad/rad^2]: C_a h/F^2."""
-        return self._peak(lambda name: law(name).peak_acceleration, 2)
+        return self._peak(lambda law: law.peak_acceleration, 2)
 
     @cached_property
     def feasible(self) -> NDArray[np.bool_]:
@@ -112,24 +114,26 @@ class Chunk:
     def _over_legs(self, sought: Sought, legs: tuple[str, int, Floats]) -> Floats:
         key, direction, angle = legs
         out = np.full(len(self.designs), np.nan)
-        for name, which in self._by_law(key):
-            out[which] = greatest(sought.part(which), Legs(name, direction, self._lift[which], angle[which]))
+        for each, which in self._laws[key]:
+            out[which] = greatest(sought.part(which), Legs(each, direction, self._lift[which], angle[which]))
         return out
 
-    def _by_law(self, key: str) -> Iterator[tuple[str, Numbers | slice]]:
-        """The laws that occur, and whose they are."""
-        laws: NDArray[Any] = getattr(self.designs, key)
-        if laws.ndim == 0:
-            yield str(laws), slice(None)
-            return
-        for name in LAWS:
-            (which,) = np.nonzero(laws == name)
-            if which.size:
-                yield name, which
+    @cached_property
+    def _laws(self) -> dict[str, list[tuple[Law, Numbers | slice]]]:
+        """Of rises and returns the laws that occur, as seen from the low end, and whose they are."""
+        rises, returns = (_by_law(laws) for laws in (self.designs.rise_law, self.designs.return_law))
+        return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 
-    def _peak(self, coefficient: Callable[[str], float], power: int) -> Floats:
+    def _peak(self, coefficient: Callable[[Law], float], power: int) -> Floats:
         peaks = np.empty((2, len(self.designs)))
         for row, (key, _, angle) in zip(peaks, (self._rises, self._returns), strict=True):
-            for name, which in self._by_law(key):
-                row[which] = coefficient(name) * self._lift[which] / angle[which] ** power
+            for each, which in self._laws[key]:
+                row[which] = coefficient(each) * self._lift[which] / angle[which] ** power
         return peaks.max(axis=0)
+
+
+def _by_law(laws: NDArray[Any]) -> list[tuple[Law, Numbers | slice]]:
+    """The laws, and which of the designs follow each."""
+    if laws.ndim == 0:
+        return [(law(laws.item()), slice(None))]
+    return [(law(each), np.flatnonzero(laws == each)) for each in dict.fromkeys(laws.tolist())]

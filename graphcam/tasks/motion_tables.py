@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion_law import Law
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.sheet_tables import positive
 
@@ -22,6 +23,13 @@ class ByKind:
         from pydantic import Discriminator
 
         return Discriminator("kind").__get_pydantic_core_schema__(source, handler)
+
+
+class ByName:
+    """Tells pydantic that what a file says is a name."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        return handler.generate_schema(str)
 
 
 @dataclass(frozen=True)
@@ -43,7 +51,7 @@ class DwellTable:
 class _MovingTable:
     angle: float
     lift: float
-    law: str
+    law: Annotated[str | Law, ByName()]
     ratio: float = 1.0
 
     moves: ClassVar[type[Rise] | type[Return]]
@@ -60,7 +68,7 @@ class _MovingTable:
 
 @dataclass(frozen=True)
 class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own."""
 
     kind: Literal["rise"] = "rise"
     moves = Rise
@@ -68,7 +76,7 @@ class RiseTable(_MovingTable):
 
 @dataclass(frozen=True)
 class ReturnTable(_MovingTable):
-    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law of :data:`graphcam.LAWS`."""
+    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own."""
 
     kind: Literal["return"] = "return"
     moves = Return

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, get_args
 
 from graphcam.errors import DesignError
+from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
 from graphcam.words import Tell
 
@@ -76,9 +77,11 @@ class SheetTable:
 
 
 def plain(value: Any) -> Any:
-    """A table and all in it as dictionaries, lists, numbers and text; what is None is left out."""
+    """A table and all in it as dictionaries, lists, numbers and text; what is None is left out, a law is its name."""
     if isinstance(value, tuple):
         return [plain(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
+    if isinstance(value, Law):
+        return value.name
     if not dataclasses.is_dataclass(value):
         return value
     keys = [item.name for item in dataclasses.fields(value) if item.init]

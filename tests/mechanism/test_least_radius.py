@@ -14,7 +14,7 @@ from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.least_radius import minimum_radius, steepest_line, tangent_point
+from graphcam.mechanism.least_radius import minimum_radius, steepest_tangent
 
 DEG = math.pi / 180
 
@@ -136,7 +136,7 @@ def test_without_the_rest_condition_a_large_given_offset_needs_no_height():
 @pytest.mark.parametrize("k", [1e-9, 1e-3, 0.05, 0.3, 1.0, 50.0])
 def test_the_tangent_point_is_where_f_prime_less_f_over_k_is_greatest(name, k):
     the_law = law(name, ratio=0.6 if name == "rectangular" else 1.0)
-    u = tangent_point(the_law, k)
+    u, _ = steepest_tangent(the_law, k)
     around = u + np.array([-1e-4, -1e-6, 0, 1e-6, 1e-4]) * min(u, 0.1)
     f, df = the_law(around, derivatives=1)
     assert np.argmax(df - f / k) == 2
@@ -148,10 +148,10 @@ def test_the_tangent_point_is_where_f_prime_less_f_over_k_is_greatest(name, k):
 def test_the_closed_forms_of_the_steepest_line_to_four_eps(name, k):
     ratio = 0.6 if name == "rectangular" else 1.0
     the_law, best = law(name, ratio), mpf(0)
-    u = mpf(tangent_point(the_law, k))
+    u = mpf(steepest_tangent(the_law, k)[0])
     for x in (u, *findroot_of_the_slope(name, ratio, u, k)):
         best = max(best, diff(lambda y: lift(name, y, ratio), x) - lift(name, x, ratio) / mpf(k))
-    assert abs(mpf(steepest_line(the_law, k)) / best - 1) <= 4 * EPS
+    assert abs(mpf(steepest_tangent(the_law, k)[1]) / best - 1) <= 4 * EPS
 
 
 def findroot_of_the_slope(name: str, ratio: float, u, k: float) -> list:

@@ -17,7 +17,7 @@ from mpmath import mp, mpf
 from pages import HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
 from graphcam.given import laws
-from graphcam.mechanism import least_radius
+from graphcam.mechanism.least_radius import steepest_tangent
 
 WITH_COMMANDS = [page for page in HOW_TO if blocks(page, "bash")]
 NAMED = "5-6-7-8-9"
@@ -132,34 +132,52 @@ def test_the_check_of_the_page_names_what_is_not_translated_yet(with_german):
     assert "Velocity plan" in done.stdout
 
 
-@pytest.fixture
-def with_the_law(monkeypatch):
-    """The law of the page, added as the page says."""
-    formula, entry, closed_form = blocks("how-to/add-a-law.md", "python")
-    names = dict(vars(laws))
-    exec(formula, names)
-    monkeypatch.setattr(laws, "_SYMMETRIC", laws._SYMMETRIC | eval(f"{{{entry}}}", names))
-    monkeypatch.setattr(laws, "LAWS", (*laws.LAWS, NAMED))
-    monkeypatch.setattr(least_radius, "_POLYNOMIALS", least_radius._POLYNOMIALS | eval(f"{{{closed_form}}}"))
-    yield laws.law(NAMED)
-    laws._built.cache_clear()
+@pytest.fixture(scope="module")
+def cells():
+    """What the notebook of the page has computed, and the law that it adds to the package."""
+    *in_a_notebook, formula, entry = blocks("how-to/add-a-law.md", "python")
+    computed = {}
+    exec("\n".join(in_a_notebook), computed)
+    # The module of the laws with the page's lines in it.
+    text, table = Path(laws.__file__).read_text(encoding="utf-8"), "_MIRRORED = {\n"
+    assert text.count(table) == 1
+    added = {"__name__": laws.__name__}
+    exec(text.replace(table, f"{formula}\n{table}{entry}"), added)
+    assert NAMED in added["LAWS"]
+    return computed, added["law"](NAMED)
 
 
-def test_the_law_of_the_page_is_the_polynomial_that_it_names(with_the_law):
+def test_the_laws_of_the_page_are_the_polynomial_that_it_names(cells):
     """Against the integral of 630 u^4 (1 - u)^4, term by term and at 50 digits."""
     terms = [(5, 126), (6, -420), (7, 540), (8, -315), (9, 70)]
     u = np.linspace(0, 1, 41)
-    values = with_the_law(u)
-    with mp.workdps(50):
-        for k, value in enumerate(values):
-            exact = [sum(c * mpf(math.perm(n, k)) * mpf(x) ** (n - k) for n, c in terms) for x in u]
-            np.testing.assert_allclose(value, np.array(exact, dtype=float), rtol=1e-14, atol=1e-13 * 10**k)
-    fine = with_the_law(np.linspace(0, 1, 100_001))
-    assert fine[1].max() == pytest.approx(with_the_law.peak_velocity, rel=1e-9)
-    assert np.abs(fine[2]).max() == pytest.approx(with_the_law.peak_acceleration, rel=1e-8)
+    computed, added = cells
+    for law in (computed["law"], added):
+        with mp.workdps(50):
+            for k, value in enumerate(law(u)):
+                exact = [sum(c * mpf(math.perm(n, k)) * mpf(x) ** (n - k) for n, c in terms) for x in u]
+                np.testing.assert_allclose(value, np.array(exact, dtype=float), rtol=1e-12, atol=1e-13 * 10**k)
+        fine = law(np.linspace(0, 1, 100_001))
+        assert fine[1].max() == pytest.approx(law.peak_velocity, rel=1e-9)
+        assert np.abs(fine[2]).max() == pytest.approx(law.peak_acceleration, rel=1e-8)
 
 
 @pytest.mark.parametrize("k", [0.05, 0.5, 3.0, 40.0])
-def test_the_closed_form_of_the_page_is_the_steepest_line(with_the_law, k):
-    f, df = with_the_law(np.linspace(0, 1, 200_001), derivatives=1)
-    assert least_radius.steepest_line(with_the_law, k) == pytest.approx((df - f / k).max(), rel=1e-7)
+def test_the_closed_form_of_the_page_is_the_steepest_tangent(cells, k):
+    computed, added = cells
+    assert added.tangents[0]
+    assert not computed["law"].tangents[0]
+    assert steepest_tangent(added, k) == pytest.approx(steepest_tangent(computed["law"], k), rel=1e-12)
+
+
+def test_least_radius_sweep_and_task_of_the_page_take_its_laws(cells):
+    computed, _ = cells
+    f, f1 = computed["law"](np.linspace(0, 1, 200_001), 1)
+    slope = math.tan(math.radians(30))
+    steepest = (f1 * 30 / 2.0 - f * 30 * slope).max()
+    # Rise and rest bind: the apex of the region, half as high as the line meets the axis of v.
+    assert computed["least"].prime_radius == pytest.approx(math.hypot(steepest / 2, steepest / 2 / slope), rel=1e-9)
+    assert np.all(np.diff(computed["swept"]["max_pressure_angle_rise"]) < 0)
+    assert computed["solution"].to_dict()["task"]["motion"]["phases"][0]["law"] == NAMED
+    assert computed["sudden"].jumps == (0.4,)
+    assert computed["sampled"](0.5)[0] == pytest.approx(0.5, abs=1e-12)

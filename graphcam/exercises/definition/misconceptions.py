@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.law_names import LAWS
+from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition import mistakes
@@ -160,5 +160,5 @@ def misconception(name: str) -> Misconception:
         wanted = f"followed by a colon and {entry.takes}" if entry.takes else "without an argument"
         raise DesignError("misconception", name, wanted)
     return Misconception(
-        name, replace(entry.said, values={"argument": LAWS.get(argument, argument)}), entry.make(argument)
+        name, replace(entry.said, values={"argument": LAW_TITLES.get(argument, argument)}), entry.make(argument)
     )

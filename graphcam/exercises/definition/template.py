@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphcam.constructions.axes import turning
-from graphcam.constructions.law_names import LAWS
+from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.errors import TaskError, nearest
 from graphcam.exercises.definition.exercise import Exercise, Value
 from graphcam.tasks.task import Task
@@ -46,7 +46,7 @@ def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> st
 
 
 def _said(value: Value) -> Words:
-    return {"cw": turning("cw"), "ccw": turning("ccw"), **LAWS}.get(str(value), say("{value}", value=value))
+    return {"cw": turning("cw"), "ccw": turning("ccw"), **LAW_TITLES}.get(str(value), say("{value}", value=value))
 
 
 def _filled(node: Any, parameters: Mapping[str, Value], path: str) -> Any:

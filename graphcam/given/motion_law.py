@@ -1,0 +1,246 @@
+"""A motion law: the lift f from 0 to 1 while u runs from 0 to 1, with all that is the law's own.
+
+A law is made of pieces.  Those of its first part are functions of u; those after its ``middle`` are written as they
+look from the end, as functions of w = 1 - u for the lift still missing, 1 - f.  So what is small near an end (the lift
+just begun, the lift still missing, the velocity) keeps all its digits there, which 1 - f(u) would lose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import InitVar, dataclass, field
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError
+from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks
+
+Tangent = Callable[[float], tuple[float, float]]
+"""Where f' - f/k is greatest, and how great, as a function of k: a closed form."""
+
+SHARP = 1e-6
+"""Where the acceleration, or its slope, jumps by more than this part of the greatest acceleration, it is told."""
+CLOSE = 1e-9
+"""What a law gives of itself is true to this; intervals around a greatest value are narrowed to it."""
+SMOOTH = 1e-7
+"""The derivatives are one another's, over a part of a piece, to this fraction of the greatest."""
+PARTS = 17
+"""So many parts of a piece are looked at: a prime, so that no usual fraction, where a formula may bend, ends one."""
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
+DERIVATIVES = "f", "f'", "f''", "f'''"
+
+
+@dataclass(frozen=True)
+class Law:
+    """A normalised motion law; call it with u in [0, 1] for (f, f', f'', f''').
+
+    Parameters
+    ----------
+    name : what it is called on the sheet
+    formulas : a function that returns f, f', f'', f''' at an array of u; or several, one for every piece
+    edges : the inner places u where one formula takes over from another, in order
+    mirrored : whether the second half mirrors the first, 1 - f(1 - u); formulas and edges are then those of the first
+    middle : from here on formulas are functions of w = 1 - u that return 1 - f and its derivatives by w
+    ratio : |a1|/|a2|, first part's acceleration over the second's, if the law has two such parts
+    peaks : max f' and max |f''|; None has them found
+    tangents : closed forms of the place u where f' - f/k is greatest, and of that value, for any k > 0; the second one
+        is that of the law seen from its end.  None has the place found
+
+    Raises
+    ------
+    DesignError : the law does not lead from rest to rest, falls, has a velocity that jumps, or something that it gives
+        of itself is wrong: a derivative, a peak, a tangent
+
+    >>> def formula(u):
+    ...     return u**2 * (3 - 2 * u), 6 * u * (1 - u), 6 - 12 * u, 0 * u - 12
+    >>> law = Law("my own", formula)
+    >>> [float(x) for x in law(0.5)], law.peak_velocity
+    ([0.5, 1.5, 0.0, -12.0], 1.5)
+    >>> Law("constant acceleration", lambda u: (2 * u**2, 4 * u, 4, 0), mirrored=True).jumps
+    (0.5,)
+    """
+
+    name: str
+    formulas: Formula | Sequence[Formula] = field(repr=False)
+    edges: Sequence[float] = field(default=(), repr=False)
+    mirrored: InitVar[bool] = False
+    middle: float = field(default=1.0, repr=False)
+    ratio: float = 1.0
+    peaks: tuple[float, float] | None = field(default=None, repr=False)
+    tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
+    pieces: tuple[Piece, ...] = field(init=False, repr=False)
+    """the pieces between 0, the edges and 1"""
+
+    def __post_init__(self, mirrored: bool) -> None:
+        formulas = (self.formulas,) if callable(self.formulas) else tuple(self.formulas)
+        starts, middle = (0.0, *map(float, self.edges)), self.middle
+        if mirrored:
+            formulas, middle = (*formulas, *formulas[::-1]), 0.5
+            starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
+        if not all(a < b for a, b in pairwise((*starts, 1.0))):
+            raise self._wrong("edges", list(starts[1:]), "between 0 and 1, in order")
+        if len(formulas) != len(starts):
+            limit = f"{len(starts)}, one for each piece between 0, the edges and 1"
+            raise self._wrong("number of formulas", len(formulas), limit, "at an edge another formula takes over")
+        # Seen from the end the lift is the missing lift and the acceleration its negative.
+        pieces = (
+            Piece(formula, u, 0.0, 1.0, 0.0, (1, 1, 1, 1))
+            if u < middle
+            else Piece(formula, u, 1.0, -1.0, 1.0, (-1, 1, -1, 1))
+            for formula, u in zip(formulas, starts, strict=True)
+        )
+        made = {"formulas": formulas, "edges": starts[1:], "middle": middle, "pieces": tuple(pieces)}
+        for name, value in made.items():
+            object.__setattr__(self, name, value)
+        self._check()
+
+    def __call__(self, u: ArrayLike, derivatives: int = 3, side: Side = "right") -> tuple[Floats, ...]:
+        """The lift f and its first ``derivatives`` derivatives at u, each shaped like u; NaN outside [0, 1].
+
+        At a break the value of the named side is returned; u = 0 and u = 1 have only one.
+        """
+        u = np.asarray(u, dtype=np.float64)
+        flat = u.ravel()
+        out = np.empty((4, flat.size))
+        for here in chunks(flat.size):
+            inside = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
+            self._piecewise.fill(inside, side, out[:, here])
+        return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
+
+    @cached_property
+    def _piecewise(self) -> Piecewise:
+        return Piecewise(self.pieces)
+
+    @cached_property
+    def peak_velocity(self) -> float:
+        """C_v = max f', so v_max = C_v h/F."""
+        return self.peaks[0] if self.peaks else self._greatest(1)
+
+    @cached_property
+    def peak_acceleration(self) -> float:
+        """C_a = max |f''|, so a_max = C_a h/F^2."""
+        return self.peaks[1] if self.peaks else self._greatest(2)
+
+    @cached_property
+    def breaks(self) -> tuple[float, ...]:
+        """The inner places u where a derivative may jump, in order."""
+        # Where a formula meets its own mirror image, only the acceleration can jump.
+        met = zip(self.edges, pairwise(self.pieces), strict=True)
+        mirrors = [u for u, (a, b) in met if a.formula is b.formula and a.length != b.length]
+        return tuple(u for u in self.edges if u not in mirrors or u in self.jumps)
+
+    @cached_property
+    def jumps(self) -> tuple[float, ...]:
+        """The inner places u where the acceleration itself jumps."""
+        return self._jumping(2)
+
+    @cached_property
+    def corners(self) -> tuple[float, ...]:
+        """The inner places u where the acceleration turns a corner: it is continuous, its slope jumps."""
+        return tuple(u for u in self._jumping(3) if u not in self.jumps)
+
+    def _jumping(self, order: int) -> tuple[float, ...]:
+        edges = np.array(self.edges)
+        before, after = (self(edges, side=side)[order] for side in ("left", "right"))
+        return tuple(edges[np.abs(after - before) > SHARP * self.peak_acceleration].tolist())
+
+    @cached_property
+    def reversed(self) -> Law:
+        """The law that runs backwards: 1 - f(1 - u).
+
+        >>> from graphcam.given.laws import law
+        >>> law("rectangular", ratio=4.0).reversed.ratio
+        0.25
+        """
+        formulas, edges = [piece.formula for piece in self.pieces], tuple(1 - u for u in reversed(self.edges))
+        if (formulas[::-1], edges, self.middle) == (formulas, self.edges, 0.5):
+            return self
+        ahead, back = self.tangents
+        return Law(self.name, formulas[::-1], edges, False, 1 - self.middle, 1 / self.ratio, self.peaks, (back, ahead))
+
+    # --- what a law must keep to --------------------------------------------------------------------------------------
+
+    def _greatest(self, order: int) -> float:
+        """The greatest |f'| or |f''|, of both sides of a jump, to full precision."""
+        low, high = self._parts()
+        while True:
+            u = np.linspace(low, high, 9)
+            height = np.abs([*self(u[:1])[order], *self(u[1:], side="left")[order]])
+            if np.max(high - low) < CLOSE:
+                return float(height.max())
+            top, column = np.clip(height.argmax(axis=0), 1, 7), np.arange(low.size)
+            low, high = u[top - 1, column], u[top + 1, column]
+
+    def _parts(self) -> tuple[Floats, Floats]:
+        """Where the parts of the pieces begin and end."""
+        ends = np.array([0.0, *self.edges, 1.0])
+        places = np.linspace(ends[:-1], ends[1:], PARTS + 1)
+        return places[:-1].T.ravel(), places[1:].T.ravel()
+
+    def _wrong(self, what: str, value: object, limit: str, remedy: str = "") -> DesignError:
+        return DesignError(f"{what} of the law '{self.name}'", value, limit, remedy)
+
+    def _check(self) -> None:
+        """Refuse what is no law.
+
+        first, inside, last : f, f', f'', f''' where each part of a piece begins, at Gauss's places in it, at its end
+        """
+        low, high = self._parts()
+        u = low + (high - low) * (NODES[:, None] + 1) / 2
+        try:
+            first, inside, last = (np.array(x) for x in (self(low), self(u), self(high, side="left")))
+        except (TypeError, ValueError) as error:
+            limit = "one that takes an array of u and returns f, f', f'', f''' there"
+            raise self._wrong("formula", f"one with the error: {error}", limit, "use numpy's functions") from error
+        for order, name in enumerate(DERIVATIVES):
+            if not np.isfinite(inside[order]).all():
+                raise self._wrong(name, "not finite", "a finite number everywhere")
+        for name, value, limit in (
+            *(("f(0)", first[0, 0], 0), ("f(1)", last[0, -1], 1)),
+            *(("f'(0)", first[1, 0], 0), ("f'(1)", last[1, -1], 0)),
+        ):
+            if not abs(value - limit) <= CLOSE:
+                raise self._wrong(name, value, f"{limit}", "a law leads from rest to rest")
+        for order in (0, 1):
+            k = int(np.argmax(np.abs(jump := first[order, 1:] - last[order, :-1])))
+            if abs(jump[k]) > CLOSE:
+                what = f"jump of {DERIVATIVES[order]} at u = {high[k]:g}"
+                raise self._wrong(what, jump[k], "0", "lift and velocity are continuous")
+        self._check_derivatives(low, high, last - first, inside)
+        if inside[1].min() < -CLOSE:
+            at = u.ravel()[inside[1].argmin()]
+            remedy = "what falls on its way is a motion of several phases"
+            raise self._wrong(f"f' at u = {at:.3g}", inside[1].min(), "0 or more", remedy)
+        self._check_closed_forms(inside)
+
+    def _check_derivatives(self, low: Floats, high: Floats, change: Floats, inside: Floats) -> None:
+        """Over every part of a piece each derivative integrates to what the one before changes by."""
+        integrals = (high - low) / 2 * np.einsum("n,dnp->dp", WEIGHTS, inside)
+        for order in range(3):
+            off = np.abs(integrals[order + 1] - change[order])
+            if off.max() > SMOOTH * np.abs(inside[order]).max():
+                k, name = int(off.argmax()), DERIVATIVES[order]
+                what = f"integral of {DERIVATIVES[order + 1]} from u = {low[k]:.3g} to {high[k]:.3g}"
+                remedy = "correct the derivative; if one jumps there, give an edge and a formula for either side"
+                raise self._wrong(
+                    what, integrals[order + 1, k], f"{change[order, k]:.6g}, the change of {name}", remedy
+                )
+
+    def _check_closed_forms(self, inside: Floats) -> None:
+        for name, peak, order in zip(("max f'", "max |f''|"), self.peaks or (), (1, 2), strict=False):
+            if abs(peak - (found := self._greatest(order))) > CLOSE * found:
+                raise self._wrong(f"given {name}", peak, f"{found:.10g}")
+        for tangent, lift, at_end in zip(self.tangents, (inside[0], 1 - inside[0]), (False, True), strict=True):
+            if tangent is None:
+                continue
+            for k in (0.05, 0.5, 5.0):
+                u, height = tangent(k)
+                f, f1 = self(1 - u if at_end else u, 1)
+                there = f1 - (1 - f if at_end else f) / k
+                best = (inside[1] - lift / k).max()
+                if not (abs(height - there) <= CLOSE * (1 + 1 / k) and height >= best - CLOSE * (1 + 1 / k)):
+                    limit = f"at least {best:.6g}, and f' - f/k at the place"
+                    raise self._wrong(f"tangent for k = {k}", height, limit)
