@@ -35,6 +35,7 @@ from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.arcs import ThreeArcCam as ThreeArcCam
 from .mechanism.arcs import three_arc_cam as three_arc_cam
 from .mechanism.cam import Cam as Cam
+from .mechanism.cam import largest_roller as largest_roller
 from .mechanism.contact import Contact as Contact
 from .mechanism.contact import SpringPreload as SpringPreload
 from .mechanism.contact import spring_preload as spring_preload
@@ -69,7 +70,6 @@ from .mechanism.spline import ProfileSpline as ProfileSpline
 from .mechanism.spline import profile_spline as profile_spline
 from .mechanism.three_points import circumradius as circumradius
 from .mechanism.undercut import Undercut as Undercut
-from .mechanism.undercut import largest_roller as largest_roller
 from .report.sizing_sheet import sizing_sheet as sizing_sheet
 from .solving.arcs_solution import ArcsSolution as ArcsSolution
 from .solving.solution import Solution as Solution

@@ -17,9 +17,8 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
-from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.kinematics import RollerKinematics, Values
+from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.one_sided import ValueAt, greatest
 from graphcam.mechanism.stationary import Places
 
@@ -95,10 +94,8 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         # The sum first: of a roller in a hollow that is hardly wider it is exact, the difference of quotients is not.
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
-        raise DesignError(
-            "radii", f"{radius1:g} and {radius2:g} mm", "such that they touch in one line",
-            "a hollow must be wider than what lies in it",
-        )  # fmt: skip
+        found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
+        raise DesignError("radii", found, "such that they touch in one line", remedy)
     return bend
 
 
@@ -173,8 +170,8 @@ class ContactStress:
 
     def __post_init__(self) -> None:
         if not self.forces.cam.roller_radius > 0:
-            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm",
-                              "a knife edge has no line contact")  # fmt: skip
+            reason = "a knife edge has no line contact"
+            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm", reason)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
         """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
@@ -185,10 +182,9 @@ class ContactStress:
         load = np.maximum(forces.normal, 0) / self.contact.width / math.pi
         with np.errstate(divide="ignore"):
             radius = room / kappa
-        return Stresses(
-            forces.phi, forces.normal, radius, np.sqrt(load * self.contact.modulus / (r * sound)),
-            2 * np.sqrt(load * r * sound / self.contact.modulus),
-        )  # fmt: skip
+        stiffness = self.contact.modulus
+        peak, half_width = np.sqrt(load * stiffness / (r * sound)), 2 * np.sqrt(load * r * sound / stiffness)
+        return Stresses(forces.phi, forces.normal, radius, peak, half_width)
 
     def greatest(self) -> ValueAt:
         """The greatest peak pressure over the turn [MPa], both sides of every jump included.
@@ -200,10 +196,8 @@ class ContactStress:
         cam = self.forces.cam
         rho, _ = cam.extremes().min_convex_radius
         if not self._roller < rho:
-            raise DesignError(
-                "roller radius", self._roller, f"less than the least radius of curvature of {rho:.6g} mm",
-                "take a smaller roller or enlarge the prime radius",
-            )  # fmt: skip
+            limit = f"less than the least radius of curvature of {rho:.6g} mm"
+            raise DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")
         if self.forces.greatest_normal().value <= 0:
             raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
         squared, phi, side = greatest(cam.motion, self.slope, self._squared)
@@ -227,11 +221,8 @@ class ContactStress:
         return self.forces.cam.roller_radius
 
     @property
-    def _kinematics(self) -> RollerKinematics:
-        cam = self.forces.cam
-        found = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
-        assert isinstance(found, RollerKinematics)
-        return found
+    def _kinematics(self) -> Kinematics:
+        return self.forces.cam.kinematics
 
     def _squared(self, places: Places) -> Floats:
         room = 1 - self._kinematics.curvature(places.values) * self._roller

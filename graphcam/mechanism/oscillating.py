@@ -9,15 +9,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.circular import sine_cosine
+from graphcam.given.follower import Oscillating
 from graphcam.given.laws import Floats
-from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
+from graphcam.given.motion import Motion
+from graphcam.mechanism.kinematics import Appearance, Pair, RollerKinematics, Values
 
 
 @dataclass(frozen=True)
@@ -40,18 +42,24 @@ class OscillatingKinematics(RollerKinematics):
 
     def __post_init__(self) -> None:
         arm, distance, r0 = self.arm, self.distance, self.prime_radius
-        if not abs(distance - arm) < r0 < distance + arm:
-            raise DesignError(
-                "prime radius", r0, f"between {abs(distance - arm):g} and {distance + arm:g} mm, "
-                f"where the arm of {arm:g} mm meets it from a centre distance of {distance:g} mm",
-                "change the prime radius, the arm or the centre distance",
-            )  # fmt: skip
+        nearest, farthest = abs(distance - arm), distance + arm
+        if not nearest < r0 < farthest:
+            limit = f"between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it"
+            limit += f" from a centre distance of {distance:g} mm"
+            raise DesignError("prime radius", r0, limit, "change the prime radius, the arm or the centre distance")
         if not self.psi0 + self.swing < math.pi:
-            raise DesignError(
-                "lift", f"{math.degrees(self.swing):g} degrees",
-                f"less than the {math.degrees(math.pi - self.psi0):g} degrees from the low rest to the stretched arm",
-                "make the lift or the prime radius smaller, or the centre distance or the arm longer",
-            )  # fmt: skip
+            left = math.degrees(math.pi - self.psi0)
+            limit = f"less than the {left:g} degrees from the low rest to the stretched arm"
+            remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
+            raise DesignError("lift", f"{math.degrees(self.swing):g} degrees", limit, remedy)
+
+    @classmethod
+    def of(cls, follower: Oscillating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """With the arm and its centre distance; the lift is an angle."""
+        if follower.distance is None:
+            remedy = "take the one that minimum_radius(...) finds"
+            raise DesignError("centre distance", "left open", "given for a cam", remedy)
+        return cls(sigma, follower.arm, follower.distance, prime_radius, lift)
 
     @cached_property
     def psi0(self) -> float:
@@ -70,8 +78,8 @@ class OscillatingKinematics(RollerKinematics):
         x, y = (self.distance - self.arm) + 2 * self.arm * sine * sine, 2 * self.arm * sine * cosine
         # (k + i m) l exp(-i psi), with l cos(psi) = c - x
         forth, back = self.arm * (cosine - sine) * (cosine + sine), -y
-        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth)
-                      for k, m in ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v)))  # fmt: skip
+        factors = ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v))
+        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth) for k, m in factors)
         return (x, y), z1, z2, z3
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
@@ -86,6 +94,11 @@ class OscillatingKinematics(RollerKinematics):
         up, forth = 2 * c * sine * cosine, c * (cosine - sine) * (cosine + sine)  # c sin(psi), c cos(psi)
         across = (arm - c) + self.sigma * arm * v + 2 * c * sine * sine
         return (up, across), (v * forth, v * up + self.sigma * arm * a)
+
+    def appearance(self, motion: Motion, values: Values) -> Appearance:
+        """An arm; from the left it swings clockwise on the rise."""
+        trace, pivot = self.point(values), complex(self.distance)
+        return Appearance("arm", trace, -1j * (trace - pivot) / self.arm, pivot)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,12 +8,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.follower import Translating
 from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
 
 
@@ -30,13 +31,18 @@ class TranslatingKinematics(RollerKinematics):
 
     offset: float
     prime_radius: float
+    has_forces = True
 
     def __post_init__(self) -> None:
         if not abs(self.offset) < self.prime_radius:
-            raise DesignError(
-                "offset", self.offset, f"smaller than the prime radius of {self.prime_radius} mm in magnitude",
-                "bring the follower nearer to the cam centre or enlarge the prime radius",
-            )  # fmt: skip
+            limit = f"smaller than the prime radius of {self.prime_radius} mm in magnitude"
+            remedy = "bring the follower nearer to the cam centre or enlarge the prime radius"
+            raise DesignError("offset", self.offset, limit, remedy)
+
+    @classmethod
+    def of(cls, follower: Translating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """With the follower's offset."""
+        return cls(sigma, follower.offset, prime_radius)
 
     @property
     def s0(self) -> float:

@@ -10,8 +10,8 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced
-from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.undercut import Undercut, largest_roller
+from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.undercut import Undercut
 from graphcam.words import Caption, say, sequence
 
 LAST_DIGIT = 0.005
