@@ -116,8 +116,11 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
-    points = (_base_point(c2, rho2, g), _outer_point(c1, abs(k)), f, g, c1, c2, c3)
-    return ThreeArcCam(given, *map(_xy, points), abs(k), rho2, abs(t), t < 0, 0 < k < t < rho2, why)
+    a, d = _base_point(c2, rho2, g), _outer_point(c1, abs(k))
+    A, D, F, G, C1, C2, C3 = (_xy(point) for point in (a, d, f, g, c1, c2, c3))
+    return ThreeArcCam(
+        *(given, A, D, F, G, C1, C2, C3, abs(k), rho2, abs(t)), hollow=t < 0, sound=0 < k < t < rho2, reason=why
+    )
 
 
 def _base_point(c2: complex, rho2: float, g: complex) -> complex:

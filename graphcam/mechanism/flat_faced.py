@@ -35,6 +35,7 @@ class FlatFacedKinematics(Kinematics):
     sigma: int
     prime_radius: float
     takes_roller = False
+    has_pressure_angle = False
 
     @classmethod
     def of(cls, follower: FlatFaced, prime_radius: Any, sigma: Any, lift: Any) -> Self:

@@ -58,6 +58,8 @@ class Kinematics(ABC):
     prime_radius: Any
     takes_roller: ClassVar[bool] = True
     """Whether a roller touches the cam, or a knife edge in its place: then a smaller roller mends an undercut."""
+    has_pressure_angle: ClassVar[bool] = True
+    """Whether the contact pushes the follower aside at all."""
     has_forces: ClassVar[bool] = False
     """Whether :mod:`~graphcam.mechanism.forces` works out the forces on it."""
 

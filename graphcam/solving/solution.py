@@ -15,7 +15,6 @@ from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.given.follower import FlatFaced, Oscillating
 from graphcam.mechanism.cam import Cam
 from graphcam.solving.json_values import plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
@@ -108,12 +107,8 @@ class Solution:
         }
 
     def _follower_sizes(self) -> dict[str, float | None]:
-        if isinstance(self.cam.follower, FlatFaced):
-            return {"offset": None, "roller_radius": None}
-        follower = self.cam.follower
-        arm: dict[str, float | None] = {"arm": follower.arm} if isinstance(follower, Oscillating) else {}
-        place = {self.chain.board.follower.place_name: self.chain.place}
-        return {**arm, **place, "roller_radius": self.chain.roller_radius}
+        sizes = self.chain.board.follower.sizes(self.chain.place, self.cam.roller_radius)
+        return {size.name: size.value for size in sizes}
 
     @property
     def _lift(self) -> tuple[float, str]:

@@ -8,20 +8,16 @@ from typing import ClassVar
 import numpy as np
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.flat_faced import FlatFacedKinematics
+from graphcam.mechanism.followers import ManyKinematics
 from graphcam.mechanism.kinematics import Values, pair_cross
-from graphcam.mechanism.oscillating import ManyOscillating
-from graphcam.mechanism.translating import ManyTranslating
 from graphcam.sweeps.greatest import Numbers
-
-Many = ManyTranslating | ManyOscillating
 
 
 @dataclass(frozen=True, eq=False)
 class Steepness:
     """tan(alpha), which grows with the pressure angle."""
 
-    kin: Many
+    kin: ManyKinematics
     signed: ClassVar[bool] = True
 
     def part(self, which: Numbers | slice) -> Steepness:
@@ -40,9 +36,9 @@ class Steepness:
 
 @dataclass(frozen=True, eq=False)
 class Sharpness:
-    """The curvature of the pitch curve."""
+    """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
 
-    kin: Many
+    kin: ManyKinematics
     signed: ClassVar[bool] = False
 
     def part(self, which: Numbers | slice) -> Sharpness:
@@ -50,38 +46,13 @@ class Sharpness:
         return Sharpness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
-        """kappa [1/mm]."""
-        return self.kin.curvature(values)
+        """kappa [1/mm], or -rho [mm] of a flat face's cam."""
+        return self.kin.sharpness(values)
 
     def slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
         return self.kin.curvature_slope(values)
 
     def radius(self, sharpest: Floats) -> Floats:
-        """The least convex radius [mm], inf where nothing is convex."""
-        with np.errstate(divide="ignore"):
-            return np.where(sharpest <= 0, np.inf, 1 / sharpest)
-
-
-@dataclass(frozen=True, eq=False)
-class FlatSharpness:
-    """-rho of a flat face's cam."""
-
-    kin: FlatFacedKinematics
-    signed: ClassVar[bool] = False
-
-    def part(self, which: Numbers | slice) -> FlatSharpness:
-        """The same of some of the cams."""
-        return FlatSharpness(FlatFacedKinematics(self.kin.sigma, np.asarray(self.kin.prime_radius)[which]))
-
-    def reading(self, values: Values) -> Floats:
-        """-rho [mm]."""
-        return -self.kin.convex_radius(values)
-
-    def slope(self, values: Values) -> Floats:
-        """-rho'."""
-        return self.kin.curvature_slope(values)
-
-    def radius(self, sharpest: Floats) -> Floats:
-        """The least rho [mm]."""
-        return -sharpest
+        """The least convex radius [mm], inf where nothing is convex; under a flat face the least rho."""
+        return self.kin.radius_of(sharpest)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future
@@ -13,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
-from graphcam.mechanism.least_radius import USUAL_LIMIT
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
 
@@ -105,7 +106,7 @@ def usual_limit(follower: str) -> float:
     >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
     45.0
     """
-    return USUAL_LIMIT.get(follower, USUAL_LIMIT["translating"])
+    return math.radians(FOLLOWERS[follower].usual_limit_deg)
 
 
 def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:
