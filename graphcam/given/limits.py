@@ -27,7 +27,6 @@ class Limits:
     def __post_init__(self) -> None:
         for name, value in (("rise", self.rise), ("return", self.return_)):
             if value is not None and not 0 < value < math.pi / 2:
-                raise DesignError(
-                    f"permitted pressure angle on the {name}", f"{math.degrees(value):g} degrees",
-                    "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower",
-                )  # fmt: skip
+                quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
+                remedy = "30 degrees is usual for a translating follower"
+                raise DesignError(quantity, f"{math.degrees(value):g} degrees", limit, remedy)

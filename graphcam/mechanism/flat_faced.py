@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Rotation, sense
@@ -22,25 +21,24 @@ from graphcam.mechanism.peaks import velocity_range
 from graphcam.mechanism.stationary import stationary_places
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FlatFacedKinematics(Kinematics):
     """The face touches the cam at sigma v + i (r0 + s), where the profile has the radius rho = r0 + s + a.
 
     rho is signed.  A face cannot reach into a hollow: the profile is never concave.  Where rho is negative the envelope
     runs backwards between two cusps (rho = 0) and cannot be cut, and kappa = 1/rho is negative there.
-
-    sigma : the sense in which the cam turns;  prime_radius : r0 [mm], the profile's least radius
     """
 
-    sigma: int
-    prime_radius: float
     takes_roller = False
     has_pressure_angle = False
 
     @classmethod
-    def of(cls, follower: FlatFaced, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """Any prime radius will do."""
+    def of(cls, sizes: FlatFaced, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """Of a face there is nothing to know."""
         return cls(sigma, prime_radius)
+
+    def check(self) -> None:
+        """Any prime radius will do."""
 
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
         """The point where the face touches the profile [mm], the normal of the face, the profile's curvature [1/mm]."""
@@ -85,18 +83,6 @@ class FlatFacedKinematics(Kinematics):
         width = face_width(motion, "ccw" if self.sigma > 0 else "cw")
         stem = super().appearance(motion, values)
         return replace(stem, kind="face", trace=1j * stem.trace.imag, face=(-width.left, width.right))
-
-
-@dataclass(frozen=True, eq=False)
-class ManyFlatFaced(FlatFacedKinematics):
-    """Flat faces on many cams at once: sense and prime radius are arrays."""
-
-    sigma: Any
-    prime_radius: Any
-
-    def part(self, which: NDArray[Any] | slice) -> ManyFlatFaced:
-        """The same of some of the cams."""
-        return ManyFlatFaced(self.sigma[which], self.prime_radius[which])
 
 
 def _ones(values: Values) -> Floats:

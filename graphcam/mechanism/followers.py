@@ -3,40 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal, NamedTuple
 
-from graphcam.given.follower import FOLLOWERS, FlatFaced, Follower, Oscillating, Translating
-from graphcam.mechanism.flat_faced import FlatFacedKinematics, FlatMinimumRadius, ManyFlatFaced, flat_minimum_radius
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating
+from graphcam.mechanism.flat_faced import FlatFacedKinematics, FlatMinimumRadius, flat_minimum_radius
 from graphcam.mechanism.kinematics import Kinematics
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, arm_minimum_radius
 from graphcam.mechanism.least_radius_translating import MinimumRadius, translating_minimum_radius
-from graphcam.mechanism.oscillating import ManyOscillating, OscillatingKinematics
-from graphcam.mechanism.translating import ManyTranslating, TranslatingKinematics
+from graphcam.mechanism.oscillating import OscillatingKinematics
+from graphcam.mechanism.translating import TranslatingKinematics
 
 LeastRadius = MinimumRadius | ArmMinimumRadius | FlatMinimumRadius
-ManyKinematics = ManyTranslating | ManyOscillating | ManyFlatFaced
 
 
-@dataclass(frozen=True)
-class ExactFunctions:
+class ExactFunctions(NamedTuple):
     """What the exact side has for one kind of follower.
 
-    kinematics, many : on one cam, and on many at once
-    least_radius : of (motion, follower, sigma, limits, condition)
+    least_radius : of (motion, follower, sigma, limits) and the condition
     condition : the argument of ``minimum_radius`` that is its own
     """
 
     kinematics: type[Kinematics]
-    many: type[ManyKinematics]
     least_radius: Callable[..., LeastRadius]
     condition: Literal["offset", "curvature"] | None
 
 
 EXACT: dict[type[Follower], ExactFunctions] = {
-    Translating: ExactFunctions(TranslatingKinematics, ManyTranslating, translating_minimum_radius, "offset"),
-    Oscillating: ExactFunctions(OscillatingKinematics, ManyOscillating, arm_minimum_radius, None),
-    FlatFaced: ExactFunctions(FlatFacedKinematics, ManyFlatFaced, flat_minimum_radius, "curvature"),
+    Translating: ExactFunctions(TranslatingKinematics, translating_minimum_radius, "offset"),
+    Oscillating: ExactFunctions(OscillatingKinematics, arm_minimum_radius, None),
+    FlatFaced: ExactFunctions(FlatFacedKinematics, flat_minimum_radius, "curvature"),
 }
 
 
@@ -50,11 +45,8 @@ def kinematics(follower: Follower, prime_radius: float, sigma: int, lift: float)
     DesignError : the follower does not fit the prime radius or the lift, or an arm's centre distance is open
 
     >>> kinematics(Translating(offset=30), prime_radius=50, sigma=+1, lift=20)
-    TranslatingKinematics(sigma=1, offset=30, prime_radius=50)
+    TranslatingKinematics(sigma=1, prime_radius=50, offset=30)
     """
-    return EXACT[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)
-
-
-def many_kinematics(kind: str, sizes: Any, prime_radius: Any, sigma: Any, lift: Any) -> ManyKinematics:
-    """The same of many followers of a kind, whose ``sizes`` are arrays by the names of the follower's."""
-    return EXACT[FOLLOWERS[kind]].many.of(sizes, prime_radius, sigma, lift)
+    found = EXACT[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)
+    found.check()
+    return found

@@ -14,7 +14,7 @@ sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -46,15 +46,17 @@ class Appearance:
     face: tuple[float, float] = (0.0, 0.0)
 
 
+@dataclass(frozen=True, eq=False)
 class Kinematics(ABC):
     """One kind of follower on one cam; points and vectors of the frame are complex numbers, x + i y.
 
-    Everything follows from (s, v, a, j), whatever the angle or the phase they came from.
+    Everything follows from (s, v, a, j), whatever the angle or the phase they came from.  Sizes may also be arrays, of
+    many cams at once: what does not fit gives NaN.
 
     sigma : the sense in which the cam turns;  prime_radius : r0 [mm]
     """
 
-    sigma: int
+    sigma: Any
     prime_radius: Any
     takes_roller: ClassVar[bool] = True
     """Whether a roller touches the cam, or a knife edge in its place: then a smaller roller mends an undercut."""
@@ -65,13 +67,21 @@ class Kinematics(ABC):
 
     @classmethod
     @abstractmethod
-    def of(cls, follower: Any, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """Of a follower, or of many with arrays for sizes.
+    def of(cls, sizes: Any, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """Of a follower, or of many with arrays for its sizes."""
+
+    @abstractmethod
+    def check(self) -> None:
+        """That there can be such a cam, a single one.
 
         Raises
         ------
-        DesignError : the follower does not fit the prime radius or the lift, or an arm's centre distance is open
+        DesignError : the follower does not fit the prime radius or the lift
         """
+
+    def part(self, which: NDArray[Any] | slice) -> Self:
+        """The same of some of the cams."""
+        return type(self)(*(getattr(self, size.name)[which] for size in fields(self)))
 
     @abstractmethod
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
@@ -124,14 +134,9 @@ class Kinematics(ABC):
         return Appearance("stem", self.point(values), np.full(np.shape(values[0]), 1j))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RollerKinematics(Kinematics):
-    """A follower with a roller or a knife edge: what follows from its trace point.
-
-    sigma : the sense in which the cam turns
-    """
-
-    sigma: int
+    """A follower with a roller or a knife edge: what follows from its trace point."""
 
     @abstractmethod
     def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:

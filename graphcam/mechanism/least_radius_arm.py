@@ -101,10 +101,9 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
         point, lines = _exchange(region, arc.point(0.0), arc.first)
         if region.worst(point, refined=True)[0] > KEPT * (follower.arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
-            raise DesignError(
-                "centre distance", distance, "one at which the pressure angle can keep its limits over the whole swing",
-                f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm",
-            )  # fmt: skip
+            limit = "one at which the pressure angle can keep its limits over the whole swing"
+            remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
+            raise DesignError("centre distance", distance, limit, remedy)
     active: list[Line] = [name for name in get_args(Line) if any(line.name == name for line in lines)]
     return ArmMinimumRadius(abs(point), distance, tuple(active))
 
@@ -114,11 +113,9 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     back = math.pi / 2 if limits.return_ is None else limits.return_
     room = 2 * min(limits.rise, back) if limits.rest else limits.rise + back
     if motion.lift >= room:
-        raise DesignError(
-            "lift", f"{math.degrees(motion.lift):g} degrees",
-            f"less than {math.degrees(room):g} degrees for these limits",
-            "permit larger pressure angles or swing the arm less",
-        )  # fmt: skip
+        lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
+        remedy = "permit larger pressure angles or swing the arm less"
+        raise DesignError("lift", lift, f"less than {limit} for these limits", remedy)
 
 
 # --- the lines -------------------------------------------------------------------------------------------------------
@@ -216,11 +213,8 @@ class _Region:
         may_be_worst = 3 * here - before - after >= max(0.0, excess.max())
         piece, k = np.nonzero((here > before) & (here >= after) & may_be_worst)
         phase, low, high = self.phase[piece], self.u[piece, k], self.u[piece, k + 2]
-        angle, lines, u = (
-            np.array([self.motion.phases[k].angle for k in phase]),
-            self._driven(piece),
-            self.u[piece, k + 1],
-        )
+        angle = np.array([self.motion.phases[k].angle for k in phase])
+        lines, u = self._driven(piece), self.u[piece, k + 1]
         while True:
             values = self.motion.at(phase, u)
             first, second = lines.slopes(values, point)

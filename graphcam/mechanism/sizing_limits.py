@@ -21,7 +21,7 @@ from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.hertz import ContactStress, RollerContact
 from graphcam.mechanism.kinematics import Values, pair_cross
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
-from graphcam.mechanism.translating import ManyTranslating
+from graphcam.mechanism.translating import TranslatingKinematics
 
 LIMITS = ("pressure angle on the rise", "pressure angle on the return", "curvature", "stress")
 SPREAD = 24
@@ -123,7 +123,7 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
 
     returns : by the names of :data:`LIMITS`, each (..., n)
     """
-    kin = ManyTranslating(sigma, sizes.offset, sizes.radius)
+    kin = TranslatingKinematics(sigma, sizes.radius, sizes.offset)
     (along, across), _ = kin.pressure(places.values)
     kappa, steepness = kin.curvature(places.values), np.abs(across) / along
 

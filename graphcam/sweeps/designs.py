@@ -18,8 +18,9 @@ from graphcam.mechanism.cam import Cam
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 
 NUMBERS = (
-    "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius", "offset", "arm", "distance", "roller_radius",
-)  # fmt: skip
+    *("lift", "rise_angle", "dwell_angle", "return_angle"),
+    *("prime_radius", "offset", "arm", "distance", "roller_radius"),
+)
 """The sizes of a design."""
 Kind = Literal["translating", "oscillating", "flat-faced"]
 OWN = {kind: tuple(size.name for size in fields(follower)) for kind, follower in FOLLOWERS.items()}
@@ -74,10 +75,8 @@ class Designs:
         _words("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            raise DesignError(
-                "number of designs", " and ".join(map(str, sorted(sizes))), "the same in every array",
-                "give one number for all cams, or one for each",
-            )  # fmt: skip
+            found, remedy = " and ".join(map(str, sorted(sizes))), "give one number for all cams, or one for each"
+            raise DesignError("number of designs", found, "the same in every array", remedy)
         self._check_follower()
 
     def _check_follower(self) -> None:

@@ -8,8 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.followers import ManyKinematics
-from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.greatest import Numbers
 
 
@@ -17,7 +16,7 @@ from graphcam.sweeps.greatest import Numbers
 class Steepness:
     """tan(alpha), which grows with the pressure angle."""
 
-    kin: ManyKinematics
+    kin: Kinematics
     signed: ClassVar[bool] = True
 
     def part(self, which: Numbers | slice) -> Steepness:
@@ -38,7 +37,7 @@ class Steepness:
 class Sharpness:
     """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
 
-    kin: ManyKinematics
+    kin: Kinematics
     signed: ClassVar[bool] = False
 
     def part(self, which: Numbers | slice) -> Sharpness:

@@ -11,17 +11,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import LAWS, Floats, law
 from graphcam.given.limits import Limits
-from graphcam.mechanism.followers import ManyKinematics, many_kinematics
+from graphcam.mechanism.followers import EXACT
+from graphcam.mechanism.kinematics import Kinematics
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Numbers, Sought, greatest
 from graphcam.sweeps.law_tables import Legs
 from graphcam.sweeps.sought import Sharpness, Steepness
 
 QUANTITIES = (
-    "max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius", "max_v", "max_a", "feasible",
-)  # fmt: skip
+    *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
+    *("max_v", "max_a", "feasible"),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +90,10 @@ class Chunk:
         return Sharpness(self._many)
 
     @cached_property
-    def _many(self) -> ManyKinematics:
+    def _many(self) -> Kinematics:
         designs = self.designs
         sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN[designs.follower]})
-        return many_kinematics(designs.follower, sizes, self._prime_radius, designs.sigma, self._lift)
+        return EXACT[FOLLOWERS[designs.follower]].kinematics.of(sizes, self._prime_radius, designs.sigma, self._lift)
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:

@@ -14,8 +14,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.cam import largest_roller
+from graphcam.mechanism.cam import Cam, largest_roller
 from graphcam.mechanism.undercut import Undercut, trimmed_profile
 
 DEG = math.pi / 180
