@@ -92,11 +92,8 @@ class SizingProblem:
                 raise DesignError(quantity, f"{low:g} to {high:g} mm", "from a size to one no smaller")
         for quantity, most in (("offset", max(map(abs, self.offset))), ("roller radius", self.roller_radius[1])):
             if not most < self.prime_radius[0]:
-                limit, reason = (
-                    f"less than the least prime radius of {self.prime_radius[0]:g} mm",
-                    "no such cam could be made",
-                )
-                raise DesignError(f"range of the {quantity}", f"up to {most:g} mm", limit, reason)
+                limit = f"less than the least prime radius of {self.prime_radius[0]:g} mm"
+                raise DesignError(f"range of the {quantity}", f"up to {most:g} mm", limit, "no such cam could be made")
         least = Contact(self.motion, self.load).least_force()
         if least.value < -BINDS * abs(self.load.preload):
             limit = "0 N or more, so that the follower stays on its cam"
