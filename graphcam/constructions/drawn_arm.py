@@ -34,7 +34,7 @@ class DrawnOscillating(DrawnFollower):
     on_paper: float = ARM_ON_PAPER
     place_name = "distance"
     place_title = say("distance")
-    unit = "rad"
+    unit = Oscillating.lift_unit
 
     def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
         """The arm's own length, and those of all followers."""

@@ -15,8 +15,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,7 +24,7 @@ from graphcam.given.laws import Floats, Law
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.spline_law import MEASURED
-from graphcam.mechanism.least_radius_arm import Line
+from graphcam.mechanism.half_planes import HalfPlane, Line, names_of, nearest
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
@@ -45,25 +43,6 @@ class MinimumRadius:
         return self.offset
 
 
-class _TangentLine(NamedTuple):
-    """A line that bounds the points (e', s0) with s0 * slope + side * e' >= height; side is +1 or -1."""
-
-    name: Line
-    slope: float
-    side: int
-    height: float
-
-    def lowest(self, x: float) -> float:
-        """The least permitted s0 at e' = x."""
-        return (self.height - self.side * x) / self.slope
-
-    def foot(self) -> tuple[float, float]:
-        """The foot of the perpendicular from the start of the lift."""
-        # Angles in place of 1 + slope^2, which overflows near 90 degrees sooner than the foot does.
-        norm = math.hypot(1.0, self.slope)
-        return self.side * self.height / norm / norm, self.height / norm * (self.slope / norm)
-
-
 def translating_minimum_radius(
     motion: Motion, follower: Translating, sigma: int, limits: Limits, offset: float | None = None
 ) -> MinimumRadius:
@@ -77,47 +56,27 @@ def translating_minimum_radius(
     """
     lines = _region(motion, limits)
     if offset is None:
-        x, y, active = _nearest(lines)
-        return MinimumRadius(math.hypot(x, y), sigma * x, active)
+        point, binding = nearest(lines)
+        return MinimumRadius(abs(point), sigma * point.real, names_of(binding))
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
-    heights = [line.lowest(sigma * offset) for line in lines]
+    heights = [(line.height - line.normal.real * sigma * offset) / line.normal.imag for line in lines]
     s0 = max(0.0, *heights)
-    binding: list[Line] = [line.name for line, height in zip(lines, heights, strict=True) if height == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(binding))
+    binding = [line for line, height in zip(lines, heights, strict=True) if height == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, names_of(binding))
 
 
-def _region(motion: Motion, limits: Limits) -> list[_TangentLine]:
-    slope = math.tan(limits.rise)
-    lines = [_TangentLine("rise", slope, +1, _steepest_line(motion, +1, slope))]
+def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
+    """The lines for the point e' + i s0, each multiplied by the cosine of its angle."""
+    lines = [_line("rise", +1, limits.rise, _steepest_line(motion, +1, math.tan(limits.rise)))]
     if limits.return_ is not None:
-        slope_return = math.tan(limits.return_)
-        lines.append(_TangentLine("return", slope_return, -1, _steepest_line(motion, -1, slope_return)))
-    if limits.rest:
-        lines.append(_TangentLine("rest", slope, -1, 0.0))
-    return lines
+        lines.append(_line("return", -1, limits.return_, _steepest_line(motion, -1, math.tan(limits.return_))))
+    return [*lines, _line("rest", -1, limits.rise, 0.0)] if limits.rest else lines
 
 
-def _nearest(lines: list[_TangentLine]) -> tuple[float, float, tuple[Line, ...]]:
-    """The region's point nearest to the origin, and the lines that hold it off."""
-    # Two half-planes at most fix the nearest point of a plane region (Helly), and the other lines can only push it
-    # farther out: so it is the farthest of the points that are nearest for two lines alone.
-    if len(lines) < 3:
-        return _nearest_of_two(lines[0], lines[-1])
-    points = [_nearest_of_two(a, b) for a, b in combinations(lines, 2)]
-    return max(points, key=lambda point: math.hypot(point[0], point[1]))
-
-
-def _nearest_of_two(a: _TangentLine, b: _TangentLine) -> tuple[float, float, tuple[Line, ...]]:
-    for line, other in ((a, b), (b, a)):
-        x, y = line.foot()
-        if line is other or y >= other.lowest(x):
-            return x, y, (line.name,)
-    # The two lines meet from both sides; were both on one side, a foot would have done.
-    rising, falling = (a, b) if a.side > 0 else (b, a)
-    y = (rising.height + falling.height) / (rising.slope + falling.slope)
-    x = (rising.height * falling.slope - falling.height * rising.slope) / (rising.slope + falling.slope)
-    return x, y, (a.name, b.name)
+def _line(name: Line, side: int, angle: float, height: float) -> HalfPlane:
+    cosine = math.cos(angle)
+    return HalfPlane(name, complex(side * cosine, math.sin(angle)), height * cosine)
 
 
 # --- the tangent to the s - v diagram --------------------------------------------------------------------------------

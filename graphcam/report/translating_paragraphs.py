@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from graphcam.constructions.axes import degrees, station_names, turning
+from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.minimum_radius import LINES, active
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.drafting.ink import Construction
@@ -149,7 +150,7 @@ def _adopted(solution: Solution) -> Caption:
 def _rounded_up(solution: Solution) -> list[Caption]:
     """How the prime radius follows from the least one at the adopted offset, as a hand without error reads it."""
     chain, board = solution.chain, solution.chain.board
-    there = replace(chain.perfect, board=replace(board, follower=replace(board.follower, place=chain.place)))
+    there = replace(chain.perfect, board=replace(board, follower=DrawnTranslating(chain.place)))
     radius = number(float(there.minimum_radius.value("prime_radius")))
     said: list[Caption] = []
     if board.follower.place is None:
