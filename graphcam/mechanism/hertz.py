@@ -26,6 +26,38 @@ STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
 
 
+@dataclass(frozen=True)
+class RollerContact:
+    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
+
+    Raises
+    ------
+    DesignError : a value cannot be
+
+    >>> round(RollerContact(width=15).modulus, 3)
+    113186.813
+    """
+
+    width: float
+    young1: float = STEEL_YOUNG
+    young2: float = STEEL_YOUNG
+    poisson1: float = STEEL_POISSON
+    poisson2: float = STEEL_POISSON
+
+    def __post_init__(self) -> None:
+        for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
+            if not 0 < getattr(self, name) < math.inf:
+                raise DesignError(name, getattr(self, name), f"a finite number greater than 0 {unit}")
+        for name in ("poisson1", "poisson2"):
+            if not 0 <= getattr(self, name) <= 0.5:
+                raise DesignError(name, getattr(self, name), "from 0 to 0.5")
+
+    @property
+    def modulus(self) -> float:
+        """E' [MPa]."""
+        return 1 / ((1 - self.poisson1**2) / self.young1 + (1 - self.poisson2**2) / self.young2)
+
+
 class LineContact(NamedTuple):
     """Peak pressure [MPa] and half-width of the flattened strip [mm]."""
 
@@ -61,26 +93,10 @@ def hertz_line_contact(
     """
     if not (math.isfinite(force) and force >= 0):
         raise DesignError("force", force, "a finite number of 0 N or more")
-    if not (math.isfinite(width) and width > 0):
-        raise DesignError("width", width, "a finite number greater than 0 mm")
-    stiffness, bend = contact_modulus(young1, young2, poisson1, poisson2), _relative_curvature(radius1, radius2)
+    stiffness = RollerContact(width, young1, young2, poisson1, poisson2).modulus
+    bend = _relative_curvature(radius1, radius2)
     load = force / width / math.pi
     return LineContact(math.sqrt(load * stiffness * bend), 2 * math.sqrt(load / stiffness / bend))
-
-
-def contact_modulus(young1: float, young2: float, poisson1: float, poisson2: float) -> float:
-    """E' [MPa] of two materials.
-
-    >>> round(contact_modulus(206000, 206000, 0.3, 0.3), 3)
-    113186.813
-    """
-    for quantity, value in (("young1", young1), ("young2", young2)):
-        if not (math.isfinite(value) and value > 0):
-            raise DesignError(quantity, value, "a finite number greater than 0 MPa")
-    for quantity, value in (("poisson1", poisson1), ("poisson2", poisson2)):
-        if not 0 <= value <= 0.5:
-            raise DesignError(quantity, value, "from 0 to 0.5")
-    return 1 / ((1 - poisson1**2) / young1 + (1 - poisson2**2) / young2)
 
 
 def _relative_curvature(radius1: float, radius2: float) -> float:
@@ -97,32 +113,6 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
         raise DesignError("radii", found, "such that they touch in one line", remedy)
     return bend
-
-
-@dataclass(frozen=True)
-class RollerContact:
-    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
-
-    Raises
-    ------
-    DesignError : a value cannot be
-    """
-
-    width: float
-    young1: float = STEEL_YOUNG
-    young2: float = STEEL_YOUNG
-    poisson1: float = STEEL_POISSON
-    poisson2: float = STEEL_POISSON
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.width) and self.width > 0):
-            raise DesignError("width", self.width, "a finite number greater than 0 mm")
-        _ = self.modulus
-
-    @property
-    def modulus(self) -> float:
-        """E' [MPa]."""
-        return contact_modulus(self.young1, self.young2, self.poisson1, self.poisson2)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -13,15 +13,18 @@ from graphcam.sweeps.greatest import Numbers
 
 
 @dataclass(frozen=True, eq=False)
-class Steepness:
+class _OfManyCams:
+    kin: Kinematics
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The same of some of the cams."""
+        return type(self)(self.kin.part(which))
+
+
+class Steepness(_OfManyCams):
     """tan(alpha), which grows with the pressure angle."""
 
-    kin: Kinematics
     signed: ClassVar[bool] = True
-
-    def part(self, which: Numbers | slice) -> Steepness:
-        """The same of some of the cams."""
-        return Steepness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
@@ -33,16 +36,10 @@ class Steepness:
         return pair_cross(*self.kin.pressure(values))
 
 
-@dataclass(frozen=True, eq=False)
-class Sharpness:
+class Sharpness(_OfManyCams):
     """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
 
-    kin: Kinematics
     signed: ClassVar[bool] = False
-
-    def part(self, which: Numbers | slice) -> Sharpness:
-        """The same of some of the cams."""
-        return Sharpness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
         """kappa [1/mm], or -rho [mm] of a flat face's cam."""
