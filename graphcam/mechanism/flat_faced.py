@@ -69,9 +69,13 @@ class FlatFacedKinematics(Kinematics):
         return -(v + j)
 
     def sharpness(self, values: Values) -> Floats:
-        """-rho [mm]: 0 at a cusp, positive where the envelope runs backwards."""
+        """-rho [mm]."""
+        return -self.convex_radius(values)
+
+    def convex_radius(self, values: Values) -> Floats:
+        """rho [mm]: 0 at a cusp, negative where the envelope runs backwards."""
         s, _, a, _ = values
-        return -(self.prime_radius + s + a)
+        return self.prime_radius + s + a
 
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:
