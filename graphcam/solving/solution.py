@@ -94,11 +94,7 @@ class Solution:
         return {
             "graphcam": __version__,
             "task": self.task.to_dict(),
-            "cam": {
-                "prime_radius": self.cam.prime_radius,
-                **self._follower_sizes(),
-                "rotation": self.cam.rotation,
-            },
+            "cam": {"prime_radius": self.cam.prime_radius, **self._follower_sizes(), "rotation": self.cam.rotation},
             "scales": self._scales(),
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
@@ -131,8 +127,10 @@ class Solution:
         s, v, a, _ = exact.values
         alpha = np.where(np.isnan(drawn["alpha"]), np.nan, exact.pressure_angle)  # a flat face has none
         pairs = {
-            "s": (factor * drawn["s"], factor * s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "s": (factor * drawn["s"], factor * s),
+            "v": (drawn["v"], v),
+            "a": (drawn["a"], a),
             "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
-        }  # fmt: skip
+        }
         pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)
