@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import json
 import re
@@ -99,3 +100,57 @@ def test_the_top_level_holds_what_it_should():
     made = {"graphcam-out", "build", "dist"}
     found = {path.name for path in ROOT.iterdir() if not path.name.startswith(".")}
     assert found - made == allowed
+
+
+FOLLOWER_CLASS = re.compile(r"(Drawn)?(Translating|Oscillating|FlatFaced)(Table|Kinematics)?$")
+KINDS = {follower.kind for follower in (graphcam.Translating, graphcam.Oscillating, graphcam.FlatFaced)}
+MAY_ASK = {
+    *("mechanism/translating.py", "mechanism/oscillating.py", "mechanism/flat_faced.py"),
+    *("constructions/drawn_translating.py", "constructions/drawn_arm.py", "constructions/drawn_flat_face.py"),
+}
+"""The followers' own files."""
+
+
+def asked_followers(code: str) -> set[str]:
+    """The follower classes and kinds that a module tells apart, by isinstance, type, match or a comparison of kinds."""
+    asked: list[ast.AST] = []
+    for node in ast.walk(ast.parse(code)):
+        match node:
+            case ast.Call(func=ast.Name("isinstance" | "issubclass"), args=[_, classes]):
+                asked.append(classes)
+            case ast.MatchClass(cls=name):
+                asked.append(name)
+            case ast.Compare(left=ast.Call(func=ast.Name("type")), comparators=classes):
+                asked += classes
+            case ast.Compare(left=ast.Attribute(attr="kind" | "follower"), comparators=kinds):
+                asked += kinds
+            case _:
+                pass
+    parts = [part for node in asked for part in ast.walk(node)]
+    names = {str(getattr(part, key, "")) for part in parts for key in ("id", "attr", "value")}
+    return {name for name in names if FOLLOWER_CLASS.match(name) or name in KINDS}
+
+
+def test_nobody_but_the_followers_own_files_asks_which_follower_it_is():
+    package = Path(graphcam.__file__).parent
+    modules = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
+    asking = {name: asked_followers(path.read_text(encoding="utf-8")) for name, path in modules.items()}
+    assert set(modules) >= MAY_ASK
+    assert {name: asked for name, asked in asking.items() if asked and name not in MAY_ASK} == {}
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "isinstance(cam.follower, Translating)",
+        "isinstance(a, str | graphcam.Oscillating)",
+        "issubclass(kind, (str, DrawnFlatFaced))",
+        "type(follower) is OscillatingTable",
+        "match table:\n    case FlatFacedTable(): pass",
+        "solution.task.follower.kind == 'flat-faced'",
+        "designs.follower in ('oscillating', 'translating')",
+    ],
+)
+def test_asking_which_follower_it_is_would_be_found(code):
+    assert asked_followers(code)
+    assert not asked_followers("isinstance(phase, Dwell) or asked.kind == 'number'")

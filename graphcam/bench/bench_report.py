@@ -10,8 +10,7 @@ from typing import Any
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.drawing_time import DrawingTime, drawing_times
 from graphcam.bench.exact_rows import ExactRow, exact_rows
-from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS
-from graphcam.bench.hand_errors import SIGMA, Hands, bands, by_hand
+from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.scenes import BENCH_LAWS
 from graphcam.bench.timing import Timer

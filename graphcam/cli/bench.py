@@ -26,8 +26,7 @@ def bench(
     graphcam bench --out bench
     """
     from graphcam.bench import bench_report as report
-    from graphcam.bench.bench_files import FILES
-    from graphcam.bench.bench_files import bench as measure
+    from graphcam.bench.bench_files import FILES, bench as measure
     from graphcam.bench.bench_tables import tables
 
     with one_message():

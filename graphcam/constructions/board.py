@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
 
-from graphcam.drafting.ink import Construction
+from graphcam.constructions.curvature import curvature
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -16,92 +17,95 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.roller_rule import Candidate
+from graphcam.given.spring_load import SpringLoad
 from graphcam.given.stations import Stations, divide
 
 
-class DrawnFollower(Protocol):
-    """A follower on the drawing board: the constructions that are its own.
+@dataclass(frozen=True)
+class FollowerSize:
+    """A size of a follower: its key in files, what it is called, and its value [mm], None where it does not apply."""
 
-    ``place`` is where it stands beside the cam [mm]: a translating follower's offset, an arm's centre distance.
+    name: str
+    title: Caption
+    value: float | None
+
+
+class DrawnFollower(ABC):
+    """A follower on the drawing board: the constructions that are its own, and what it is called.
+
+    A subclass states what differs from a stem with a roller.
     """
 
-    @property
-    def place_name(self) -> str:
-        """What the place is called, and the reading of the least radius that proposes it."""
-        ...
-
-    @property
-    def place(self) -> float | None:
-        """The given place [mm], or None where the task leaves it to be found."""
-        ...
-
-    @property
-    def unit(self) -> str:
-        """Of the lift: "mm", or "rad" for an arm."""
-        ...
-
-    @property
-    def divides_at_corners(self) -> bool:
-        """Whether a corner of the acceleration must fall on a division, for the extremes may lie in it."""
-        ...
+    place: float | None
+    """Where it stands beside the cam [mm]: its offset or centre distance; None where it is to be found."""
+    place_name = "offset"
+    """What the place is called, and the reading of the least radius that proposes it."""
+    place_title: Caption = say("offset")
+    unit = "mm"
+    """Of the lift: "mm", or "rad" for an arm."""
+    divides_at_corners = False
+    """Whether a corner of the acceleration must fall on a division, for the extremes may lie in it."""
+    constructions: tuple[str, ...] = (
+        *("acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram"),
+        *("inversion", "curvature", "roller", "working_profile", "scheme"),
+    )
+    """The names of what is drawn for it, in order."""
 
     @property
     def conditions(self) -> dict[str, float | None]:
         """What the exact least radius is asked for besides the pressure angles, by the names of its arguments."""
-        ...
+        return {}
 
-    @property
-    def constructions(self) -> tuple[str, ...]:
-        """The names of what is drawn for it, in order."""
-        ...
+    def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
+        """Its sizes, in order, with these for what may be left open."""
+        rollers = FollowerSize("roller_radius", say("roller radius"), roller_radius)
+        return [FollowerSize(self.place_name, self.place_title, place), rollers]
 
+    @abstractmethod
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
         """The least prime radius; readings ``prime_radius`` and the place by its name [mm]."""
-        ...
 
     def pressure_angle(
         self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
     ) -> Construction:
         """The pressure angles at the stations; reading ``alpha`` [rad]."""
-        ...
+        raise NotImplementedError
 
+    @abstractmethod
     def inversion(
-        self,
-        integrated: Construction,
-        rotation: Rotation,
-        prime_radius: float,
-        place: float,
-        mu_l: Scale,
-        pencil: Pencil,
+        self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
         """The pitch curve; readings ``x``, ``y``, ``radius`` [mm]; points ``pitch`` and ``motion``, its directions."""
-        ...
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
         """The least radius of curvature, from what is drawn; readings ``rho`` and ``rho_candidates`` [mm]."""
-        ...
+        return curvature(drawn["inversion"], pencil)
 
+    def force_plan(self, drawn: Mapping[str, Construction], load: SpringLoad, pencil: Pencil) -> Construction | None:
+        """The force plan under a spring's load, where one is drawn of it."""
+        return None
+
+    @abstractmethod
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The stretches (k, 2) of places [mm] that go with a prime radius [mm] on the region of the least radius."""
-        ...
 
+    @abstractmethod
     def must_exceed(self, place: float) -> float:
         """What the prime radius must be greater than for the mechanism to close at all [mm]."""
-        ...
 
+    @abstractmethod
     def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
         """How far the drawing of the profile reaches from the cam centre [mm]."""
-        ...
 
+    @abstractmethod
     def built(self, place: float | None, roller_radius: float) -> Follower:
         """The follower with these sizes."""
-        ...
 
+    @abstractmethod
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """The follower in the scheme of the mechanism, at the start of the turn."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

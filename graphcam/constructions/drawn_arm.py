@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +9,9 @@ import numpy as np
 from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
-from graphcam.constructions.curvature import curvature
+from graphcam.constructions.board import DrawnFollower, FollowerSize
 from graphcam.drafting.euclid import stepped_off
-from graphcam.drafting.ink import Construction
+from graphcam.drafting.ink import Construction, say
 from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
@@ -25,7 +24,7 @@ ARM_ON_PAPER = 130.0
 
 
 @dataclass(frozen=True)
-class DrawnOscillating:
+class DrawnOscillating(DrawnFollower):
     """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found.
 
     on_paper : the arm positions are drawn at the largest standard scale at which the arm is not longer [mm of paper]
@@ -35,17 +34,12 @@ class DrawnOscillating:
     place: float | None
     on_paper: float = ARM_ON_PAPER
     place_name = "distance"
-    unit = "rad"
-    divides_at_corners = False
-    constructions = (
-        "acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram", "inversion", "curvature",
-        "roller", "working_profile", "scheme",
-    )  # fmt: skip
+    place_title = say("distance")
+    unit = Oscillating.lift_unit
 
-    @property
-    def conditions(self) -> dict[str, float | None]:
-        """The centre distance is the follower's own."""
-        return {}
+    def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
+        """The arm's own length, and those of all followers."""
+        return [FollowerSize("arm", say("arm"), self.arm), *super().sizes(place, roller_radius)]
 
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
@@ -65,20 +59,10 @@ class DrawnOscillating:
         return standard_scale(self.arm, self.on_paper)
 
     def inversion(
-        self,
-        integrated: Construction,
-        rotation: Rotation,
-        prime_radius: float,
-        place: float,
-        mu_l: Scale,
-        pencil: Pencil,
+        self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
         """About the pivots on their circle."""
-        return arm_inversion(integrated, rotation, prime_radius, self.arm, place, mu_l, pencil)
-
-    def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
-        """By three points."""
-        return curvature(drawn["inversion"], pencil)
+        return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The distances at which no line of the region cuts the cam centre off."""
@@ -99,10 +83,7 @@ class DrawnOscillating:
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, arm and pivot."""
         shrink = inverted.givens["mu_l"].per_mm / scale.per_mm
-        stations, motion = (
-            inverted.givens["integrated"].givens["stations"],
-            inverted.givens["integrated"].givens["motion"],
-        )
+        stations, motion = (inverted.givens["integrated"].givens[name] for name in ("stations", "motion"))
         # Turned back by the station's cam angle, the first pivot lies on the line of centres.
         back = np.exp(1j * sense(inverted.givens["rotation"]) * stations.phi[0])
         pivot, start = (complex(inverted.first(name)[0] * back) * shrink for name in ("pivots", "starts"))

@@ -7,35 +7,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.curvature import curvature
+from graphcam.constructions.board import DrawnFollower
+from graphcam.constructions.force_plan import force_plan
+from graphcam.constructions.guided_stem import guided_stem
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Construction
-from graphcam.drafting.marks import Arrow, Circle, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.marks import Arrow, Circle, Dots, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
+from graphcam.given.spring_load import SpringLoad
 
-STEM, GUIDE, WALL = 30.0, 9.0, 2.2
-"""In the scheme: length of the stem, height of its guide above the roller, and half the guide's width [mm]."""
+STEM, GUIDE = 30.0, 9.0
+"""In the scheme: length of the stem, and height of its guide above the roller [mm]."""
 
 
 @dataclass(frozen=True)
-class DrawnTranslating:
+class DrawnTranslating(DrawnFollower):
     """A translating follower; ``place`` is its offset [mm, machine sign], None where it is to be found."""
 
     place: float | None
-    place_name = "offset"
-    unit = "mm"
-    divides_at_corners = False
-    constructions = (
-        "acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram", "inversion", "curvature",
-        "roller", "working_profile", "scheme",
-    )  # fmt: skip
 
     @property
     def conditions(self) -> dict[str, float | None]:
@@ -55,20 +51,14 @@ class DrawnTranslating:
         return pressure_angle(integrated, rotation, prime_radius, place, pencil)
 
     def inversion(
-        self,
-        integrated: Construction,
-        rotation: Rotation,
-        prime_radius: float,
-        place: float,
-        mu_l: Scale,
-        pencil: Pencil,
+        self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
         """On tangents of the offset circle."""
-        return inversion(integrated, rotation, prime_radius, place, mu_l, pencil)
+        return inversion(integrated, rotation, r0, place, mu_l, pencil)
 
-    def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
-        """By three points."""
-        return curvature(drawn["inversion"], pencil)
+    def force_plan(self, drawn: Mapping[str, Construction], load: SpringLoad, pencil: Pencil) -> Construction:
+        """At the station of the velocity plan."""
+        return force_plan(drawn["pressure_angle"], load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """All offsets at which the line of motion cuts the prime circle: a larger radius keeps the limits at each."""
@@ -95,16 +85,9 @@ class DrawnTranslating:
         foot = complex(inverted.first("feet")[0] * back) * mu_l.per_mm / scale.per_mm
         radius, start = inverted.givens["prime_radius"] / scale.per_mm, motion.levels[0] / scale.per_mm
         b = foot.real + UP * (np.sqrt(radius**2 - foot.real**2) + start)
-        ends = b + np.array([GUIDE, GUIDE + 8.0]) * UP
-        ticks = np.linspace(0, 8.0, 5)[:-1]
-        walls = (-WALL, WALL)
         return (
             Circle(b, roller_radius / scale.per_mm, Role.CURVE),
-            Line(np.array([b, b + STEM * UP]), Role.CURVE),
-            Line(np.array([complex(b.real, -6.0), b + (STEM + 5) * UP]), Role.AXIS),
-            *(Line(ends + wall, Role.CURVE) for wall in walls),
-            *(Segments(ends[0] + w + ticks * UP, ends[0] + w * 1.9 + (ticks + 1.6) * UP, Role.HATCH) for w in walls),
-            Label(b, "B", towards=1 + 1j),
+            *guided_stem(b, STEM, GUIDE),
             Dots(np.array([b])),
             Arrow(b + (STEM + 1) * UP + 4, b + (STEM + 9) * UP + 4, Role.CURVE),
         )

@@ -12,10 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 
 # A construction says what it draws, so both come from here.
-from graphcam.words import Caption as Caption
-from graphcam.words import Tell
-from graphcam.words import Words as Words
-from graphcam.words import say as say
+from graphcam.words import Caption as Caption, Tell, Words as Words, say as say
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,9 @@ class Translating:
     offset: float = 0.0
     roller_radius: float = 0.0
     kind = "translating"
+    lift_unit = "mm"
+    usual_limit_deg = 30.0
+    """The permitted pressure angle on the rise where none is given."""
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.offset):
@@ -57,6 +60,8 @@ class Oscillating:
     distance: float | None = None
     roller_radius: float = 0.0
     kind = "oscillating"
+    lift_unit = "rad"
+    usual_limit_deg = 45.0
 
     def __post_init__(self) -> None:
         _check_length("arm", self.arm, zero=False)
@@ -70,6 +75,11 @@ class FlatFaced:
     """A follower with a flat face perpendicular to its motion."""
 
     kind = "flat-faced"
+    lift_unit = "mm"
+    usual_limit_deg = 30.0  # any limit is kept: the pressure angle is 0
+    roller_radius = 0.0
 
 
 Follower = Translating | Oscillating | FlatFaced
+FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in (Translating, Oscillating, FlatFaced)}
+"""The followers by their kind."""

@@ -28,5 +28,5 @@ class Limits:
         limit, remedy = "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower"
         for name, value in (("rise", self.rise), ("return", self.return_)):
             if value is not None and not 0 < value < math.pi / 2:
-                what = f"permitted pressure angle on the {name}"
-                raise DesignError(what, f"{math.degrees(value):g} degrees", limit, remedy)
+                quantity = f"permitted pressure angle on the {name}"
+                raise DesignError(quantity, f"{math.degrees(value):g} degrees", limit, remedy)

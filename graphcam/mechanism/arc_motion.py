@@ -26,17 +26,12 @@ from graphcam.errors import DesignError
 from graphcam.given.impact import ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
-from graphcam.given.three_arcs import Point
-from graphcam.mechanism.arcs import ThreeArcCam
+from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.mechanism.roots import roots
 
-FIT = 1e-3
-"""How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
 SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
 """Fractions of an arc between which a quantity is taken to have one extreme at most."""
-NAMES = ("AG", "GF", "FD")
-"""The arcs of the flank, in the order in which the rise meets them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +70,7 @@ class ArcMotion:
     [30.092, -25.181, -96.294, 91.469]
     """
 
-    cam: ThreeArcCam
+    cam: ArcFlank
     roller_radius: float = 0.0
     dwell: float = 0.0
     sigma: int = field(init=False, repr=False)
@@ -89,37 +84,38 @@ class ArcMotion:
         for quantity, value in (("roller radius", self.roller_radius), ("dwell", self.dwell)):
             if not (math.isfinite(value) and value >= 0):
                 raise DesignError(quantity, value, "a finite number of 0 or more")
-        if not self.cam.sound:
-            raise DesignError("root", "not sound", "a sound one", self.cam.why)
-        _check_fit(self.cam)
-        outward = _outward_normals(self.cam)
-        at = {name: complex(*getattr(self.cam, name)) for name in "AGFD"}
-        object.__setattr__(self, "sigma", _check_turning(outward))
-        r0, r1 = (abs(at[name]) + self.roller_radius for name in "AD")
-        trace: Complexes = np.array(
-            [at[name] + self.roller_radius * n for name, n in zip("AGFD", outward, strict=True)]
-        )
-        radii = np.array([self.cam.rho2, self.cam.rho3, self.cam.rho1]) + self.roller_radius
+        self.cam.check()
+        outward = self.cam.outward_normals()
+        object.__setattr__(self, "sigma", self.cam.turning())
+        points: Complexes = np.array([complex(*getattr(self.cam, name)) for name in "AGFD"])
+        trace = points + self.roller_radius * outward
+        r0, r1 = (abs(complex(points[k])) + self.roller_radius for k in (0, 3))
+        object.__setattr__(self, "arcs", self._followed(trace, -outward, r0, r1))
+        _check_pressure(outward, trace)
+        object.__setattr__(self, "edges", self._edges(self.sigma * np.angle(trace[0] * np.conj(trace))))
+
+    def _followed(self, trace: Complexes, inward: Complexes, r0: float, r1: float) -> Arcs:
+        """The arcs through the trace points at A, G, F and D with these inner normals, and both circles."""
+        kappa = 1 / (np.array([self.cam.rho2, self.cam.rho3, self.cam.rho1]) + self.roller_radius)
         # The first arc is known best where it leaves the base circle, the last where it reaches the outer one.
-        kappa, known, inward = 1 / radii, trace[[0, 1, 3]], -outward[[0, 1, 3]]
+        known, inward = trace[[0, 1, 3]], inward[[0, 1, 3]]
         power = kappa * np.abs(known) ** 2 / 2 + (known * np.conj(inward)).real
-        arcs = Arcs(
+        return Arcs(
             np.array([*kappa, 1 / r1, 1 / r0]),
             np.array([*(inward + kappa * known), 0, 0]),
             np.array([*power, -r1 / 2, -r0 / 2]),
         )
-        object.__setattr__(self, "arcs", arcs)
-        turned = self.sigma * np.angle(trace[0] * np.conj(trace))
-        _check_pressure(outward, trace)
-        rise = float(turned[3])
+
+    def _edges(self, turned: Floats) -> Floats:
+        """The cam angles where the arcs begin, from those of A, G, F and D on the rise."""
+        rise, angles = float(turned[3]), np.degrees(turned[1:]).round(4).tolist()
         if not 0 < turned[1] < turned[2] < rise:
-            raise DesignError("rise", f"{np.degrees(turned[1:]).round(4).tolist()} degrees at G, F and D",
-                              "growing angles", "move G or C1")  # fmt: skip
-        if 2 * rise + self.dwell > FULL_TURN + CLOSURE:
-            raise DesignError("rise, dwell and return", f"{math.degrees(2 * rise + self.dwell):.6g} degrees",
-                              "at most a turn", "shorten the dwell")  # fmt: skip
-        down = 2 * rise + self.dwell - turned[::-1]
-        object.__setattr__(self, "edges", np.concatenate([turned, down]))
+            raise DesignError("rise", f"{angles} degrees at G, F and D", "growing angles", "move G or C1")
+        moving = 2 * rise + self.dwell
+        if moving > FULL_TURN + CLOSURE:
+            found = f"{math.degrees(moving):.6g} degrees"
+            raise DesignError("rise, dwell and return", found, "at most a turn", "shorten the dwell")
+        return np.concatenate([turned, moving - turned[::-1]])
 
     @property
     def breaks(self) -> Floats:
@@ -241,43 +237,6 @@ class ArcMotion:
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))
         return float(abs(values[k])), float(psi[k])
-
-
-def _outward_normals(cam: ThreeArcCam) -> Complexes:
-    """Unit normals away from the cam in A, G, F and D."""
-    a, g, f, d, c1, c2 = (complex(*getattr(cam, name)) for name in ("A", "G", "F", "D", "C1", "C2"))
-    normals: Complexes = np.array([a / abs(a), (g - c2) / cam.rho2, (f - c1) / cam.rho1, d / abs(d)])
-    return normals
-
-
-def _check_fit(cam: ThreeArcCam) -> None:
-    """That the given A and D lie where their arcs touch the circles about the cam centre."""
-    if not np.dot(cam.A, cam.A - cam.C2) > 0:
-        raise DesignError("C2", _shown(cam.C2), "so that the second arc goes around the cam centre", "move C2")
-    for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
-        found, given = getattr(cam, name), getattr(cam.given, name)
-        if not np.all(np.isfinite(found)):
-            raise DesignError(centre, _shown((0, 0)), f"on the line from the cam centre to {name}", f"move {centre}")
-        if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
-            raise DesignError(
-                name, _shown(given), f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre",
-                f"make {name} and {centre} agree, or leave {centre} out",
-            )  # fmt: skip
-
-
-def _shown(point: Point) -> str:
-    return f"({point[0]:.6g}, {point[1]:.6g})"
-
-
-def _check_turning(outward: Complexes) -> int:
-    """That the normal turns the same way along every arc from A to D; returns sigma, +1 for turning clockwise."""
-    turning = np.angle(outward[1:] * np.conj(outward[:-1]))
-    sigma = -1 if turning.sum() > 0 else 1
-    for name, angle in zip(NAMES, -sigma * turning, strict=True):
-        if not angle > 0:
-            raise DesignError(f"angle of the arc {name}", f"{math.degrees(angle):.4g} degrees",
-                              "greater than 0, in the sense from A to D", "move G or C1")  # fmt: skip
-    return sigma
 
 
 def _check_pressure(outward: Complexes, trace: Complexes) -> None:

@@ -13,63 +13,23 @@ Machine Theory* 37 (2002).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
+from graphcam.mechanism.arc_flank import ArcFlank
+from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.words import Caption, say, sequence
-
-if TYPE_CHECKING:
-    from graphcam.mechanism.arc_motion import ArcMotion
 
 ROUNDING = 4 * float(np.finfo(np.float64).eps)
 """What a sum of lengths may be off by, as a part of them: a flank that bends by no more is straight."""
 
 
-@dataclass(frozen=True, eq=False)
-class ThreeArcCam:
-    """One root of a three-arc cam; points are (2,) arrays in cam coordinates [mm].
-
-    Attributes
-    ----------
-    given : the data it was found from
-    A, D : where the first and the last arc touch the circles about the cam centre, found from their centres
-    F, G : where the arcs touch each other
-    C1, C2, C3 : centres of the arcs from F to D, from A to G and from G to F; C3 is NaN where the flank is straight
-    rho1, rho2, rho3 : radii [mm]; rho3 is inf where the flank is straight
-    hollow : whether the arc from G to F bends away from the cam
-    sound : whether the profile can be built: F, C1, C3 and G, C3, C2 lie in these orders on their lines
-    reason : why it is sound or not, in whole sentences
-    """
-
-    given: ThreeArcs
-    A: Floats
-    D: Floats
-    F: Floats
-    G: Floats
-    C1: Floats
-    C2: Floats
-    C3: Floats
-    rho1: float
-    rho2: float
-    rho3: float
-    hollow: bool
-    sound: bool
-    reason: Caption
-
-    @property
-    def why(self) -> str:
-        """The reason in English."""
-        return str(self.reason)
-
-    @property
-    def straight(self) -> bool:
-        """Whether the flank from G to F is a straight line."""
-        return math.isinf(self.rho3)
+class ThreeArcCam(ArcFlank):
+    """One root of a three-arc cam: its flank, and the motion of a follower on it."""
 
     def motion(self, roller_radius: float = 0.0, dwell: float = 0.0) -> ArcMotion:
         """What a central translating follower does on this flank and its mirror image.
@@ -86,8 +46,6 @@ class ThreeArcCam:
         >>> round(motion.lift, 2), round(math.degrees(motion.rise), 2)
         (15.0, 70.0)
         """
-        from graphcam.mechanism.arc_motion import ArcMotion
-
         return ArcMotion(self, roller_radius, dwell)
 
 
@@ -132,9 +90,8 @@ def second_centre(given: ThreeArcs) -> complex:
     outward, chord = a / abs(a), a - g
     below = _dot(outward, chord)  # how far G lies below the base circle's tangent at A
     if abs(below) <= ROUNDING * (abs(a) + abs(g)):
-        raise DesignError(
-            "G", given.G, "off the tangent of the base circle at A", "move G: an arc that is straight has no centre C2"
-        )
+        remedy = "move G: an arc that is straight has no centre C2"
+        raise DesignError("G", given.G, "off the tangent of the base circle at A", remedy)
     # |A - rho2 outward - G| = rho2, the squares of rho2 cancelling.
     return a - outward * abs(chord) ** 2 / (2 * below)
 
@@ -159,10 +116,11 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
+    a, d = _base_point(c2, rho2, g), _outer_point(c1, abs(k))
+    A, D, F, G, C1, C2, C3 = (_xy(point) for point in (a, d, f, g, c1, c2, c3))
     return ThreeArcCam(
-        given, _xy(_base_point(c2, rho2, g)), _xy(_outer_point(c1, abs(k))), _xy(f), _xy(g), _xy(c1), _xy(c2), _xy(c3),
-        abs(k), rho2, abs(t), t < 0, 0 < k < t < rho2, why,
-    )  # fmt: skip
+        *(given, A, D, F, G, C1, C2, C3, abs(k), rho2, abs(t)), hollow=t < 0, sound=0 < k < t < rho2, reason=why
+    )
 
 
 def _base_point(c2: complex, rho2: float, g: complex) -> complex:
@@ -179,37 +137,29 @@ def _outer_point(c1: complex, rho1: float) -> complex:
     return c1 * (1 + rho1 / abs(c1)) if c1 else complex(math.nan, math.nan)
 
 
+STRAIGHT = (
+    say("The flank from G to F is straight: it has no centre C3."),
+    say("The flank from G to F is straight: it has no centre C3, and the profile would turn back in a cusp at F."),
+)
+"""Without a cusp, and with one."""
+AT_F = say("On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.")
+AT_G = say("On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.")
+
+
 def _why(k: float, t: float, rho2: float) -> Caption:
     """Why a root is sound or not: k as laid off from G, t the directed way from G to C3 [mm]."""
     if math.isinf(t):
-        if k < 0:
-            return say(
-                "The flank from G to F is straight: it has no centre C3, and the profile would turn back in a "
-                "cusp at F."
-            )
-        return say("The flank from G to F is straight: it has no centre C3.")
+        return STRAIGHT[k < 0]
     hollow = say("the flank would be hollow")
     said: list[Caption] = []
     if not 0 < k < t:
         reason = say("the profile would turn back in a cusp at F")
         if k > 0:
             reason = hollow if t < 0 else say("the third arc would bend more sharply than the first")
-        order = _order(F=-k, C1=0.0, C3=t - k)
-        said.append(
-            say(
-                "On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.",
-                order=order, reason=reason,
-            )
-        )  # fmt: skip
+        said.append(replace(AT_F, values={"order": _order(F=-k, C1=0.0, C3=t - k), "reason": reason}))
     if not 0 < t < rho2:
         reason = hollow if t < 0 else say("the third arc would be flatter than the second")
-        order = _order(G=0.0, C3=t, C2=rho2)
-        said.append(
-            say(
-                "On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.",
-                order=order, reason=reason,
-            )
-        )  # fmt: skip
+        said.append(replace(AT_G, values={"order": _order(G=0.0, C3=t, C2=rho2), "reason": reason}))
     if said:
         return sequence(said, " ")
     return say("F, C1, C3 and G, C3, C2 lie in these orders: the arcs touch from inside at F and at G.")

@@ -10,23 +10,21 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.circular import sine_cosine
-from graphcam.given.follower import FlatFaced, Follower, Rotation, sense
+from graphcam.given.follower import Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
 from graphcam.given.pieces import chunks
+from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross
 from graphcam.mechanism.stationary import Places, stationary_places
-
-if TYPE_CHECKING:
-    from graphcam.mechanism.undercut import Undercut
+from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,21 +108,26 @@ class Cam:
         if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
             raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
         if not self.roller_radius < self.prime_radius:
-            raise DesignError(
-                "roller radius", self.roller_radius, f"smaller than the prime radius of {self.prime_radius} mm",
-                "take a smaller roller or enlarge the prime radius",
-            )  # fmt: skip
+            limit = f"smaller than the prime radius of {self.prime_radius} mm"
+            remedy = "take a smaller roller or enlarge the prime radius"
+            raise DesignError("roller radius", self.roller_radius, limit, remedy)
         object.__setattr__(self, "sigma", sense(self.rotation))
-        _ = self._kinematics  # says at once what does not fit
+        _ = self.kinematics  # says at once what does not fit
 
     @property
     def roller_radius(self) -> float:
         """Radius of the follower's roller [mm], 0 for a knife edge or a flat face."""
-        return 0.0 if isinstance(self.follower, FlatFaced) else self.follower.roller_radius
+        return self.follower.roller_radius
 
     @cached_property
-    def _kinematics(self) -> Kinematics:
+    def kinematics(self) -> Kinematics:
+        """What follows from the follower: its values in the frame."""
         return kinematics(self.follower, self.prime_radius, self.sigma, self.motion.lift)
+
+    @cached_property
+    def envelope(self) -> Envelope:
+        """The profile as a curve, with its loops."""
+        return Envelope(self.motion, self.kinematics, self.roller_radius)
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
@@ -140,7 +143,7 @@ class Cam:
 
     def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        return self._in_chunks(lambda _, values: self._kinematics.curvature(values), phi, side)
+        return self._in_chunks(lambda _, values: self.kinematics.curvature(values), phi, side)
 
     def curves(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats]:
         """Pitch curve, profile (..., 2) [mm] and curvature of the pitch curve [1/mm] together, in half the time."""
@@ -164,7 +167,7 @@ class Cam:
     def extremes(self) -> Extremes:
         """Greatest pressure angles and least convex radii of curvature, found as roots of their derivatives."""
         steep = stationary_places(self.motion, self._pressure_angle_slope)
-        sharp = stationary_places(self.motion, self._kinematics.curvature_slope)
+        sharp = stationary_places(self.motion, self.kinematics.curvature_slope)
         direction = np.array([phase.direction for phase in self.motion.phases])
         return Extremes(
             self._steepest(steep.where(direction[steep.phase] > 0)),
@@ -190,9 +193,7 @@ class Cam:
         >>> [round(degrees(phi), 2) for phi in lost.cusps], [round(x, 4) for x in lost.crossing[2:]]
         ([42.22, 54.12], [35.6465, 17.6731])
         """
-        from graphcam.mechanism.undercut import undercuts
-
-        return undercuts(self)
+        return undercuts(self.envelope)
 
     def trimmed_profile(self, n: int) -> Floats:
         """(n, 2) the closed profile that can be cut [mm]: what is lost left out, and the corners there included.
@@ -203,9 +204,7 @@ class Cam:
         ------
         DesignError : there are too few points for the corners, or as for :meth:`undercuts`
         """
-        from graphcam.mechanism.undercut import trimmed_profile
-
-        return trimmed_profile(self, n).points
+        return trimmed_profile(self.envelope, n).points
 
     def _steepest(self, places: Places) -> tuple[float, float]:
         alpha = self._pressure_angle(places.values)
@@ -213,7 +212,7 @@ class Cam:
         return float(alpha[k]), float(places.phi[k])
 
     def _sharpest(self, places: Places) -> tuple[float, float]:
-        radius = self._kinematics.convex_radius(places.values)
+        radius = self.kinematics.convex_radius(places.values)
         k = np.argmin(radius)
         return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
 
@@ -232,7 +231,7 @@ class Cam:
 
     def _curves(self, phi: Floats, values: Values) -> tuple[Floats, Floats, Floats]:
         """Points of the pitch curve and of the profile, and the pitch curve's curvature."""
-        point, normal, curvature = self._kinematics.path(values)
+        point, normal, curvature = self.kinematics.path(values)
         axes, r = self._axes(phi), self.roller_radius
         return _seen(point, axes), _seen((point[0] - r * normal[0], point[1] - r * normal[1]), axes), curvature
 
@@ -242,16 +241,30 @@ class Cam:
         return cosine, self.sigma * sine
 
     def _pitch(self, phi: Floats, values: Values) -> Floats:
-        z = self._kinematics.point(values)
+        z = self.kinematics.point(values)
         return _seen((z.real, z.imag), self._axes(phi))
 
     def _pressure_angle(self, values: Values) -> Floats:
-        (along, across), _ = self._kinematics.pressure(values)
+        (along, across), _ = self.kinematics.pressure(values)
         return np.arctan2(across, along)
 
     def _pressure_angle_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
-        return pair_cross(*self._kinematics.pressure(values))
+        return pair_cross(*self.kinematics.pressure(values))
+
+
+def largest_roller(cam: Cam) -> float:
+    """The roller radius [mm] that a sound profile stays below: the least convex radius of the pitch curve.
+
+    The prime radius limits it too.  It is a matter of the pitch curve alone, whatever roller the follower has.
+
+    Raises
+    ------
+    DesignError : the follower has no roller
+    """
+    if not cam.kinematics.takes_roller:
+        raise DesignError("follower", cam.follower.kind, "one with a roller", "enlarge the prime radius instead")
+    return cam.envelope.least_radius
 
 
 def _seen(vector: Pair, axes: Pair) -> Floats:

@@ -14,20 +14,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import FULL_TURN
-from graphcam.mechanism.followers import kinematics
+from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
 from graphcam.mechanism.roots import roots
-from graphcam.mechanism.stationary import smooth_pieces, stationary_places
-
-if TYPE_CHECKING:
-    from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 
 Indices = NDArray[np.intp]
 
@@ -60,29 +55,28 @@ class Envelope:
     """The profile of a cam over one turn, from the lowest place on.
 
     Cam angles run from ``edges[0]`` to ``edges[-1]``, a full turn later, and may exceed 2 pi.
+
+    kinematics : of the follower on its cam;  roller_radius : r [mm], 0 for a knife edge or a flat face
     """
 
-    cam: Cam
+    motion: Motion
+    kinematics: Kinematics
+    roller_radius: float
 
     @cached_property
     def _pieces(self) -> tuple[Indices, Floats, Floats]:
         """Phase, and the fractions of it at both ends, of every smooth piece from the lowest place on."""
-        phase, u0, u1 = smooth_pieces(self.cam.motion)
-        lowest = int(np.argmin(self.cam.motion.at(phase, u0)[0]))
+        phase, u0, u1 = smooth_pieces(self.motion)
+        lowest = int(np.argmin(self.motion.at(phase, u0)[0]))
         return np.roll(phase, -lowest), np.roll(u0, -lowest), np.roll(u1, -lowest)
 
     @cached_property
     def edges(self) -> Floats:
         """(p + 1,) cam angles at which the p smooth pieces begin, and the last one ends."""
         phase, u0, _ = self._pieces
-        phi = self.cam.motion.angle_at(phase, u0)
+        phi = self.motion.angle_at(phase, u0)
         phi = np.where(phi < phi[0], phi + FULL_TURN, phi)
         return np.append(phi, phi[0] + FULL_TURN)
-
-    @cached_property
-    def _kinematics(self) -> Kinematics:
-        cam = self.cam
-        return kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
 
     # --- values: all take cam angles and the pieces they belong to, so that a break is seen from a named side ---------
 
@@ -95,19 +89,19 @@ class Envelope:
         phase, u0, u1 = (part[piece] for part in self._pieces)
         share = (phi - self.edges[piece]) / (self.edges[np.asarray(piece) + 1] - self.edges[piece])
         u = np.clip(u0 + (u1 - u0) * share, u0, u1)
-        left, right = (self.cam.motion.at(phase, u, side) for side in ("left", "right"))
+        left, right = (self.motion.at(phase, u, side) for side in ("left", "right"))
         s, v, a, j = (np.where(u < u1, r, x) for r, x in zip(right, left, strict=True))
         return s, v, a, j
 
     def point(self, phi: Floats | float, piece: Indices | int) -> Complexes:
         """c [mm], x + i y on the cam."""
         values = self.values(phi, piece)
-        at = self._kinematics.point(values) - self.cam.roller_radius * self._kinematics.normal(values)
+        at = self.kinematics.point(values) - self.roller_radius * self.kinematics.normal(values)
         return at * self._turned(phi)
 
     def tangent(self, phi: Floats | float, piece: Indices | int) -> Complexes:
         """The unit tangent, along which the profile runs where it runs forwards."""
-        return -1j * self.cam.sigma * self._kinematics.normal(self.values(phi, piece)) * self._turned(phi)
+        return -1j * self.kinematics.sigma * self.kinematics.normal(self.values(phi, piece)) * self._turned(phi)
 
     def velocity(self, phi: Floats | float, piece: Indices | int) -> Complexes:
         """c' [mm/rad]."""
@@ -115,29 +109,28 @@ class Envelope:
 
     def speed(self, phi: Floats | float, piece: Indices | int) -> Floats:
         """|c'| [mm/rad], negative where the profile runs backwards."""
-        return self._kinematics.speed(self.values(phi, piece), self.cam.roller_radius)
+        return self.kinematics.speed(self.values(phi, piece), self.roller_radius)
 
     def curvature(self, phi: Floats | float, piece: Indices | int) -> Floats:
         """Curvature kappa of the pitch curve [1/mm]."""
-        return self._kinematics.curvature(self.values(phi, piece))
+        return self.kinematics.curvature(self.values(phi, piece))
 
     def support(self, phi: Floats | float, piece: Indices | int) -> Floats:
         """c.n [mm], how far the profile's tangent passes from the cam centre; negative if on the wrong side."""
         values = self.values(phi, piece)
-        along_normal = (np.conj(self._kinematics.normal(values)) * self._kinematics.point(values)).real
-        return along_normal - self.cam.roller_radius
+        along_normal = (np.conj(self.kinematics.normal(values)) * self.kinematics.point(values)).real
+        return along_normal - self.roller_radius
 
     def margin(self, phi: Floats | float, piece: Indices | int) -> Floats:
         """(rho - r)/r: by which part the pitch curve's radius of curvature exceeds the roller's, inf in hollows.
 
         With a flat face it is rho/r0.
         """
-        cam = self.cam
-        radius = self._kinematics.convex_radius(self.values(phi, piece)) - cam.roller_radius
-        return radius / (cam.roller_radius or cam.prime_radius)
+        radius = self.kinematics.convex_radius(self.values(phi, piece)) - self.roller_radius
+        return radius / (self.roller_radius or self.prime_radius)
 
     def _turned(self, phi: Floats | float) -> Complexes:
-        return np.exp(-1j * self.cam.sigma * np.asarray(phi))
+        return np.exp(-1j * self.kinematics.sigma * np.asarray(phi))
 
     def way(self, begin: float, end: float) -> complex:
         """c(end) - c(begin) [mm], which keeps its digits however small the loop between: there by integration of c'."""
@@ -154,6 +147,21 @@ class Envelope:
         # Where the difference finds another way, the nodes were too few for what the curve does between them.
         return way if abs(way - (there - here)) <= ROUNDING * (abs(there) + abs(here)) else complex(there - here)
 
+    @property
+    def prime_radius(self) -> float:
+        """r0 [mm]."""
+        return self.kinematics.prime_radius
+
+    @cached_property
+    def _places(self) -> Places:
+        """Where the pitch curve's curvature is stationary, and both ends of every piece."""
+        return stationary_places(self.motion, self.kinematics.curvature_slope)
+
+    @property
+    def least_radius(self) -> float:
+        """The least convex radius of the pitch curve [mm], or the prime radius where that is less."""
+        return min(float(self.kinematics.convex_radius(self._places.values).min()), self.prime_radius)
+
     # --- cusps -------------------------------------------------------------------------------------------------------
 
     @cached_property
@@ -162,7 +170,7 @@ class Envelope:
 
         Between neighbours the curvature is monotonous, so there is one cusp at most.
         """
-        places = stationary_places(self.cam.motion, self._kinematics.curvature_slope)
+        places = self._places
         phi: list[Floats] = []
         for k, (phase, u0, u1) in enumerate(zip(*self._pieces, strict=True)):
             inner = np.unique(places.u[(places.phase == phase) & (u0 < places.u) & (places.u < u1)])
@@ -207,4 +215,4 @@ class Envelope:
     def _jumps(self, before: Indices) -> NDArray[np.bool_]:
         phi, piece = self._nodes
         change = np.abs(self.speed(phi[before + 1], piece[before + 1]) - self.speed(phi[before], piece[before]))
-        return (piece[before] != piece[before + 1]) & (change > JUMP * self.cam.prime_radius)
+        return (piece[before] != piece[before + 1]) & (change > JUMP * self.prime_radius)

@@ -5,39 +5,45 @@ Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Self
 
 import numpy as np
 
-from graphcam.given.follower import Rotation, sense
+from graphcam.errors import DesignError
+from graphcam.given.follower import FlatFaced, Rotation, sense
 from graphcam.given.laws import Floats
+from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
-from graphcam.mechanism.kinematics import Complexes, Pair, Values
+from graphcam.mechanism.kinematics import Appearance, Complexes, Kinematics, Pair, Values
 from graphcam.mechanism.peaks import velocity_range
+from graphcam.mechanism.stationary import stationary_places
 
 
-@dataclass(frozen=True)
-class FlatFacedKinematics:
+@dataclass(frozen=True, eq=False)
+class FlatFacedKinematics(Kinematics):
     """The face touches the cam at sigma v + i (r0 + s), where the profile has the radius rho = r0 + s + a.
 
     rho is signed.  A face cannot reach into a hollow: the profile is never concave.  Where rho is negative the envelope
     runs backwards between two cusps (rho = 0) and cannot be cut, and kappa = 1/rho is negative there.
-
-    sigma : the sense in which the cam turns;  prime_radius : r0 [mm], the profile's least radius; of many cams an array
     """
 
-    sigma: int
-    prime_radius: float | Floats
+    takes_roller = False
+    has_pressure_angle = False
+
+    @classmethod
+    def of(cls, sizes: FlatFaced, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """Of a face there is nothing to know."""
+        return cls(sigma, prime_radius)
+
+    def check(self) -> None:
+        """Any prime radius will do."""
 
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
         """The point where the face touches the profile [mm], the normal of the face, the profile's curvature [1/mm]."""
         s, v, _, _ = values
         return (self.sigma * v, self.prime_radius + s), (0.0, 1.0), self.curvature(values)
-
-    def point(self, values: Values) -> Complexes:
-        """The point where the face touches the profile [mm]."""
-        (x, y), _, _ = self.path(values)
-        return x + 1j * np.asarray(y)
 
     def normal(self, values: Values) -> Complexes:
         """The normal of the face."""
@@ -62,10 +68,25 @@ class FlatFacedKinematics:
         _, v, _, j = values
         return -(v + j)
 
+    def sharpness(self, values: Values) -> Floats:
+        """-rho [mm]."""
+        return -self.convex_radius(values)
+
     def convex_radius(self, values: Values) -> Floats:
         """rho [mm]: 0 at a cusp, negative where the envelope runs backwards."""
         s, _, a, _ = values
         return self.prime_radius + s + a
+
+    @staticmethod
+    def radius_of(sharpness: Floats) -> Floats:
+        """rho [mm]."""
+        return -sharpness
+
+    def appearance(self, motion: Motion, values: Values) -> Appearance:
+        """A face whose middle slides upwards, as wide as the contact wanders."""
+        width = face_width(motion, "ccw" if self.sigma > 0 else "cw")
+        stem = super().appearance(motion, values)
+        return replace(stem, kind="face", trace=1j * stem.trace.imag, face=(-width.left, width.right))
 
 
 def _ones(values: Values) -> Floats:
@@ -95,3 +116,32 @@ def face_width(motion: Motion, rotation: Rotation = "ccw") -> FaceWidth:
     """
     least, greatest = velocity_range(motion)
     return FaceWidth(-least, greatest) if sense(rotation) > 0 else FaceWidth(greatest, -least)
+
+
+@dataclass(frozen=True)
+class FlatMinimumRadius:
+    """The least prime radius [mm] under a flat face; ``active`` is ("curvature",), or () where any radius will do."""
+
+    prime_radius: float
+    active: tuple[Literal["curvature"], ...]
+    place = 0.0
+    """A flat face may stand anywhere across its motion."""
+
+
+def flat_minimum_radius(
+    motion: Motion, follower: FlatFaced, sigma: int, limits: Limits, curvature: float | None = None
+) -> FlatMinimumRadius:
+    """The least prime radius at which rho = r0 + s + a is nowhere less than the permitted ``curvature`` radius [mm].
+
+    >>> from math import pi
+    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> motion = Motion([Rise(30, pi / 2, "cosine"), Return(30, pi / 2, "cosine"), Dwell(pi)])
+    >>> round(flat_minimum_radius(motion, FlatFaced(), +1, Limits(), curvature=8.0).prime_radius, 9)
+    38.0
+    """
+    least = curvature or 0.0
+    if not (math.isfinite(least) and least >= 0):
+        raise DesignError("least radius of curvature", least, "a finite length of 0 mm or more")
+    s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
+    radius = least - float(np.min(s + a))
+    return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())

@@ -1,13 +1,38 @@
-"""Which file knows which follower."""
+"""Which file knows which follower: the one place of the exact side that asks."""
 
 from __future__ import annotations
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import Follower, Oscillating, Translating
-from graphcam.mechanism.flat_faced import FlatFacedKinematics
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating
+from graphcam.mechanism.flat_faced import FlatFacedKinematics, FlatMinimumRadius, flat_minimum_radius
 from graphcam.mechanism.kinematics import Kinematics
+from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, arm_minimum_radius
+from graphcam.mechanism.least_radius_translating import MinimumRadius, translating_minimum_radius
 from graphcam.mechanism.oscillating import OscillatingKinematics
 from graphcam.mechanism.translating import TranslatingKinematics
+
+LeastRadius = MinimumRadius | ArmMinimumRadius | FlatMinimumRadius
+
+
+class ExactFunctions(NamedTuple):
+    """What the exact side has for one kind of follower.
+
+    least_radius : of (motion, follower, sigma, limits) and the condition
+    condition : the argument of ``minimum_radius`` that is its own
+    """
+
+    kinematics: type[Kinematics]
+    least_radius: Callable[..., LeastRadius]
+    condition: Literal["offset", "curvature"] | None
+
+
+EXACT: dict[type[Follower], ExactFunctions] = {
+    Translating: ExactFunctions(TranslatingKinematics, translating_minimum_radius, "offset"),
+    Oscillating: ExactFunctions(OscillatingKinematics, arm_minimum_radius, None),
+    FlatFaced: ExactFunctions(FlatFacedKinematics, flat_minimum_radius, "curvature"),
+}
 
 
 def kinematics(follower: Follower, prime_radius: float, sigma: int, lift: float) -> Kinematics:
@@ -19,15 +44,9 @@ def kinematics(follower: Follower, prime_radius: float, sigma: int, lift: float)
     ------
     DesignError : the follower does not fit the prime radius or the lift, or an arm's centre distance is open
 
-    >>> kinematics(Translating(offset=30), prime_radius=50, sigma=+1, lift=20).s0
-    40.0
+    >>> kinematics(Translating(offset=30), prime_radius=50, sigma=+1, lift=20)
+    TranslatingKinematics(sigma=1, prime_radius=50, offset=30)
     """
-    if isinstance(follower, Translating):
-        return TranslatingKinematics(sigma, follower.offset, prime_radius)
-    if isinstance(follower, Oscillating):
-        if follower.distance is None:
-            raise DesignError(
-                "centre distance", "left open", "given for a cam", "take the one that minimum_radius(...) finds"
-            )
-        return OscillatingKinematics(sigma, follower.arm, follower.distance, prime_radius, lift)
-    return FlatFacedKinematics(sigma, prime_radius)
+    found = EXACT[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)
+    found.check()
+    return found

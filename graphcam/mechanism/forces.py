@@ -25,12 +25,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import Translating
 from graphcam.given.guide import Guide
 from graphcam.given.laws import Floats, Side
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Values, pair_cross
 from graphcam.mechanism.one_sided import ValueAt, greatest
 from graphcam.mechanism.stationary import Places
@@ -100,6 +98,7 @@ class CamForces:
     DesignError : the follower is not a translating one, or it rises beyond the nearer bearing
 
     >>> from math import degrees, radians
+    >>> from graphcam.given.follower import Translating
     >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
     >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
     >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
@@ -117,13 +116,12 @@ class CamForces:
     guide: Guide = field(default=NO_GUIDE)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.cam.follower, Translating):
+        if not self.cam.kinematics.has_forces:
             raise DesignError("follower", self.cam.follower.kind, "'translating'", "forces are worked out for it alone")
-        if self.guide.friction and self.guide.overhang < self.cam.motion.lift:
-            raise DesignError(
-                "overhang", self.guide.overhang, f"the lift of {self.cam.motion.lift:g} mm or more",
-                "place the nearer bearing higher: the roller's centre rises towards it",
-            )  # fmt: skip
+        overhang, lift = self.guide.overhang, self.cam.motion.lift
+        if self.guide.friction and overhang < lift:
+            remedy = "place the nearer bearing higher: the roller's centre rises towards it"
+            raise DesignError("overhang", overhang, f"the lift of {lift:g} mm or more", remedy)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Forces:
         """The forces at the fraction u of a phase, so that an end of a phase is seen from inside.
@@ -140,11 +138,11 @@ class CamForces:
         slip = grip(self.guide, s) * np.abs(sine) / cosine
         with np.errstate(invalid="ignore"):
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
+        along, friction = normal * cosine, grip(self.guide, s) * np.abs(across)
+        bearings, efficiency = (across * (1 + leverage), across * leverage), np.where(direction == 0, np.nan, works)
         return Forces(
-            motion.angle_at(phase, u), load, normal, normal * cosine, across, across * (1 + leverage),
-            across * leverage, grip(self.guide, s) * np.abs(across), normal * cosine * v,
-            np.where(direction == 0, np.nan, works),
-        )  # fmt: skip
+            motion.angle_at(phase, u), load, normal, along, across, *bearings, friction, along * v, efficiency
+        )
 
     def greatest_normal(self) -> ValueAt:
         """The greatest normal force over the turn [N], both sides of every jump included.
@@ -191,9 +189,8 @@ class CamForces:
 
     def _share(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
         """g with the sense of the motion, and its slope."""
-        return direction * grip(
-            self.guide, values[0]
-        ), -2 * direction * self.guide.friction / self.guide.length * values[1]
+        slope = -2 * self.guide.friction / self.guide.length * values[1]
+        return direction * grip(self.guide, values[0]), direction * slope
 
     def _slip_on_rises(self, places: Places) -> Floats:
         cosine, sine, _ = self._angle(places.values)
@@ -210,11 +207,9 @@ class CamForces:
         efficiency, phi, _ = self.least_efficiency()
         if efficiency <= 0:
             alpha, limit = self.cam.pressure_angle(phi), jamming_angle(self.guide, self.cam.motion(phi)[0])
-            raise DesignError(
-                "pressure angle", f"{math.degrees(alpha):.4g} degrees",
-                f"less than the {math.degrees(limit):.4g} degrees at which the guide jams",
-                "enlarge the prime radius, lengthen the guide or bring it nearer to the cam",
-            )  # fmt: skip
+            allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
+            remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
+            raise DesignError("pressure angle", f"{math.degrees(alpha):.4g} degrees", allowed, remedy)
 
     @property
     def _direction(self) -> Floats:
@@ -222,7 +217,6 @@ class CamForces:
 
     def _angle(self, values: Values) -> tuple[Floats, Floats, Floats]:
         """cos and sin of the pressure angle, and its slope by phi."""
-        cam = self.cam
-        q, q1 = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift).pressure(values)
+        q, q1 = self.cam.kinematics.pressure(values)
         size = np.hypot(*q)
         return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2

@@ -17,14 +17,45 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
-from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.kinematics import RollerKinematics, Values
+from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.one_sided import ValueAt, greatest
 from graphcam.mechanism.stationary import Places
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
+
+
+@dataclass(frozen=True)
+class RollerContact:
+    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
+
+    Raises
+    ------
+    DesignError : a value cannot be
+
+    >>> round(RollerContact(width=15).modulus, 3)
+    113186.813
+    """
+
+    width: float
+    young1: float = STEEL_YOUNG
+    young2: float = STEEL_YOUNG
+    poisson1: float = STEEL_POISSON
+    poisson2: float = STEEL_POISSON
+
+    def __post_init__(self) -> None:
+        for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
+            if not 0 < getattr(self, name) < math.inf:
+                raise DesignError(name, getattr(self, name), f"a finite number greater than 0 {unit}")
+        for name in ("poisson1", "poisson2"):
+            if not 0 <= getattr(self, name) <= 0.5:
+                raise DesignError(name, getattr(self, name), "from 0 to 0.5")
+
+    @property
+    def modulus(self) -> float:
+        """E' [MPa]."""
+        return 1 / ((1 - self.poisson1**2) / self.young1 + (1 - self.poisson2**2) / self.young2)
 
 
 class LineContact(NamedTuple):
@@ -62,26 +93,10 @@ def hertz_line_contact(
     """
     if not (math.isfinite(force) and force >= 0):
         raise DesignError("force", force, "a finite number of 0 N or more")
-    if not (math.isfinite(width) and width > 0):
-        raise DesignError("width", width, "a finite number greater than 0 mm")
-    stiffness, bend = contact_modulus(young1, young2, poisson1, poisson2), _relative_curvature(radius1, radius2)
+    stiffness = RollerContact(width, young1, young2, poisson1, poisson2).modulus
+    bend = _relative_curvature(radius1, radius2)
     load = force / width / math.pi
     return LineContact(math.sqrt(load * stiffness * bend), 2 * math.sqrt(load / stiffness / bend))
-
-
-def contact_modulus(young1: float, young2: float, poisson1: float, poisson2: float) -> float:
-    """E' [MPa] of two materials.
-
-    >>> round(contact_modulus(206000, 206000, 0.3, 0.3), 3)
-    113186.813
-    """
-    for quantity, value in (("young1", young1), ("young2", young2)):
-        if not (math.isfinite(value) and value > 0):
-            raise DesignError(quantity, value, "a finite number greater than 0 MPa")
-    for quantity, value in (("poisson1", poisson1), ("poisson2", poisson2)):
-        if not 0 <= value <= 0.5:
-            raise DesignError(quantity, value, "from 0 to 0.5")
-    return 1 / ((1 - poisson1**2) / young1 + (1 - poisson2**2) / young2)
 
 
 def _relative_curvature(radius1: float, radius2: float) -> float:
@@ -95,37 +110,9 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         # The sum first: of a roller in a hollow that is hardly wider it is exact, the difference of quotients is not.
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
-        raise DesignError(
-            "radii", f"{radius1:g} and {radius2:g} mm", "such that they touch in one line",
-            "a hollow must be wider than what lies in it",
-        )  # fmt: skip
+        found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
+        raise DesignError("radii", found, "such that they touch in one line", remedy)
     return bend
-
-
-@dataclass(frozen=True)
-class RollerContact:
-    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
-
-    Raises
-    ------
-    DesignError : a value cannot be
-    """
-
-    width: float
-    young1: float = STEEL_YOUNG
-    young2: float = STEEL_YOUNG
-    poisson1: float = STEEL_POISSON
-    poisson2: float = STEEL_POISSON
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.width) and self.width > 0):
-            raise DesignError("width", self.width, "a finite number greater than 0 mm")
-        _ = self.modulus
-
-    @property
-    def modulus(self) -> float:
-        """E' [MPa]."""
-        return contact_modulus(self.young1, self.young2, self.poisson1, self.poisson2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,8 +160,8 @@ class ContactStress:
 
     def __post_init__(self) -> None:
         if not self.forces.cam.roller_radius > 0:
-            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm",
-                              "a knife edge has no line contact")  # fmt: skip
+            reason = "a knife edge has no line contact"
+            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm", reason)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
         """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
@@ -185,10 +172,9 @@ class ContactStress:
         load = np.maximum(forces.normal, 0) / self.contact.width / math.pi
         with np.errstate(divide="ignore"):
             radius = room / kappa
-        return Stresses(
-            forces.phi, forces.normal, radius, np.sqrt(load * self.contact.modulus / (r * sound)),
-            2 * np.sqrt(load * r * sound / self.contact.modulus),
-        )  # fmt: skip
+        stiffness = self.contact.modulus
+        peak, half_width = np.sqrt(load * stiffness / (r * sound)), 2 * np.sqrt(load * r * sound / stiffness)
+        return Stresses(forces.phi, forces.normal, radius, peak, half_width)
 
     def greatest(self) -> ValueAt:
         """The greatest peak pressure over the turn [MPa], both sides of every jump included.
@@ -200,10 +186,8 @@ class ContactStress:
         cam = self.forces.cam
         rho, _ = cam.extremes().min_convex_radius
         if not self._roller < rho:
-            raise DesignError(
-                "roller radius", self._roller, f"less than the least radius of curvature of {rho:.6g} mm",
-                "take a smaller roller or enlarge the prime radius",
-            )  # fmt: skip
+            limit = f"less than the least radius of curvature of {rho:.6g} mm"
+            raise DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")
         if self.forces.greatest_normal().value <= 0:
             raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
         squared, phi, side = greatest(cam.motion, self.slope, self._squared)
@@ -227,11 +211,8 @@ class ContactStress:
         return self.forces.cam.roller_radius
 
     @property
-    def _kinematics(self) -> RollerKinematics:
-        cam = self.forces.cam
-        found = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
-        assert isinstance(found, RollerKinematics)
-        return found
+    def _kinematics(self) -> Kinematics:
+        return self.forces.cam.kinematics
 
     def _squared(self, places: Places) -> Floats:
         room = 1 - self._kinematics.curvature(places.values) * self._roller

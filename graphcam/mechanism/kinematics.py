@@ -14,13 +14,14 @@ sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
+from graphcam.given.motion import Motion
 
 Complexes = NDArray[np.complexfloating[Any, Any]]
 Pair = tuple[Floats | float, Floats | float]
@@ -29,56 +30,113 @@ Values = tuple[Floats, Floats, Floats, Floats]
 """(s, v, a, j)"""
 
 
-class Kinematics(Protocol):
-    """One kind of follower on one cam; points and vectors of the frame are complex numbers, x + i y.
+@dataclass(frozen=True, eq=False)
+class Appearance:
+    """A follower as a picture of the mechanism shows it.
 
-    Everything follows from (s, v, a, j), whatever the angle or the phase they came from.
+    kind : a stem with a roller or a knife edge, an arm, a flat face
+    trace : (n,) the trace point, or the middle of the face;  motion : (n,) unit directions of its motion on the rise
+    pivot : of the arm;  face : how far the face reaches to the left (negative) and to the right [mm]
     """
 
+    kind: Literal["stem", "arm", "face"]
+    trace: Complexes
+    motion: Complexes
+    pivot: complex = 0j
+    face: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Kinematics(ABC):
+    """One kind of follower on one cam; points and vectors of the frame are complex numbers, x + i y.
+
+    Everything follows from (s, v, a, j), whatever the angle or the phase they came from.  Sizes may also be arrays, of
+    many cams at once: what does not fit gives NaN.
+
+    sigma : the sense in which the cam turns;  prime_radius : r0 [mm]
+    """
+
+    sigma: Any
+    prime_radius: Any
+    takes_roller: ClassVar[bool] = True
+    """Whether a roller touches the cam, or a knife edge in its place: then a smaller roller mends an undercut."""
+    has_pressure_angle: ClassVar[bool] = True
+    """Whether the contact pushes the follower aside at all."""
+    has_forces: ClassVar[bool] = False
+    """Whether :mod:`~graphcam.mechanism.forces` works out the forces on it."""
+
+    @classmethod
+    @abstractmethod
+    def of(cls, sizes: Any, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """Of a follower, or of many with arrays for its sizes."""
+
+    @abstractmethod
+    def check(self) -> None:
+        """That there can be such a cam, a single one.
+
+        Raises
+        ------
+        DesignError : the follower does not fit the prime radius or the lift
+        """
+
+    def part(self, which: NDArray[Any] | slice) -> Self:
+        """The same of some of the cams."""
+        return type(self)(*(getattr(self, size.name)[which] for size in fields(self)))
+
+    @abstractmethod
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
         """The point [mm] whose path on the cam is the pitch curve, the unit normal away from the cam, the curvature."""
-        ...
 
-    def point(self, values: Values) -> Complexes:
-        """The point [mm] whose path on the cam is the pitch curve."""
-        ...
-
-    def normal(self, values: Values) -> Complexes:
-        """The unit normal of the pitch curve there, away from the cam."""
-        ...
-
+    @abstractmethod
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
-        ...
 
+    @abstractmethod
     def speed(self, values: Values, inset: float) -> Floats:
         """How far the curve parallel to the pitch curve, ``inset`` mm inside of it, runs on [mm/rad].
 
         Negative where it runs backwards.  Forwards is against the cam's sense, along -i sigma times the normal.
         """
-        ...
 
+    @abstractmethod
     def curvature(self, values: Values) -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        ...
 
+    @abstractmethod
     def curvature_slope(self, values: Values) -> Floats:
         """Of the sign of kappa', and zero with it."""
-        ...
+
+    @abstractmethod
+    def sharpness(self, values: Values) -> Floats:
+        """What is greatest where the radius of curvature is least that a design keeps from becoming too small."""
+
+    @staticmethod
+    @abstractmethod
+    def radius_of(sharpness: Floats) -> Floats:
+        """That radius [mm]; inf where it does not matter, NaN for NaN."""
 
     def convex_radius(self, values: Values) -> Floats:
         """The radius of curvature [mm] that a design keeps from becoming too small; inf where it does not matter."""
-        ...
+        return self.radius_of(self.sharpness(values))
+
+    def point(self, values: Values) -> Complexes:
+        """The point [mm] whose path on the cam is the pitch curve."""
+        (x, y), _, _ = self.path(values)
+        return x + 1j * np.asarray(y)
+
+    def normal(self, values: Values) -> Complexes:
+        """The unit normal of the pitch curve there, away from the cam."""
+        _, (x, y), _ = self.path(values)
+        return x + 1j * np.asarray(y)
+
+    def appearance(self, motion: Motion, values: Values) -> Appearance:
+        """What is to be shown of the follower over places of a motion; by default a stem that slides upwards."""
+        return Appearance("stem", self.point(values), np.full(np.shape(values[0]), 1j))
 
 
-@dataclass(frozen=True)
-class RollerKinematics(ABC):
-    """A follower with a roller or a knife edge: what follows from its trace point.
-
-    sigma : the sense in which the cam turns
-    """
-
-    sigma: int
+@dataclass(frozen=True, eq=False)
+class RollerKinematics(Kinematics):
+    """A follower with a roller or a knife edge: what follows from its trace point."""
 
     @abstractmethod
     def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
@@ -118,11 +176,6 @@ class RollerKinematics(ABC):
         x, y = self.trace(values)[0]
         return x + 1j * np.asarray(y)
 
-    def normal(self, values: Values) -> Complexes:
-        """The unit normal of the pitch curve, away from the cam."""
-        _, (x, y), _ = self.path(values)
-        return x + 1j * np.asarray(y)
-
     def speed(self, values: Values, inset: float) -> Floats:
         """|p'| (1 - inset kappa) [mm/rad]."""
         q1, q2, _ = self.derivatives(values)
@@ -139,10 +192,14 @@ class RollerKinematics(ABC):
         # (q1 x q2)' = q1 x q3, and |q1|' = q1.q2/|q1|
         return -self.sigma * (pair_cross(q1, q3) * _dot(q1, q1) - 3 * pair_cross(q1, q2) * _dot(q1, q2))
 
-    def convex_radius(self, values: Values) -> Floats:
+    def sharpness(self, values: Values) -> Floats:
+        """kappa [1/mm]."""
+        return self.curvature(values)
+
+    @staticmethod
+    def radius_of(sharpness: Floats) -> Floats:
         """1/kappa [mm] where the pitch curve is convex, else inf: a roller fits into any hollow of a sound cam."""
-        kappa = self.curvature(values)
-        return np.divide(1.0, kappa, out=np.full_like(kappa, np.inf), where=kappa > 0)
+        return np.divide(1.0, sharpness, out=np.full_like(sharpness, np.inf), where=~(sharpness <= 0))
 
 
 def cross(a: Complexes, b: Complexes) -> Floats:

@@ -1,106 +1,63 @@
 """The least prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
 
-For a translating follower, with e' = sigma e, the pressure angle is permitted on the rises, on the returns and at the
-low rest where
-
-    s0 tan A  + e' >= M,    M  = max over the rises of (v - s tan A)
-    s0 tan A' - e' >= M',   M' = max over the returns of (|v| - s tan A')
-    s0 tan A  - e' >= 0
-
-so the cam centre lies in a region bounded by up to three lines, and r0 is its distance from the start of the lift.
-The region of an arm stands in :mod:`~graphcam.mechanism.least_radius_arm`; the profile under a flat face has the radius
-of curvature r0 + s + a.
-
-Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
+Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_radius_translating`,
+:mod:`~graphcam.mechanism.least_radius_arm` and :mod:`~graphcam.mechanism.flat_faced`.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from itertools import combinations
-from typing import Literal, NamedTuple, overload
-
-import numpy as np
+from typing import overload
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-from graphcam.given.motion import Dwell, Motion
-from graphcam.given.motion_law import Law
-from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, Line, arm_minimum_radius
-from graphcam.mechanism.roots import roots
-from graphcam.mechanism.stationary import SAMPLES, stationary_places
+from graphcam.given.motion import Motion
+from graphcam.mechanism.flat_faced import FlatMinimumRadius
+from graphcam.mechanism.followers import EXACT, LeastRadius
+from graphcam.mechanism.least_radius_arm import ArmMinimumRadius
+from graphcam.mechanism.least_radius_translating import MinimumRadius
 
-USUAL_LIMIT = {"translating": math.radians(30), "oscillating": math.radians(45)}
-"""The permitted pressure angle on the rise [rad] where none is given, by the follower's kind."""
-
-
-@dataclass(frozen=True)
-class MinimumRadius:
-    """The least permitted prime radius and the offset that goes with it [mm]; ``active`` names the lines that bind."""
-
-    prime_radius: float
-    offset: float
-    active: tuple[Line, ...]
-
-    @property
-    def place(self) -> float:
-        """The offset: where the follower stands beside the cam [mm]."""
-        return self.offset
-
-
-class _HalfPlane(NamedTuple):
-    """The points (e', s0) with s0 * slope + side * e' >= height; side is +1 or -1."""
-
-    name: Line
-    slope: float
-    side: int
-    height: float
-
-    def lowest(self, x: float) -> float:
-        """The least permitted s0 at e' = x."""
-        return (self.height - self.side * x) / self.slope
-
-    def foot(self) -> tuple[float, float]:
-        """The foot of the perpendicular from the start of the lift."""
-        # Angles in place of 1 + slope^2, which overflows near 90 degrees sooner than the foot does.
-        norm = math.hypot(1.0, self.slope)
-        return self.side * self.height / norm / norm, self.height / norm * (self.slope / norm)
-
-
-@dataclass(frozen=True)
-class FlatMinimumRadius:
-    """The least prime radius [mm] under a flat face; ``active`` is ("curvature",), or () where any radius will do."""
-
-    prime_radius: float
-    active: tuple[Literal["curvature"], ...]
-
-    @property
-    def place(self) -> float:
-        """0: a flat face may stand anywhere across its motion."""
-        return 0.0
-
-
-LeastRadius = MinimumRadius | ArmMinimumRadius | FlatMinimumRadius
+ONLY = {
+    "curvature": "only a flat face limits the radius by the curvature",
+    "offset": "only a translating follower has an offset",
+}
+"""Why a condition is left out for the other followers."""
 
 
 @overload
 def minimum_radius(
-    motion: Motion, follower: Translating, rotation: Rotation = "ccw", rise: float | None = None,
-    return_: float | None = None, offset: float | None = None, rest: bool = True, curvature: float | None = None,
-) -> MinimumRadius: ...  # fmt: skip
+    motion: Motion,
+    follower: Translating,
+    rotation: Rotation = "ccw",
+    rise: float | None = None,
+    return_: float | None = None,
+    offset: float | None = None,
+    rest: bool = True,
+    curvature: float | None = None,
+) -> MinimumRadius: ...
 @overload
 def minimum_radius(
-    motion: Motion, follower: Oscillating, rotation: Rotation = "ccw", rise: float | None = None,
-    return_: float | None = None, offset: float | None = None, rest: bool = True, curvature: float | None = None,
-) -> ArmMinimumRadius: ...  # fmt: skip
+    motion: Motion,
+    follower: Oscillating,
+    rotation: Rotation = "ccw",
+    rise: float | None = None,
+    return_: float | None = None,
+    offset: float | None = None,
+    rest: bool = True,
+    curvature: float | None = None,
+) -> ArmMinimumRadius: ...
 @overload
 def minimum_radius(
-    motion: Motion, follower: FlatFaced, rotation: Rotation = "ccw", rise: float | None = None,
-    return_: float | None = None, offset: float | None = None, rest: bool = True, curvature: float | None = None,
-) -> FlatMinimumRadius: ...  # fmt: skip
+    motion: Motion,
+    follower: FlatFaced,
+    rotation: Rotation = "ccw",
+    rise: float | None = None,
+    return_: float | None = None,
+    offset: float | None = None,
+    rest: bool = True,
+    curvature: float | None = None,
+) -> FlatMinimumRadius: ...
 def minimum_radius(
     motion: Motion,
     follower: Follower,
@@ -135,7 +92,7 @@ def minimum_radius(
         radius, or for the given distance), a length is not finite, or an offset or a curvature is given for a follower
         that has none
 
-    >>> from graphcam.given.motion import Return, Rise
+    >>> from graphcam.given.motion import Dwell, Return, Rise
     >>> motion = Motion([Rise(30, math.pi / 2, "cosine"), Return(30, math.pi / 2, "cosine"), Dwell(math.pi)])
     >>> least = minimum_radius(motion, Translating())
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
@@ -143,115 +100,11 @@ def minimum_radius(
     >>> round(minimum_radius(motion, FlatFaced(), curvature=8.0).prime_radius, 9)
     38.0
     """
-    sigma = sense(rotation)
-    if curvature is not None and not isinstance(follower, FlatFaced):
-        raise DesignError("curvature", curvature, "left out", "only a flat face limits the radius by the curvature")
-    if offset is not None and not isinstance(follower, Translating):
-        raise DesignError("offset", offset, "left out", "only a translating follower has an offset")
-    if isinstance(follower, FlatFaced):
-        return _flat(motion, curvature or 0.0)
-    limits = Limits(USUAL_LIMIT[follower.kind] if rise is None else rise, return_, rest)
-    if isinstance(follower, Oscillating):
-        return arm_minimum_radius(motion, follower, sigma, limits)
-    return _translating(motion, sigma, limits, offset)
-
-
-def _flat(motion: Motion, curvature: float) -> FlatMinimumRadius:
-    if not (math.isfinite(curvature) and curvature >= 0):
-        raise DesignError("least radius of curvature", curvature, "a finite length of 0 mm or more")
-    s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
-    radius = curvature - float(np.min(s + a))
-    return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())
-
-
-def _translating(motion: Motion, sigma: int, limits: Limits, offset: float | None) -> MinimumRadius:
-    lines = _region(motion, limits)
-    if offset is None:
-        x, y, active = _nearest(lines)
-        return MinimumRadius(math.hypot(x, y), sigma * x, active)
-    if not math.isfinite(offset):
-        raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
-    heights = [line.lowest(sigma * offset) for line in lines]
-    s0 = max(0.0, *heights)
-    binding: list[Line] = [line.name for line, height in zip(lines, heights, strict=True) if height == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(binding))
-
-
-def _region(motion: Motion, limits: Limits) -> list[_HalfPlane]:
-    slope = math.tan(limits.rise)
-    lines = [_HalfPlane("rise", slope, +1, _steepest_line(motion, +1, slope))]
-    if limits.return_ is not None:
-        slope_return = math.tan(limits.return_)
-        lines.append(_HalfPlane("return", slope_return, -1, _steepest_line(motion, -1, slope_return)))
-    if limits.rest:
-        lines.append(_HalfPlane("rest", slope, -1, 0.0))
-    return lines
-
-
-def _nearest(lines: list[_HalfPlane]) -> tuple[float, float, tuple[Line, ...]]:
-    """The region's point nearest to the origin, and the lines that hold it off."""
-    # Two half-planes at most fix the nearest point of a plane region (Helly), and the other lines can only push it
-    # farther out: so it is the farthest of the points that are nearest for two lines alone.
-    if len(lines) < 3:
-        return _nearest_of_two(lines[0], lines[-1])
-    points = [_nearest_of_two(a, b) for a, b in combinations(lines, 2)]
-    return max(points, key=lambda point: math.hypot(point[0], point[1]))
-
-
-def _nearest_of_two(a: _HalfPlane, b: _HalfPlane) -> tuple[float, float, tuple[Line, ...]]:
-    for line, other in ((a, b), (b, a)):
-        x, y = line.foot()
-        if line is other or y >= other.lowest(x):
-            return x, y, (line.name,)
-    # The two lines meet from both sides; were both on one side, a foot would have done.
-    rising, falling = (a, b) if a.side > 0 else (b, a)
-    y = (rising.height + falling.height) / (rising.slope + falling.slope)
-    x = (rising.height * falling.slope - falling.height * rising.slope) / (rising.slope + falling.slope)
-    return x, y, (a.name, b.name)
-
-
-# --- the tangent to the s - v diagram --------------------------------------------------------------------------------
-
-
-def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
-    """M or M': the greatest |v| - s * slope over all rises (+1) or all returns (-1) [mm/rad]."""
-    heights: list[float] = []
-    for k, phase in enumerate(motion.phases):
-        if isinstance(phase, Dwell) or phase.direction != direction:
-            continue
-        # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
-        law = phase.normalised if direction > 0 else phase.normalised.reversed
-        height = phase.lift / phase.angle * steepest_tangent(law, 1 / (slope * phase.angle))[1]
-        base = motion.levels[k] if direction > 0 else motion.levels[k + 1]
-        heights.append(height - slope * float(base))
-    return max(heights)
-
-
-def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
-    """The u at which f' - f/k is greatest, k = cot(A)/F, and that value.
-
-    There the tangent at the angle A touches the s - v diagram, and it meets the axis of v at that height.
-
-    >>> from graphcam.given.laws import law
-    >>> u, height = steepest_tangent(law("cosine"), 1.5)
-    >>> round(u, 12), round(height, 12)
-    (0.433452128665, 1.272441311934)
-    """
-    if closed_form := law.tangents[0]:
-        return closed_form(k)
-
-    def slope(u: Floats) -> Floats:
-        _, f1, f2 = law(u, derivatives=2)
-        return k * f2 - f1
-
-    edges = np.array([0.0, *law.edges, 1.0])
-    u = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
-    # Of a law that begins as u^n the place is (n - 1) k for small k, which may lie before every sample.
-    u = np.append(min(k, u[0]) / 2, u)
-    sign = np.sign(slope(u))
-    top = np.flatnonzero((sign[:-1] > 0) & (sign[1:] <= 0))
-    places = roots(slope, u[top], u[top + 1])
-    f, f1 = law(places, derivatives=1)
-    heights = f1 - f / k
-    best = np.argmax(heights)
-    return float(places[best]), float(heights[best])
+    sigma, exact = sense(rotation), EXACT[type(follower)]
+    asked = {"curvature": curvature, "offset": offset}
+    for name, value in asked.items():
+        if value is not None and name != exact.condition:
+            raise DesignError(name, value, "left out", ONLY[name])
+    limits = Limits(math.radians(follower.usual_limit_deg) if rise is None else rise, return_, rest)
+    own = [asked[exact.condition]] if exact.condition else []
+    return exact.least_radius(motion, follower, sigma, limits, *own)

@@ -21,8 +21,6 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations_with_replacement
-from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,10 +30,10 @@ from graphcam.given.follower import Oscillating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
+from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, names_of, nearest
 from graphcam.mechanism.kinematics import Complexes, Values, cross, dot
 from graphcam.mechanism.stationary import SAMPLES, smooth_pieces
 
-Line = Literal["rise", "return", "rest"]
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
 KEPT = 1e-12
@@ -56,19 +54,6 @@ class ArmMinimumRadius:
     def place(self) -> float:
         """The distance: where the follower stands beside the cam [mm]."""
         return self.distance
-
-
-@dataclass(frozen=True)
-class _HalfPlane:
-    """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name."""
-
-    name: Line | None
-    normal: complex
-    height: float
-
-    def excess(self, point: complex) -> float:
-        """How far the point lies outside [mm]."""
-        return self.height - (self.normal.conjugate() * point).real
 
 
 def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits: Limits) -> ArmMinimumRadius:
@@ -93,7 +78,7 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     _check_lift(motion, limits)
     region = _Region(motion, follower.arm, sigma, limits)
     if follower.distance is None:
-        point, lines = _exchange(region, 0j, _nearest)
+        point, lines = _exchange(region, 0j, nearest)
         distance = abs(follower.arm + point)
     else:
         distance = follower.distance
@@ -101,12 +86,10 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
         point, lines = _exchange(region, arc.point(0.0), arc.first)
         if region.worst(point, refined=True)[0] > KEPT * (follower.arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
-            raise DesignError(
-                "centre distance", distance, "one at which the pressure angle can keep its limits over the whole swing",
-                f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm",
-            )  # fmt: skip
-    active: list[Line] = [name for name in get_args(Line) if any(line.name == name for line in lines)]
-    return ArmMinimumRadius(abs(point), distance, tuple(active))
+            limit = "one at which the pressure angle can keep its limits over the whole swing"
+            remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
+            raise DesignError("centre distance", distance, limit, remedy)
+    return ArmMinimumRadius(abs(point), distance, names_of(lines))
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:
@@ -114,11 +97,9 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     back = math.pi / 2 if limits.return_ is None else limits.return_
     room = 2 * min(limits.rise, back) if limits.rest else limits.rise + back
     if motion.lift >= room:
-        raise DesignError(
-            "lift", f"{math.degrees(motion.lift):g} degrees",
-            f"less than {math.degrees(room):g} degrees for these limits",
-            "permit larger pressure angles or swing the arm less",
-        )  # fmt: skip
+        lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
+        remedy = "permit larger pressure angles or swing the arm less"
+        raise DesignError("lift", lift, f"less than {limit} for these limits", remedy)
 
 
 # --- the lines -------------------------------------------------------------------------------------------------------
@@ -159,10 +140,10 @@ class _Lines:
         second = arm * (force * j + a * np.sin(angle) + v * v * np.cos(angle)) + a * cross(n, p) + v * v * dot(n, p)
         return first, second
 
-    def half_planes(self, names: Sequence[Line], values: Values) -> list[_HalfPlane]:
+    def half_planes(self, names: Sequence[Line], values: Values) -> list[HalfPlane]:
         """The lines of some places one by one."""
         parts = zip(names, self.normals(values), self.heights(values), strict=True)
-        return [_HalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
+        return [HalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
 
 
 class _Region:
@@ -181,21 +162,21 @@ class _Region:
         self.values = motion.at(self.phase[:, None], self.u)
         self.fixed = self._at_rest(limits) if limits.rest else self._reach()
 
-    def _at_rest(self, limits: Limits) -> list[_HalfPlane]:
+    def _at_rest(self, limits: Limits) -> list[HalfPlane]:
         """On the sides that are not driven, in the lowest and the highest position."""
         s, rest = np.array([0.0, self.motion.lift]), np.zeros(2)
         sides = [(-self.sigma, limits.rise), (self.sigma, limits.return_)]
         lines = [_Lines(np.full(2, tau), np.full(2, limit), self.sigma, self.arm) for tau, limit in sides if limit]
         return [half for some in lines for half in some.half_planes(("rest", "rest"), (s, rest, rest, rest))]
 
-    def _reach(self) -> list[_HalfPlane]:
+    def _reach(self) -> list[HalfPlane]:
         """The arm stays above the line of centres in its lowest and its highest position."""
-        return [_HalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
+        return [HalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
 
     def _driven(self, piece: NDArray[np.intp]) -> _Lines:
         return _Lines(self.sigma * self.direction[piece], self.limit[piece], self.sigma, self.arm)
 
-    def worst(self, point: complex, *, refined: bool) -> tuple[float, _HalfPlane]:
+    def worst(self, point: complex, *, refined: bool) -> tuple[float, HalfPlane]:
         """The line that the point lies farthest beyond, and by how much [mm]; of the samples, or of all places."""
         excess = self._driven(np.arange(self.phase.size)[:, None]).excess(self.values, point)
         piece, k = (np.array([index]) for index in np.unravel_index(np.argmax(excess), excess.shape))
@@ -216,11 +197,8 @@ class _Region:
         may_be_worst = 3 * here - before - after >= max(0.0, excess.max())
         piece, k = np.nonzero((here > before) & (here >= after) & may_be_worst)
         phase, low, high = self.phase[piece], self.u[piece, k], self.u[piece, k + 2]
-        angle, lines, u = (
-            np.array([self.motion.phases[k].angle for k in phase]),
-            self._driven(piece),
-            self.u[piece, k + 1],
-        )
+        angle = np.array([self.motion.phases[k].angle for k in phase])
+        lines, u = self._driven(piece), self.u[piece, k + 1]
         while True:
             values = self.motion.at(phase, u)
             first, second = lines.slopes(values, point)
@@ -234,16 +212,14 @@ class _Region:
 
 # --- the least point -------------------------------------------------------------------------------------------------
 
-_Kept = tuple[complex, tuple[_HalfPlane, ...]]
 
-
-def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[_HalfPlane]], _Kept]) -> _Kept:
+def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]) -> Kept:
     """The least point that keeps all lines: meet the lines that bind and the worst one, until none is worse.
 
     A place where the excess is greatest enters with the square of its error, so the exchange converges like Newton's
     method.
     """
-    kept: tuple[_HalfPlane, ...] = ()
+    kept: tuple[HalfPlane, ...] = ()
     refined = True  # at first, because the one line that may bind alone must be the right one
     while True:
         beyond, line = region.worst(point, refined=refined)
@@ -257,20 +233,6 @@ def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[_HalfPla
         refined = True  # the samples keep, but what is between them?
 
 
-def _nearest(lines: Sequence[_HalfPlane]) -> _Kept:
-    """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off."""
-    # Two half-planes at most fix the nearest point of a plane region (Helly): see the translating follower.
-    return max((_nearest_of_two(a, b) for a, b in combinations_with_replacement(lines, 2)), key=lambda p: abs(p[0]))
-
-
-def _nearest_of_two(a: _HalfPlane, b: _HalfPlane) -> _Kept:
-    for line, other in ((a, b), (b, a)):
-        foot = max(line.height, 0.0) * line.normal
-        if line is other or other.excess(foot) <= 0:
-            return foot, (line,)
-    return 1j * (b.height * a.normal - a.height * b.normal) / (a.normal.conjugate() * b.normal).imag, (a, b)
-
-
 @dataclass(frozen=True)
 class _Arc:
     """The cam centres at a given distance from the pivot."""
@@ -282,7 +244,7 @@ class _Arc:
         """R at that angle."""
         return (self.distance - self.arm) + 2j * self.distance * math.sin(psi0 / 2) * cmath.exp(0.5j * psi0)
 
-    def first(self, lines: Sequence[_HalfPlane]) -> _Kept:
+    def first(self, lines: Sequence[HalfPlane]) -> Kept:
         """The point of the arc where psi0, as it grows, comes to keep the last line; R = 0 if the arc nowhere does."""
         line = lines[-1]
         cosine = (line.height + self.arm * line.normal.real) / self.distance

@@ -9,58 +9,63 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.circular import sine_cosine
+from graphcam.given.follower import Oscillating
 from graphcam.given.laws import Floats
-from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
+from graphcam.given.motion import Motion
+from graphcam.mechanism.kinematics import Appearance, Pair, RollerKinematics, Values
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OscillatingKinematics(RollerKinematics):
     """z = c - l exp(-i psi), with psi = psi0 + s the angle between the arm and the line of centres.
 
-    sigma : the sense in which the cam turns;  arm, distance, prime_radius : l, c and r0 [mm]
-    swing : the greatest s [rad]
-
-    Raises
-    ------
-    DesignError : arm and distance do not close a triangle with the prime radius, or the arm swings beyond the line of
-        centres
+    arm, distance : l and c [mm];  swing : the greatest s [rad]
     """
 
-    arm: float
-    distance: float
-    prime_radius: float
-    swing: float
+    arm: Any
+    distance: Any
+    swing: Any
 
-    def __post_init__(self) -> None:
+    @classmethod
+    def of(cls, sizes: Oscillating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
+        """With the arm and its centre distance; the lift is an angle."""
+        if sizes.distance is None:
+            remedy = "take the one that minimum_radius(...) finds"
+            raise DesignError("centre distance", "left open", "given for a cam", remedy)
+        return cls(sigma, prime_radius, sizes.arm, sizes.distance, lift)
+
+    def check(self) -> None:
+        """That arm, distance and prime radius close a triangle, and the arm stays above the line of centres."""
         arm, distance, r0 = self.arm, self.distance, self.prime_radius
-        if not abs(distance - arm) < r0 < distance + arm:
-            raise DesignError(
-                "prime radius", r0, f"between {abs(distance - arm):g} and {distance + arm:g} mm, "
-                f"where the arm of {arm:g} mm meets it from a centre distance of {distance:g} mm",
-                "change the prime radius, the arm or the centre distance",
-            )  # fmt: skip
-        if not self.psi0 + self.swing < math.pi:
-            raise DesignError(
-                "lift", f"{math.degrees(self.swing):g} degrees",
-                f"less than the {math.degrees(math.pi - self.psi0):g} degrees from the low rest to the stretched arm",
-                "make the lift or the prime radius smaller, or the centre distance or the arm longer",
-            )  # fmt: skip
+        nearest, farthest = abs(distance - arm), distance + arm
+        if not nearest < r0 < farthest:
+            limit = f"between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it"
+            limit += f" from a centre distance of {distance:g} mm"
+            raise DesignError("prime radius", r0, limit, "change the prime radius, the arm or the centre distance")
+        if math.isnan(self.psi0):
+            left = math.degrees(math.pi - angle_between(distance, arm, r0))
+            limit = f"less than the {left:g} degrees from the low rest to the stretched arm"
+            remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
+            raise DesignError("lift", f"{math.degrees(self.swing):g} degrees", limit, remedy)
 
     @cached_property
-    def psi0(self) -> float:
+    def psi0(self) -> Any:
         """The angle between the arm and the line of centres at the low rest [rad].
 
-        >>> round(math.degrees(OscillatingKinematics(+1, arm=125, distance=150, prime_radius=61, swing=0.2).psi0), 2)
+        >>> arm = OscillatingKinematics(+1, prime_radius=61, arm=125, distance=150, swing=0.2)
+        >>> round(math.degrees(arm.psi0), 2)
         23.45
         """
-        return float(angle_between(self.distance, self.arm, self.prime_radius))
+        angle = angle_between(self.distance, self.arm, self.prime_radius)
+        fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
+        return np.where(fits, angle, np.nan)[()]
 
     def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
         """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
@@ -70,8 +75,8 @@ class OscillatingKinematics(RollerKinematics):
         x, y = (self.distance - self.arm) + 2 * self.arm * sine * sine, 2 * self.arm * sine * cosine
         # (k + i m) l exp(-i psi), with l cos(psi) = c - x
         forth, back = self.arm * (cosine - sine) * (cosine + sine), -y
-        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth)
-                      for k, m in ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v)))  # fmt: skip
+        factors = ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v))
+        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth) for k, m in factors)
         return (x, y), z1, z2, z3
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
@@ -87,34 +92,10 @@ class OscillatingKinematics(RollerKinematics):
         across = (arm - c) + self.sigma * arm * v + 2 * c * sine * sine
         return (up, across), (v * forth, v * up + self.sigma * arm * a)
 
-
-@dataclass(frozen=True, eq=False)
-class ManyOscillating(OscillatingKinematics):
-    """Arms on many cams at once: each size is an array.
-
-    An arm that does not reach from its pivot to the prime circle, or swings beyond the line of centres, gives NaN.
-    """
-
-    sigma: Any
-    arm: Any
-    distance: Any
-    prime_radius: Any
-    swing: Any
-
-    def __post_init__(self) -> None:
-        """No error: within arrays a miss is NaN."""
-
-    @cached_property
-    def psi0(self) -> Any:
-        """The angles between arms and lines of centres at the low rest [rad]."""
-        angle = angle_between(self.distance, self.arm, self.prime_radius)
-        fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
-        return np.where(fits, angle, np.nan)
-
-    def part(self, which: NDArray[Any] | slice) -> ManyOscillating:
-        """The same of some of the cams."""
-        some = (self.sigma, self.arm, self.distance, self.prime_radius, self.swing)
-        return ManyOscillating(*(column[which] for column in some))
+    def appearance(self, motion: Motion, values: Values) -> Appearance:
+        """An arm; from the left it swings clockwise on the rise."""
+        trace, pivot = self.point(values), complex(self.distance)
+        return Appearance("arm", trace, -1j * (trace - pivot) / self.arm, pivot)
 
 
 def angle_between(one: ArrayLike, two: ArrayLike, opposite: ArrayLike) -> Floats:

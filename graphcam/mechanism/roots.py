@@ -13,6 +13,9 @@ from numpy.typing import ArrayLike
 
 from graphcam.given.laws import Floats
 
+# Not scipy.optimize.elementwise.find_root, which is the same method: measured from 1 to 10,000 roots at once, what
+# stands here takes a half to a thirtieth of its time, and needs no scipy.
+
 ROUNDING = 4 * np.finfo(np.float64).eps
 """A root is known when its bracket is no wider than this part of it."""
 

@@ -42,6 +42,7 @@ SAME = 1e-13
 """Sizes that differ by less than this part are the same."""
 POLISH = 1e-5
 """The last move of the prime radius is smaller than this part of it."""
+NAMES = ("prime radius", "offset", "roller radius", "face width")
 STARTS = 3
 """From the best so many cams of a coarse grid the search starts."""
 
@@ -87,22 +88,17 @@ class SizingProblem:
             low, high = getattr(self, name)
             positive = name == "offset" or low > 0
             if not (math.isfinite(low) and math.isfinite(high) and low <= high and positive):
-                quantity = name.replace("_", " ")
-                raise DesignError(
-                    f"range of the {quantity}", f"{low:g} to {high:g} mm", "from a size to one no smaller"
-                )
+                quantity = f"range of the {name.replace('_', ' ')}"
+                raise DesignError(quantity, f"{low:g} to {high:g} mm", "from a size to one no smaller")
         for quantity, most in (("offset", max(map(abs, self.offset))), ("roller radius", self.roller_radius[1])):
             if not most < self.prime_radius[0]:
-                raise DesignError(
-                    f"range of the {quantity}", f"up to {most:g} mm",
-                    f"less than the least prime radius of {self.prime_radius[0]:g} mm", "no such cam could be made",
-                )  # fmt: skip
+                limit = f"less than the least prime radius of {self.prime_radius[0]:g} mm"
+                raise DesignError(f"range of the {quantity}", f"up to {most:g} mm", limit, "no such cam could be made")
         least = Contact(self.motion, self.load).least_force()
         if least.value < -BINDS * abs(self.load.preload):
-            raise DesignError(
-                "least contact force", f"{least.value:.4g} N", "0 N or more, so that the follower stays on its cam",
-                "preload the spring: spring_preload(...) tells the least",
-            )  # fmt: skip
+            limit = "0 N or more, so that the follower stays on its cam"
+            remedy = "preload the spring: spring_preload(...) tells the least"
+            raise DesignError("least contact force", f"{least.value:.4g} N", limit, remedy)
 
     @property
     def bounds(self) -> list[Range]:
@@ -204,10 +200,8 @@ def _report(problem: SizingProblem, sizes: Sizes) -> SizedCam:
     extremes = stress.forces.cam.extremes()
     left = problem.exact_margins(replace(sizes, width=problem.face_width[1]))
     binding = [name for name, margin in left.items() if margin <= BINDS]
-    for name, value, (low, high) in (
-        ("prime radius", sizes.radius, problem.prime_radius), ("offset", sizes.offset, problem.offset),
-        ("roller radius", sizes.roller, problem.roller_radius), ("face width", sizes.width, problem.face_width),
-    ):  # fmt: skip
+    found, ranges = (sizes.radius, sizes.offset, sizes.roller, sizes.width), (*problem.bounds, problem.face_width)
+    for name, value, (low, high) in zip(NAMES, found, ranges, strict=True):
         near = BINDS * (high - low)
         if low < high and value <= low + near:
             binding.append(f"least {name}")
@@ -216,21 +210,18 @@ def _report(problem: SizingProblem, sizes: Sizes) -> SizedCam:
     angles = [extremes.pressure_angle_rise[0]]
     if problem.limits.return_ is not None:
         angles.append(extremes.pressure_angle_return[0])
-    return SizedCam(
-        stress.forces.cam, sizes.offset, sizes.width, max(map(abs, angles)), extremes.min_convex_radius[0],
-        stress.greatest().value, tuple(binding), problem,
-    )  # fmt: skip
+    exact = max(map(abs, angles)), extremes.min_convex_radius[0], stress.greatest().value
+    return SizedCam(stress.forces.cam, sizes.offset, sizes.width, *exact, tuple(binding), problem)
 
 
 def _refuse(problem: SizingProblem, nearest: Sizes) -> NoReturn:
     """No cam in the ranges keeps the limits: say which is exceeded most by the cam that comes nearest."""
     left = problem.exact_margins(nearest)
     worst = min(left, key=lambda name: left[name])
-    raise DesignError(
-        "smallest cam", f"none: the nearest exceeds the limit of the {worst}", "in the given ranges",
-        f"widen the ranges or permit more; it has r0 = {nearest.radius:.4g}, e = {nearest.offset:.4g}, roller "
-        f"{nearest.roller:.4g} and face width {nearest.width:.4g} mm",
-    )  # fmt: skip
+    has = f"r0 = {nearest.radius:.4g}, e = {nearest.offset:.4g}, roller {nearest.roller:.4g}"
+    remedy = f"widen the ranges or permit more; it has {has} and face width {nearest.width:.4g} mm"
+    found = f"none: the nearest exceeds the limit of the {worst}"
+    raise DesignError("smallest cam", found, "in the given ranges", remedy)
 
 
 def _starts(problem: SizingProblem, places: TurnPlaces) -> list[Sizes]:
@@ -297,10 +288,8 @@ def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: flo
     def size(t: Floats) -> float:
         return float(t[k])
 
-    result = minimize(
-        size, t0, bounds=[(0, 1)] * t0.size, constraints={"type": "ineq", "fun": left},
-        method="SLSQP", options={"ftol": 1e-14, "maxiter": 200},
-    )  # fmt: skip
+    bounds, kept, options = [(0, 1)] * t0.size, {"type": "ineq", "fun": left}, {"ftol": 1e-14, "maxiter": 200}
+    result = minimize(size, t0, bounds=bounds, constraints=kept, method="SLSQP", options=options)
     return sizes(np.clip(result.x, 0, 1))
 
 

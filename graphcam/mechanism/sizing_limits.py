@@ -18,11 +18,10 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
-from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.hertz import ContactStress, RollerContact
 from graphcam.mechanism.kinematics import Values, pair_cross
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
-from graphcam.mechanism.translating import ManyTranslating
+from graphcam.mechanism.translating import TranslatingKinematics
 
 LIMITS = ("pressure angle on the rise", "pressure angle on the return", "curvature", "stress")
 SPREAD = 24
@@ -44,10 +43,8 @@ class SizingLimits:
             raise DesignError("permitted stress", self.stress, "a finite number greater than 0 MPa")
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
-                raise DesignError(
-                    f"permitted pressure angle on the {name}", f"{math.degrees(angle):g} degrees",
-                    "between 0 and 90 degrees, both excluded",
-                )  # fmt: skip
+                quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
+                raise DesignError(quantity, f"{math.degrees(angle):g} degrees", limit)
         if not 0 < self.roller_share <= 1:
             raise DesignError(
                 "roller's share of the radius of curvature", self.roller_share, "greater than 0, at most 1"
@@ -98,7 +95,7 @@ class TurnPlaces:
     def worst(cls, stress: ContactStress) -> TurnPlaces:
         """Where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.load
-        kin = kinematics(cam.follower, cam.prime_radius, cam.sigma, cam.motion.lift)
+        kin = cam.kinematics
 
         def angle_slope(values: Values) -> Floats:
             return pair_cross(*kin.pressure(values))
@@ -126,7 +123,7 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
 
     returns : by the names of :data:`LIMITS`, each (..., n)
     """
-    kin = ManyTranslating(sigma, sizes.offset, sizes.radius)
+    kin = TranslatingKinematics(sigma, sizes.radius, sizes.offset)
     (along, across), _ = kin.pressure(places.values)
     kappa, steepness = kin.curvature(places.values), np.abs(across) / along
 

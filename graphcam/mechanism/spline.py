@@ -18,19 +18,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
+from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.envelope import GAUSS_NODES, GAUSS_WEIGHTS, Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.undercut import kept_arcs, lost_parts
-
-if TYPE_CHECKING:
-    from graphcam.mechanism.cam import Cam
 
 DEVIATION = 0.001
 """How far the spline may lie from the exact profile [mm]."""
@@ -81,7 +78,6 @@ def profile_spline(cam: Cam, deviation: float = DEVIATION) -> ProfileSpline:
     >>> from math import radians
     >>> from graphcam.given.follower import Translating
     >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
-    >>> from graphcam.mechanism.cam import Cam
     >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
     >>> spline = profile_spline(Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50))
     >>> len(spline.control), spline.deviation < 0.001, spline(0).round(4).tolist()
@@ -89,7 +85,7 @@ def profile_spline(cam: Cam, deviation: float = DEVIATION) -> ProfileSpline:
     """
     if not deviation >= LEAST_DEVIATION:
         raise DesignError("deviation", deviation, f"{LEAST_DEVIATION:g} mm or more")
-    envelope = Envelope(cam)
+    envelope = cam.envelope
     stretches, joints = _stretches(envelope)
     closed = not joints
     splines = [_fitted(envelope, stretch, deviation, periodic=closed) for stretch in stretches]
@@ -141,7 +137,7 @@ def _spans(envelope: Envelope) -> tuple[list[Span], list[bool | None]]:
 
 def _jumps(envelope: Envelope, here: Span, there: Span) -> bool:
     before, after = (float(envelope.curvature(phi, piece)) for phi, piece in ((here[1], here[2]), (there[0], there[2])))
-    return abs(after - before) > SAME_CURVATURE / envelope.cam.prime_radius
+    return abs(after - before) > SAME_CURVATURE / envelope.prime_radius
 
 
 # --- the spline of one stretch ---------------------------------------------------------------------------------------
@@ -215,7 +211,7 @@ def _fourth(envelope: Envelope, ends: Floats, at: Floats, piece: int) -> Floats:
     """|c''''| by the arc length, at the arc lengths ``at`` in the middles between the cam angles ``ends``."""
     middles = (ends[:-1] + ends[1:]) / 2
     kappa = envelope.curvature(middles, np.full(middles.size, piece))
-    kappa = kappa / (1 - envelope.cam.roller_radius * kappa)
+    kappa = kappa / (1 - envelope.roller_radius * kappa)
     slope = np.gradient(kappa, at)
     # c'' = kappa n, of which the derivatives along the normal and along the tangent.
     return np.hypot(np.gradient(slope, at) - kappa**3, 3 * kappa * slope)

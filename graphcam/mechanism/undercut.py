@@ -19,20 +19,15 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced
 from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
 from graphcam.mechanism.envelope import Backward, Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
-
-if TYPE_CHECKING:
-    from graphcam.mechanism.cam import Cam
 
 NEWTON_STEPS = 40
 CLOSED = 1e-12
@@ -88,14 +83,13 @@ class Lost:
     at: complex
 
 
-def undercuts(cam: Cam) -> list[Undercut]:
+def undercuts(envelope: Envelope) -> list[Undercut]:
     """The parts of the profile that are lost, in order of the cam angle from the lowest place on; none if it is sound.
 
     Raises
     ------
     DesignError : the loops cannot be told apart
     """
-    envelope = Envelope(cam)
     lost = lost_parts(envelope)
     cusps = [phi for part in envelope.backward for phi in (part.begin, part.end)]
     found = [(part, [phi for phi in cusps if part.begin <= phi <= part.end]) for part in lost]
@@ -109,7 +103,7 @@ def undercuts(cam: Cam) -> list[Undercut]:
     ]
 
 
-def trimmed_profile(cam: Cam, n: int) -> CutProfile:
+def trimmed_profile(envelope: Envelope, n: int) -> CutProfile:
     """The profile that can be cut, as n points: the corners, and between them about equal steps of the cam angle.
 
     The first point is the lowest place, the start of a lift or of the rest before it.
@@ -118,7 +112,6 @@ def trimmed_profile(cam: Cam, n: int) -> CutProfile:
     ------
     DesignError : there are too few points for the corners, or as for :func:`undercuts`
     """
-    envelope = Envelope(cam)
     lost = lost_parts(envelope)
     arcs = kept_arcs(envelope, lost)
     least = len(arcs) + 2
@@ -159,26 +152,10 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
             lost.append(crossing)
             here = crossing.end
     if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward):
-        raise DesignError(
-            "undercut", "made of loops that cannot be told apart", "of separate loops",
-            f"take a roller well below {largest_roller(envelope.cam):g} mm" if envelope.cam.roller_radius
-            else "enlarge the prime radius",
-        )  # fmt: skip
+        smaller = f"take a roller well below {envelope.least_radius:g} mm"
+        remedy = smaller if envelope.kinematics.takes_roller else "enlarge the prime radius"
+        raise DesignError("undercut", "made of loops that cannot be told apart", "of separate loops", remedy)
     return lost
-
-
-def largest_roller(cam: Cam) -> float:
-    """The roller radius [mm] that a sound profile stays below: the least convex radius of the pitch curve.
-
-    The prime radius limits it too.  It is a matter of the pitch curve alone, whatever roller the follower has.
-
-    Raises
-    ------
-    DesignError : the follower has no roller
-    """
-    if isinstance(cam.follower, FlatFaced):
-        raise DesignError("follower", "flat-faced", "one with a roller", "enlarge the prime radius instead")
-    return min(cam.extremes().min_convex_radius[0], cam.prime_radius)
 
 
 # --- crossings -------------------------------------------------------------------------------------------------------
@@ -247,7 +224,7 @@ def _crossing(
         if settled and moved >= last / 2:
             break  # what is left is rounding
         last = moved
-    if not settled or abs(envelope.way(phi1, phi2)) > CLOSED * envelope.cam.prime_radius:
+    if not settled or abs(envelope.way(phi1, phi2)) > CLOSED * envelope.prime_radius:
         return None
     at = (envelope.point(phi1, envelope.piece(phi1, "left")) + envelope.point(phi2, envelope.piece(phi2))) / 2
     return Lost(phi1, phi2, complex(at))

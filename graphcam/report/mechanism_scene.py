@@ -15,11 +15,8 @@ import numpy as np
 from graphcam.constructions.axes import phase_symbol, phase_title
 from graphcam.drafting.ink import Caption, Points, say
 from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced, Oscillating
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.flat_faced import face_width
-from graphcam.mechanism.followers import kinematics
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
 
@@ -79,26 +76,18 @@ def cam_scene(solution: Solution) -> MechanismScene:
     ('stem', (-10+42.8486j), 721)
     """
     cam, phi = solution.cam, _turn()
-    follower, values = cam.follower, cam.motion(phi)
-    exact = kinematics(follower, cam.prime_radius, cam.sigma, cam.motion.lift)
-    trace, normal = exact.point(values), exact.normal(values)
-    contact, motion = trace - cam.roller_radius * normal, np.full(phi.shape, 1j)
-    kind, pivot, face = "stem", 0j, (0.0, 0.0)
-    if isinstance(follower, FlatFaced):
-        kind, trace, width = "face", 1j * trace.imag, face_width(cam.motion, cam.rotation)
-        face = (-width.left, width.right)
-    elif isinstance(follower, Oscillating):
-        kind, pivot = "arm", complex(follower.distance or 0.0)
-        # From the left the arm swings clockwise on the rise.
-        motion = -1j * (trace - pivot) / follower.arm
+    values = cam.motion(phi)
+    shown, normal = cam.kinematics.appearance(cam.motion, values), cam.kinematics.normal(values)
+    contact = cam.kinematics.point(values) - cam.roller_radius * normal
     starts = [*cam.motion.starts.tolist(), 2 * math.pi]
     phases = tuple(
         TurnPhase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
         for k, (start, end) in enumerate(pairwise(starts))
     )
     profile, alpha = _outline(cam, contact, phi), cam.pressure_angle(phi)
-    points, (s, v, *_) = (trace, contact, motion, normal), values
-    return MechanismScene(kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, alpha, s, v, pivot, face)
+    points, (s, v, *_) = (shown.trace, contact, shown.motion, normal), values
+    placed = shown.pivot, shown.face
+    return MechanismScene(shown.kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, alpha, s, v, *placed)
 
 
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:

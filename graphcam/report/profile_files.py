@@ -29,7 +29,7 @@ def write_profile(cam: Cam, folder: Path) -> dict[str, str]:
     """
     from graphcam.sheets.dxf_renderer import write_spline
 
-    cut, spline = trimmed_profile(cam, POINTS), profile_spline(cam)
+    cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam)
     write_spline(spline.control, spline.knots, folder / NAMES["profile_dxf"], layer="profile")
     _write_csv(cut, folder / NAMES["profile_csv"])
     _write_xyz(cut, folder / NAMES["profile_xyz"])

@@ -7,10 +7,8 @@ from itertools import product
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, turning
-from graphcam.constructions.drawn_arm import DrawnOscillating
 from graphcam.constructions.law_names import law_name
 from graphcam.drafting.units import unit
-from graphcam.given.follower import FlatFaced
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import Dwell, Motion
 from graphcam.report.markdown import number
@@ -31,15 +29,15 @@ AT_SPEED: Mapping[str, tuple[Caption, ...]] = {
 def sizes(solution: Solution) -> list[Row]:
     """The sizes of the cam that is built: name, value, and whether it was given or adopted."""
     cam, board = solution.cam, solution.chain.board
-    prime_radius = (say("prime radius r₀"), mm(cam.prime_radius), _by(board.prime_radius))
-    if isinstance(cam.follower, FlatFaced):
-        return [prime_radius]
-    swings = isinstance(board.follower, DrawnOscillating)
+    follower, prime_radius = board.follower, mm(cam.prime_radius)
+    asked = {follower.place_name: follower.place, "roller_radius": board.roller_radius}
     return [
-        prime_radius,
-        *([(say("arm"), mm(board.follower.arm), GIVEN)] if isinstance(board.follower, DrawnOscillating) else []),
-        (say("distance") if swings else say("offset"), mm(solution.chain.place + 0.0), _by(board.follower.place)),
-        (say("roller radius"), mm(cam.roller_radius), _by(board.roller_radius)),
+        (say("prime radius r₀"), prime_radius, _by(board.prime_radius)),
+        *(
+            (size.title, mm(size.value + 0.0), _by(asked.get(size.name, size.value)))
+            for size in follower.sizes(solution.chain.place, cam.roller_radius)
+            if size.value is not None
+        ),
     ]
 
 
@@ -95,7 +93,7 @@ def _measured(solution: Solution) -> list[Row]:
 
 def _limits(solution: Solution) -> list[Row]:
     limits, least = solution.chain.board.limits, solution.task.limits.min_curvature_radius
-    if isinstance(solution.cam.follower, FlatFaced):
+    if "pressure_angle" not in solution.drawn:
         return [(say("permitted radius of curvature"), mm(least or 0), LIMIT)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
     return [

@@ -12,8 +12,7 @@ from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.given.laws import Floats
-from graphcam.language import ENGLISH
-from graphcam.language import language as language_of
+from graphcam.language import ENGLISH, language as language_of
 from graphcam.mechanism.sizing import SizedCam
 from graphcam.mechanism.sizing_region import FeasibleRegion, feasible_region
 from graphcam.sheets.formats import Format

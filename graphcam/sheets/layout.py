@@ -19,8 +19,7 @@ from graphcam.drafting.ink import Step
 from graphcam.sheets.expand import Drawn, Placement, expand
 from graphcam.sheets.filling import BORDER, ONE_PAGE, Leaf, fill
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import frame as empty_sheet
-from graphcam.sheets.frame import title_box
+from graphcam.sheets.frame import frame as empty_sheet, title_box
 from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH

@@ -15,7 +15,6 @@ from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.given.follower import FlatFaced, Oscillating
 from graphcam.mechanism.cam import Cam
 from graphcam.solving.json_values import plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
@@ -95,11 +94,7 @@ class Solution:
         return {
             "graphcam": __version__,
             "task": self.task.to_dict(),
-            "cam": {
-                "prime_radius": self.cam.prime_radius,
-                **self._follower_sizes(),
-                "rotation": self.cam.rotation,
-            },
+            "cam": {"prime_radius": self.cam.prime_radius, **self._follower_sizes(), "rotation": self.cam.rotation},
             "scales": self._scales(),
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
@@ -108,12 +103,8 @@ class Solution:
         }
 
     def _follower_sizes(self) -> dict[str, float | None]:
-        if isinstance(self.cam.follower, FlatFaced):
-            return {"offset": None, "roller_radius": None}
-        follower = self.cam.follower
-        arm: dict[str, float | None] = {"arm": follower.arm} if isinstance(follower, Oscillating) else {}
-        place = {self.chain.board.follower.place_name: self.chain.place}
-        return {**arm, **place, "roller_radius": self.chain.roller_radius}
+        sizes = self.chain.board.follower.sizes(self.chain.place, self.cam.roller_radius)
+        return {size.name: size.value for size in sizes}
 
     @property
     def _lift(self) -> tuple[float, str]:
@@ -136,8 +127,10 @@ class Solution:
         s, v, a, _ = exact.values
         alpha = np.where(np.isnan(drawn["alpha"]), np.nan, exact.pressure_angle)  # a flat face has none
         pairs = {
-            "s": (factor * drawn["s"], factor * s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "s": (factor * drawn["s"], factor * s),
+            "v": (drawn["v"], v),
+            "a": (drawn["a"], a),
             "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
-        }  # fmt: skip
+        }
         pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)

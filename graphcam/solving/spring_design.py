@@ -12,11 +12,10 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, phase_symbol
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.force_plan import force_plan, round_scale
+from graphcam.constructions.force_plan import round_scale
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Role, Segments
-from graphcam.given.follower import Translating
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
@@ -71,16 +70,14 @@ class SpringDesign:
     @cached_property
     def greatest_normal(self) -> ValueAt:
         """The greatest force along the contact normal [N]; of a flat face it is the force along the motion."""
-        if isinstance(self.cam.follower, Translating):
+        if self.cam.kinematics.has_forces:
             return CamForces(self.cam, self.load).greatest_normal()
         return self.contact.greatest_force()
 
     @cached_property
     def force_plan(self) -> Construction | None:
         """The force plan of a translating follower at the station of its velocity plan, if that is loaded."""
-        if not isinstance(self.cam.follower, Translating):
-            return None
-        return force_plan(self.chain.pressure_angle, self.load, self.chain.pencil)
+        return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil)
 
     @property
     def lost(self) -> list[Caption]:

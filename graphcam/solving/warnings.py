@@ -9,13 +9,13 @@ from dataclasses import replace
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced
-from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.undercut import Undercut, largest_roller
+from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.undercut import Undercut
 from graphcam.words import Caption, say, sequence
 
 LAST_DIGIT = 0.005
 """mm or degrees: what differs by less does not differ in print."""
+ENLARGE = say("Enlarge the prime radius.")
 
 
 def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Caption]:
@@ -30,19 +30,20 @@ def _undercut(cam: Cam) -> Iterator[Caption]:
     try:
         lost = cam.undercuts()
     except DesignError:
+        remedy = ENLARGE
+        if cam.kinematics.takes_roller:
+            remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
         yield say(
             "The profile cannot be cut: its undercut is made of loops that cannot be told apart. {remedy}",
-            remedy=say("Enlarge the prime radius.")
-            if isinstance(cam.follower, FlatFaced)
-            else say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam))),
+            remedy=remedy,
         )
         return
     if not lost:
         return
     too_large = (
-        say("by the flat face on a prime radius of {radius:g} mm", radius=cam.prime_radius)
-        if isinstance(cam.follower, FlatFaced)
-        else say("with a roller of {radius:g} mm", radius=cam.roller_radius)
+        say("with a roller of {radius:g} mm", radius=cam.roller_radius)
+        if cam.kinematics.takes_roller
+        else say("by the flat face on a prime radius of {radius:g} mm", radius=cam.prime_radius)
     )
     yield say(
         "The profile cannot be cut {cause}: it is undercut {where}. {remedy}",
@@ -67,8 +68,8 @@ def _where(part: Undercut) -> Caption:
 
 
 def _remedy(cam: Cam, lost: list[Undercut]) -> Caption:
-    if isinstance(cam.follower, FlatFaced):
-        return say("Enlarge the prime radius.")
+    if not cam.kinematics.takes_roller:
+        return ENLARGE
     if any(part.cusps for part in lost):
         return say("Every roller smaller than {radius} mm avoids the cusps.", radius=_rounded_down(largest_roller(cam)))
     return say("Take a smaller roller or a larger prime radius.")
@@ -81,8 +82,6 @@ EXCEEDED = {
 
 
 def _limits(cam: Cam, board: Board) -> Iterator[Caption]:
-    if isinstance(cam.follower, FlatFaced):
-        return
     extremes, limits = cam.extremes(), board.limits
     for word, (alpha, phi), limit in (
         ("rise", extremes.pressure_angle_rise, limits.rise),

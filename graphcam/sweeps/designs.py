@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating
+from graphcam.given.follower import FOLLOWERS, Follower
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -23,11 +23,7 @@ _OF_FOLLOWERS = "offset", "arm", "distance", "roller_radius"
 NUMBERS = (*_SIZES, *_OF_FOLLOWERS)
 """The sizes of a design."""
 Kind = Literal["translating", "oscillating", "flat-faced"]
-OWN: dict[str, tuple[str, ...]] = {
-    "translating": ("offset", "roller_radius"),
-    "oscillating": ("arm", "distance", "roller_radius"),
-    "flat-faced": (),
-}
+OWN = {kind: tuple(size.name for size in fields(follower)) for kind, follower in FOLLOWERS.items()}
 """The sizes that not every follower has."""
 
 
@@ -85,7 +81,7 @@ class Designs:
         self._check_follower()
 
     def _check_follower(self) -> None:
-        own, a = OWN[self.follower], "an" if self.follower == "oscillating" else "a"
+        own, a = OWN[self.follower], "an" if self.follower.startswith("o") else "a"
         for name in _OF_FOLLOWERS:
             given = bool(np.any(getattr(self, name)))
             if given and name not in own:
@@ -149,11 +145,8 @@ class Designs:
         phases += [Return(sizes["lift"], sizes["return_angle"], return_law)]
         phases += [Dwell(low)] if low else []
         own = {name: sizes[name] for name in OWN[self.follower]}
-        follower: Follower = _FOLLOWERS[self.follower](**own)
+        follower: Follower = FOLLOWERS[self.follower](**own)
         return Cam(Motion(phases), follower, sizes["prime_radius"], rotation)
-
-
-_FOLLOWERS = {"translating": Translating, "oscillating": Oscillating, "flat-faced": FlatFaced}
 
 
 def _numbers(name: str, values: ArrayLike) -> Floats:

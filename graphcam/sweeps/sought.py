@@ -3,30 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.flat_faced import FlatFacedKinematics
-from graphcam.mechanism.kinematics import Values, pair_cross
-from graphcam.mechanism.oscillating import ManyOscillating
-from graphcam.mechanism.translating import ManyTranslating
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.greatest import Numbers
-
-Many = ManyTranslating | ManyOscillating
 
 
 @dataclass(frozen=True, eq=False)
-class Steepness:
+class _OfManyCams:
+    kin: Kinematics
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The same of some of the cams."""
+        return type(self)(self.kin.part(which))
+
+
+class Steepness(_OfManyCams):
     """tan(alpha), which grows with the pressure angle."""
 
-    kin: Many
     signed: ClassVar[bool] = True
-
-    def part(self, which: Numbers | slice) -> Steepness:
-        """The same of some of the cams."""
-        return Steepness(self.kin.part(which))
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
@@ -38,50 +36,19 @@ class Steepness:
         return pair_cross(*self.kin.pressure(values))
 
 
-@dataclass(frozen=True, eq=False)
-class Sharpness:
-    """The curvature of the pitch curve."""
+class Sharpness(_OfManyCams):
+    """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
 
-    kin: Many
     signed: ClassVar[bool] = False
 
-    def part(self, which: Numbers | slice) -> Sharpness:
-        """The same of some of the cams."""
-        return Sharpness(self.kin.part(which))
-
     def reading(self, values: Values) -> Floats:
-        """kappa [1/mm]."""
-        return self.kin.curvature(values)
+        """kappa [1/mm], or -rho [mm] of a flat face's cam."""
+        return self.kin.sharpness(values)
 
     def slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
         return self.kin.curvature_slope(values)
 
     def radius(self, sharpest: Floats) -> Floats:
-        """The least convex radius [mm], inf where nothing is convex."""
-        with np.errstate(divide="ignore"):
-            return np.where(sharpest <= 0, np.inf, 1 / sharpest)
-
-
-@dataclass(frozen=True, eq=False)
-class FlatSharpness:
-    """-rho of a flat face's cam."""
-
-    kin: FlatFacedKinematics
-    signed: ClassVar[bool] = False
-
-    def part(self, which: Numbers | slice) -> FlatSharpness:
-        """The same of some of the cams."""
-        return FlatSharpness(FlatFacedKinematics(self.kin.sigma, np.asarray(self.kin.prime_radius)[which]))
-
-    def reading(self, values: Values) -> Floats:
-        """-rho [mm]."""
-        return -self.kin.convex_radius(values)
-
-    def slope(self, values: Values) -> Floats:
-        """-rho'."""
-        return self.kin.curvature_slope(values)
-
-    def radius(self, sharpest: Floats) -> Floats:
-        """The least rho [mm]."""
-        return -sharpest
+        """The least convex radius [mm], inf where nothing is convex; under a flat face the least rho."""
+        return self.kin.radius_of(sharpest)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
 from graphcam.sweeps.designs import Designs, Kind
@@ -136,7 +137,7 @@ class Space:
     @property
     def angles(self) -> tuple[str, ...]:
         """What is in degrees: an arm's lift too."""
-        return (*ANGLES, "lift") if self.follower == "oscillating" else ANGLES
+        return (*ANGLES, "lift") if FOLLOWERS[self.follower].lift_unit == "rad" else ANGLES
 
     @property
     def varied(self) -> tuple[str, ...]:

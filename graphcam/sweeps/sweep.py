@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from functools import partial
@@ -11,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
-from graphcam.mechanism.least_radius import USUAL_LIMIT
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
 from graphcam.workers import in_order
@@ -96,7 +97,7 @@ def usual_limit(follower: str) -> float:
     >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
     45.0
     """
-    return USUAL_LIMIT.get(follower, USUAL_LIMIT["translating"])
+    return math.radians(FOLLOWERS[follower].usual_limit_deg)
 
 
 def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:

@@ -5,21 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.flat_faced import FlatFacedKinematics
-from graphcam.mechanism.oscillating import ManyOscillating
-from graphcam.mechanism.translating import ManyTranslating
-from graphcam.sweeps.designs import Designs
+from graphcam.mechanism.followers import EXACT
+from graphcam.mechanism.kinematics import Kinematics
+from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Numbers, Sought, greatest
 from graphcam.sweeps.law_tables import Legs
-from graphcam.sweeps.sought import FlatSharpness, Many, Sharpness, Steepness
+from graphcam.sweeps.sought import Sharpness, Steepness
 
 QUANTITIES = (
     *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
@@ -86,17 +87,14 @@ class Chunk:
         return np.where((np.abs(self.designs.column("offset")) < r0) & (r0 < np.inf), r0, np.nan)
 
     @cached_property
-    def _sharpness(self) -> Sharpness | FlatSharpness:
-        if self.designs.follower == "flat-faced":
-            return FlatSharpness(FlatFacedKinematics(+1, self._prime_radius))  # the sense does not matter to it
+    def _sharpness(self) -> Sharpness:
         return Sharpness(self._many)
 
     @cached_property
-    def _many(self) -> Many:
-        sigma, column = self.designs.sigma, self.designs.column
-        if self.designs.follower == "oscillating":
-            return ManyOscillating(sigma, column("arm"), column("distance"), self._prime_radius, self._lift)
-        return ManyTranslating(sigma, column("offset"), self._prime_radius)
+    def _many(self) -> Kinematics:
+        designs = self.designs
+        sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN[designs.follower]})
+        return EXACT[FOLLOWERS[designs.follower]].kinematics.of(sizes, self._prime_radius, designs.sigma, self._lift)
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:
@@ -107,7 +105,7 @@ class Chunk:
         return "return_law", -1, self._angle("return_angle")
 
     def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
-        if self.designs.follower == "flat-faced":
+        if not self._many.has_pressure_angle:
             return 0 * self._lift * self._prime_radius  # the face is perpendicular to the motion
         return np.arctan(self._over_legs(Steepness(self._many), legs))
 

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
@@ -22,12 +23,38 @@ from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, 
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
-USUAL_PRESSURE_ANGLE = {"translating": 30.0, "oscillating": 45.0}
-"""The limit on the rise [degrees] where the task gives none, by the follower's kind."""
+OR_LARGER = "or a larger cam.prime_radius"
+OF_A_FACE = "only a flat face is limited by it; a roller has its roller_rule"
+OF_A_ROLLER = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
+
+
+class _FollowerTable:
+    """What the task asks of ``[follower]``; a kind states what differs from a stem with a roller."""
+
+    roller_radius: float | None
+    without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": OF_A_FACE}
+    """The limits that it does not have, and why."""
+    takes_spring: ClassVar[bool] = True
+
+    @property
+    def lift_unit(self) -> float:
+        """One unit of the phases' lift [mm or rad]."""
+        return 1.0
+
+    @property
+    def column(self) -> str:
+        """The name of a measured displacement."""
+        return "s_mm"
+
+    def check(self, prime_radius: float) -> None:
+        """That the sizes leave room on a given prime radius, whatever the motion."""
+        if (self.roller_radius or 0.0) >= prime_radius:
+            limit, remedy = f"less than the prime radius of {prime_radius:g} mm", "take a smaller roller"
+            raise DesignError("follower.roller_radius", self.roller_radius, limit, f"{remedy} {OR_LARGER}")
 
 
 @dataclass(frozen=True)
-class TranslatingTable:
+class TranslatingTable(_FollowerTable):
     """``[follower]`` of kind "translating".
 
     offset : mm, to the right of the cam centre; None is open: the least radius decides
@@ -48,9 +75,16 @@ class TranslatingTable:
         """The follower; what is open is 0 in it: a central follower, a knife edge."""
         return Translating(self.offset or 0.0, self.roller_radius or 0.0)
 
+    def check(self, prime_radius: float) -> None:
+        """That the sizes leave room on a given prime radius, the offset first."""
+        if abs(self.offset or 0.0) >= prime_radius:
+            limit = f"less than the prime radius of {prime_radius:g} mm in magnitude"
+            raise DesignError("follower.offset", self.offset, limit, f"take a smaller offset {OR_LARGER}")
+        super().check(prime_radius)
+
 
 @dataclass(frozen=True)
-class OscillatingTable:
+class OscillatingTable(_FollowerTable):
     """``[follower]`` of kind "oscillating".
 
     arm : mm, its length
@@ -65,6 +99,7 @@ class OscillatingTable:
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
+    takes_spring = False
 
     def __post_init__(self) -> None:
         self()
@@ -76,16 +111,24 @@ class OscillatingTable:
         """One unit of the phases' lift [rad]."""
         return math.radians(1) if self.lift == "angle" else 1 / self.arm
 
+    @property
+    def column(self) -> str:
+        """The name of a measured displacement."""
+        return "s_deg" if self.lift == "angle" else "s_mm"
+
     def __call__(self) -> Oscillating:
         """The follower; an open roller radius is 0 in it: a knife edge."""
         return Oscillating(self.arm, self.distance, self.roller_radius or 0.0)
 
 
 @dataclass(frozen=True)
-class FlatFacedTable:
+class FlatFacedTable(_FollowerTable):
     """``[follower]`` of kind "flat-faced", which has no sizes."""
 
     kind: Literal["flat-faced"] = "flat-faced"
+    roller_radius = 0.0
+    roller_rule = DEFAULT_RULE
+    without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -128,7 +171,7 @@ class LimitsTable:
         """The permitted pressure angles in radians."""
         rise, back = self.pressure_angle_rise, self.pressure_angle_return
         return Limits(
-            rise=math.radians(USUAL_PRESSURE_ANGLE["translating"] if rise is None else rise),
+            rise=math.radians(Translating.usual_limit_deg if rise is None else rise),
             return_=None if back is None else math.radians(back),
             rest=self.rest,
         )
@@ -229,7 +272,8 @@ class Task:
         positive("speed_rpm", self.speed_rpm, "rpm")
         self._tell_the_tables()
         self._check_limits()
-        _check_sizes(self.follower(), self.cam.prime_radius)
+        if self.cam.prime_radius is not None:
+            self.follower.check(self.cam.prime_radius)
         self._check_spring()
 
     def _check_spring(self) -> None:
@@ -237,34 +281,26 @@ class Task:
             return
         if self.speed_rpm is None:
             raise DesignError("speed_rpm", "missing", "given where there is a spring", "inertia grows with the speed")
-        if self.follower.kind == "oscillating":
+        if not self.follower.takes_spring:
             raise DesignError("spring", "a table", "left out for an arm", "it holds a translating follower on its cam")
 
     def _check_limits(self) -> None:
         """Limits that the follower does not have are refused: they would be given, and not kept."""
-        if self.follower.kind != "flat-faced":
-            without = {"min_curvature_radius": "only a flat face is limited by it; a roller has its roller_rule"}
-        else:
-            reason = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
-            without = {"pressure_angle_rise": reason, "pressure_angle_return": reason}
-        for key, reason in without.items():
+        for key, reason in self.follower.without.items():
             left_out = f"left out for a follower of kind {self.follower.kind}"
             if (value := getattr(self.limits, key)) is not None:
                 raise DesignError(f"limits.{key}", value, left_out, reason)
 
     def _tell_the_tables(self) -> None:
         """What a table means depends on the follower: an arm's lift is an angle, each kind has its usual limit."""
-        kind = self.follower.kind
-        motion = dataclasses.replace(self.motion)
-        unit = self.follower.lift_unit if isinstance(self.follower, OscillatingTable) else 1.0
-        object.__setattr__(motion, "lift_unit", unit)
-        column = "s_deg" if isinstance(self.follower, OscillatingTable) and self.follower.lift == "angle" else "s_mm"
+        motion, column = dataclasses.replace(self.motion), self.follower.column
+        object.__setattr__(motion, "lift_unit", self.follower.lift_unit)
         if motion.table is not None and motion.table.column not in (column, "a"):
             remedy = "measure what the follower does, and name the column so"
             raise DesignError("motion.table (column)", motion.table.column, f"{column} for this follower", remedy)
         object.__setattr__(self, "motion", motion)
-        if self.limits.pressure_angle_rise is None and kind in USUAL_PRESSURE_ANGLE:
-            limits = dataclasses.replace(self.limits, pressure_angle_rise=USUAL_PRESSURE_ANGLE[kind])
+        if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
+            limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)
             object.__setattr__(self, "limits", limits)
 
     def to_dict(self) -> dict[str, Any]:
@@ -279,16 +315,3 @@ class Task:
         if self.motion.table is not None:
             said["motion"]["table"] = self.motion.table.file
         return said
-
-
-def _check_sizes(follower: Follower, prime_radius: float | None) -> None:
-    """Sizes that exclude each other whatever the motion; what depends on it shows when the cam is made."""
-    if prime_radius is None or isinstance(follower, FlatFaced):
-        return
-    limit = f"less than the prime radius of {prime_radius:g} mm"
-    if isinstance(follower, Translating) and abs(follower.offset) >= prime_radius:
-        remedy = "take a smaller offset or a larger cam.prime_radius"
-        raise DesignError("follower.offset", follower.offset, f"{limit} in magnitude", remedy)
-    if follower.roller_radius >= prime_radius:
-        remedy = "take a smaller roller or a larger cam.prime_radius"
-        raise DesignError("follower.roller_radius", follower.roller_radius, limit, remedy)

@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.given.table_file import read_table
-from graphcam.tasks import arcs_task as arcs
-from graphcam.tasks import motion_tables
-from graphcam.tasks import task as tables
+from graphcam.tasks import arcs_task as arcs, motion_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 

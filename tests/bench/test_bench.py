@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from graphcam.bench import bench_report as reports
-from graphcam.bench import peers as other_packages
+from graphcam.bench import bench_report as reports, peers as other_packages
 from graphcam.bench.bench_files import FILES
 from graphcam.bench.convergence import (
     FITTED,

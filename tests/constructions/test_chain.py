@@ -12,8 +12,7 @@ import pytest
 from boards import SIZES, arm_board, arm_motion, coursework, flat_board, flat_motion, limits
 from numpy.testing import assert_array_equal
 
-from graphcam.constructions import chain as chain_module
-from graphcam.constructions import drawn_translating as translating
+from graphcam.constructions import chain as chain_module, drawn_translating as translating
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil

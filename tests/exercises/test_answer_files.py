@@ -5,8 +5,7 @@ from __future__ import annotations
 import tomllib
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from graphcam.exercises.reading.answer_tables import DECIMAL_COMMA, toml_values
 from graphcam.exercises.reading.regular_file import UnreadableError

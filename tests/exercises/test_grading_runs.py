@@ -25,8 +25,7 @@ from graphcam.errors import GraphcamError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise_file import exercise_path
-from graphcam.exercises.grading import course_grading as grading_course
-from graphcam.exercises.grading import grading_run as run
+from graphcam.exercises.grading import course_grading as grading_course, grading_run as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment
 from graphcam.exercises.grading.submission import read_submission

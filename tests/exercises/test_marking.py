@@ -8,8 +8,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from issued_variants import SECRET, issued, key, marked, outcomes
 
 from graphcam.constructions.profile_view import pitch_curve

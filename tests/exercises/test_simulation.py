@@ -14,8 +14,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.marking_speed import HANDS, simulated
-from graphcam.exercises.grading.marking_speed import SECRET as SPEED_SECRET
+from graphcam.exercises.grading.marking_speed import HANDS, SECRET as SPEED_SECRET, simulated
 from graphcam.exercises.marking.simulate import simulate
 
 EXERCISES = Path(__file__).parents[2] / "exercises"

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from mpmath import diff, mpf
 from numpy.testing import assert_allclose, assert_array_equal
 from reference import EPS, displacement

@@ -77,10 +77,11 @@ def test_a_published_coursework_arm():
     rise, dwell, back, rest = (angle * DEG for angle in case["phases"])
     swing = case["lift_deg"] * DEG
     motion = Motion([Rise(swing, rise, case["law"]), Dwell(dwell), Return(swing, back, case["law"]), Dwell(rest)])
-    sizes = case["arm"], case["distance"], case["prime_radius"]
-    assert math.degrees(OscillatingKinematics(+1, *sizes, swing).psi0) == pytest.approx(case["psi0"], abs=0.005)
+    r0, arm, distance = case["prime_radius"], case["arm"], case["distance"]
+    psi0 = OscillatingKinematics(+1, r0, arm, distance, swing).psi0
+    assert math.degrees(psi0) == pytest.approx(case["psi0"], abs=0.005)
     for rotation, angle in case["rise"].items():
-        extremes = Cam(motion, Oscillating(*sizes[:2]), sizes[2], rotation).extremes()
+        extremes = Cam(motion, Oscillating(arm, distance), r0, rotation).extremes()
         assert math.degrees(extremes.pressure_angle_rise[0]) == pytest.approx(angle, abs=0.005)
 
 

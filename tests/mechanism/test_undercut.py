@@ -14,8 +14,8 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.undercut import Undercut, largest_roller, trimmed_profile
+from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.undercut import Undercut, trimmed_profile
 
 DEG = math.pi / 180
 ROTATIONS = ("ccw", "cw")
@@ -143,7 +143,7 @@ def random_cam(seed: int) -> Cam:
 @pytest.mark.parametrize("seed", range(40))
 def test_what_is_left_is_a_simple_curve_that_no_roller_reaches_into(seed):
     cam, n = random_cam(seed), 1000
-    cut = trimmed_profile(cam, n)
+    cut = trimmed_profile(cam.envelope, n)
     lost = [loop for loop in cam.undercuts() if not loop.is_cusp]
     assert cut.points.shape == (n, 2)
     assert np.isfinite(cut.points).all()

@@ -15,8 +15,7 @@ from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.frame import frame, title_box
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Stroke, Strokes, Text
-from graphcam.sheets.title_block import SIZES as BLOCKS
-from graphcam.sheets.title_block import title_block
+from graphcam.sheets.title_block import SIZES as BLOCKS, title_block
 
 EVERY = [(paper, kind) for paper in SIZES for kind in MARGINS]
 

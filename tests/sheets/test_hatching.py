@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from graphcam.sheets.hatching import SPACING, hatch, interrupted
 from graphcam.sheets.model import Strokes, Text

@@ -17,7 +17,7 @@ from mpmath import mp, mpf
 from pages import HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
 from graphcam.given import laws
-from graphcam.mechanism.least_radius import steepest_tangent
+from graphcam.mechanism.least_radius_translating import steepest_tangent
 
 WITH_COMMANDS = [page for page in HOW_TO if blocks(page, "bash")]
 NAMED = "5-6-7-8-9"

@@ -10,8 +10,7 @@ from multiprocessing import get_context
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from reference import EPS, ReferenceArm, ReferenceCam, maximum
 
 import graphcam as gc
