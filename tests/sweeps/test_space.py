@@ -92,7 +92,7 @@ def test_workers_change_nothing(space, tmp_path):
 def test_blocks_join_without_a_seam(space, tmp_path, monkeypatch):
     whole, parts, done = tmp_path / "whole.csv", tmp_path / "parts.csv", []
     sweep_to_file(load_space(space), whole)
-    monkeypatch.setattr("graphcam.sweeps.sweep_file.CHUNKS_PER_TASK", 1)
+    monkeypatch.setattr("graphcam.sweeps.sweep_file.CHUNKS_PER_JOB", 1)
     monkeypatch.setattr("graphcam.sweeps.sweep_file.CHUNK_OF_DESIGNS", 5)
     sweep_to_file(load_space(space), parts, progress=done.append)
     assert whole.read_bytes() == parts.read_bytes()

@@ -26,14 +26,14 @@ class Chart:
 
     bars: tuple[Bar, ...]
     labels: tuple[tuple[float, str, str], ...]
-    band: tuple[float, float] = (0.0, 0.0)
+    band: tuple[float, float] | None = None
     width: int = WIDTH
     height: int = HEIGHT + LETTERS
     base: int = HEIGHT
 
 
 def stacked(
-    counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]], band: tuple[float, float] = (0.0, 0.0)
+    counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]], band: tuple[float, float] | None = None
 ) -> Chart:
     """A chart of counts a bar, of several kinds one on the other.
 
@@ -56,4 +56,4 @@ def stacked(
                 bars.append(Bar(kind, *(round(length, 2) for length in (k * step + 1, top, step - 2, height))))
     anchors = {0.0: "start", 1.0: "end"}
     placed = tuple((part * WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
-    return Chart(tuple(bars), placed, (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))
+    return Chart(tuple(bars), placed, band and (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))
