@@ -22,10 +22,15 @@ HOW_TO = "see exercises/README.md"
 NO_KEYS = {"name", "language"}
 """What an exercise has and its file does not say."""
 _EXPECTED = {
-    "missing": "given", "float_type": "a number", "string_type": "text in quotes", "tuple_type": "a list",
-    "dict_type": "a table", "dataclass_type": "a table", "finite_number": "a finite number",
+    "missing": "given",
+    "float_type": "a number",
     "int_type": "a whole number",
-}  # fmt: skip
+    "finite_number": "a finite number",
+    "string_type": "text in quotes",
+    "tuple_type": "a list",
+    "dict_type": "a table",
+    "dataclass_type": "a table",
+}
 
 
 class _Word(str):
@@ -67,8 +72,8 @@ def exercise_path(name: str) -> Path:
     if name.endswith(".toml") or "/" in name:
         return Path(name)
     if name not in library():
-        raise TaskError(name, "the exercise", _Word("not there"), "one that 'graphcam exercise list' names",
-                        nearest(name, library()))  # fmt: skip
+        known = "one that 'graphcam exercise list' names"
+        raise TaskError(name, "the exercise", _Word("not there"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 
@@ -83,13 +88,14 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     try:
         data = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
     except OSError as error:
-        raise TaskError(str(path), "the exercise file", _Word(f"not readable ({error.strerror})"), "a TOML file",
-                        "check the name") from None  # fmt: skip
+        why = _Word(f"not readable ({error.strerror})")
+        raise TaskError(str(path), "the exercise file", why, "a TOML file", "check the name") from None
     except (ValueError, RecursionError) as error:
         raise TaskError(str(path), "the text", _Word(f"not TOML ({error})"), "a TOML file", HOW_TO) from None
     if "motion" in data and "task" not in data:
-        raise TaskError(str(path), "the file", _Word("a task"), "an exercise, which has the task in its table [task]",
-                        "begin with a copy of one that 'graphcam exercise list' names")  # fmt: skip
+        remedy = "begin with a copy of one that 'graphcam exercise list' names"
+        expected = "an exercise, which has the task in its table [task]"
+        raise TaskError(str(path), "the file", _Word("a task"), expected, remedy)
     for key in NO_KEYS & data.keys():
         raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
     told = in_language(str(path), data, language)
