@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+
+import nbformat
+import nbformat.v4 as nb
+from nbformat import NotebookNode
 
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.ink import Step
@@ -18,19 +19,19 @@ from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.drawn_layers import ORIGIN
-from graphcam.exercises.reading.submission_files import DXF
+from graphcam.exercises.reading.notebook import TAG
+from graphcam.exercises.reading.submission_files import DXF, NOTEBOOK, TOML
+from graphcam.notebooks.kernel import PYTHON
 from graphcam.report.markdown import number
 from graphcam.report.sheet_contents import title_block
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
+from graphcam.tasks.task_writer import task_files
 from graphcam.words import Caption, Words, say, say_in, say_many
 
-TAG = "answers"
-"""The tag of the notebook's cell that holds the answers."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """Of the key's table, as :func:`key_rows` fills them."""
-KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
 
 
 def instructions(variant: Variant) -> str:
@@ -48,24 +49,18 @@ def answer_file(exercise: Exercise) -> str:
     return "\n".join(lines)
 
 
-def notebook(variant: Variant) -> str:
+def notebook(variant: Variant) -> NotebookNode:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
     asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
     how = say("Write your answers into the next cell: plain numbers with a decimal point, nothing else.")
     blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
     cells = [
-        _cell("task", "markdown", f"# {exercise.title}\n\n{instructions(variant)}"),
-        _cell("asked", "markdown", f"{exercise.tell(how)}\n\n{asked}"),
-        _cell("answers", "code", blanks, {"tags": [TAG]}),
+        nb.new_markdown_cell(f"# {exercise.title}\n\n{instructions(variant)}", id="task"),
+        nb.new_markdown_cell(f"{exercise.tell(how)}\n\n{asked}", id="asked"),
+        nb.new_code_cell(blanks, id="answers", metadata={"tags": [TAG]}),
     ]
-    whole = {"cells": cells, "metadata": KERNEL, "nbformat": 4, "nbformat_minor": 5}
-    return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
-
-
-def task_file(variant: Variant) -> str:
-    """The variant as a task file of graphcam."""
-    return toml_text(variant.task.to_dict())
+    return nb.new_notebook(cells=cells, metadata=PYTHON)
 
 
 def worksheet(variant: Variant, student: Student) -> Drawing:
@@ -157,30 +152,6 @@ def _blank(asked: Asked) -> str:
     return "" if asked.kind == "number" else "[[x, y], [x, y]]"
 
 
-def _cell(name: str, kind: str, source: str, metadata: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    code = {"execution_count": None, "outputs": []} if kind == "code" else {}
-    return {"id": name, "cell_type": kind, "metadata": dict(metadata or {}), "source": source, **code}
-
-
-def toml_text(table: Mapping[str, Any]) -> str:
-    """A table of plain values as TOML.
-
-    >>> print(toml_text({"rotation": "cw", "cam": {"prime_radius": 44}}))
-    rotation = "cw"
-    cam = {prime_radius = 44}
-    <BLANKLINE>
-    """
-    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items() if value is not None)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_value(each)}" for key, each in value.items() if each is not None) + "}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_value, value)) + "]"
-    return json.dumps(value, ensure_ascii=False)
-
-
 def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
     """Write all that the student gets into a folder."""
     from graphcam.sheets.dxf_renderer import write_dxf
@@ -190,8 +161,6 @@ def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
     write_pdf(sheet, folder / "worksheet.pdf")
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
-    for name, text in (
-        ("answers.toml", answer_file(variant.exercise)), ("answers.ipynb", notebook(variant)),
-        ("task.toml", task_file(variant)),
-    ):  # fmt: skip
+    files = {TOML: answer_file(variant.exercise), NOTEBOOK: nbformat.writes(notebook(variant))}
+    for name, text in (files | task_files(variant.task)).items():
         (folder / name).write_text(text, encoding="utf-8")

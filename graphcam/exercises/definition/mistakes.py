@@ -25,7 +25,6 @@ from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Dwell, Motion, Phase
 
-
 Change = Callable[[Chain], Chain]
 M = TypeVar("M", bound=Callable[..., Any])
 

@@ -10,12 +10,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import nbformat
+import nbformat.v4 as nb
+from nbformat import NotebookNode
+
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
+from graphcam.notebooks.kernel import PYTHON
 from graphcam.words import Tell, say
 
 SCHEMA = 3
@@ -32,16 +37,12 @@ SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
 
 def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> None:
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
-    import nbformat
-
     tell = exercise.tell
     stub = "# " + tell(say("Write what you read in place of None."))
     (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
-    notebook = nbformat.from_dict(_notebook(exercise))
-    nbformat.validate(notebook)
-    nbformat.write(notebook, source / f"{NOTEBOOK}.ipynb")
+    nbformat.write(_notebook(exercise), source / f"{NOTEBOOK}.ipynb")
     sheets = folder / "sheets"
     sheets.mkdir()
     for answer_key in answer_keys:
@@ -50,13 +51,12 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
         (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8")
 
 
-def _notebook(exercise: Exercise) -> dict[str, Any]:
+def _notebook(exercise: Exercise) -> NotebookNode:
     how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
     cells = [_markdown("task", f"# {exercise.title}\n\n{exercise.tell(how)}")]
     for asked in exercise.answers:
         cells += [_markdown(f"{asked.name}-asked", _question(asked, exercise.tell)), _answer(asked)]
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+    return nb.new_notebook(cells=cells, metadata=PYTHON)
 
 
 def _question(asked: Asked, tell: Tell) -> str:
@@ -66,18 +66,17 @@ def _question(asked: Asked, tell: Tell) -> str:
     return f"**{asked.name}**{unit} {text}"
 
 
-def _markdown(name: str, text: str) -> dict[str, Any]:
-    return {"id": name, "cell_type": "markdown", "source": text,
-            "metadata": {"nbgrader": _said(name, locked=True)}}  # fmt: skip
+def _markdown(name: str, text: str) -> NotebookNode:
+    return nb.new_markdown_cell(text, id=name, metadata={"nbgrader": _said(name, locked=True)})
 
 
-def _answer(asked: Asked) -> dict[str, Any]:
+def _answer(asked: Asked) -> NotebookNode:
     """A cell that is graded by hand as nbgrader sees it: graphcam is the hand."""
     said = _said(asked.name, grade=True, solution=True) | {"points": asked.marks}
-    return {"id": asked.name, "cell_type": "code", "source": f"{asked.name} = None\n{SOLUTION}", "outputs": [],
-            "execution_count": None, "metadata": {"tags": [TAG], "nbgrader": said}}  # fmt: skip
+    source = f"{asked.name} = None\n{SOLUTION}"
+    return nb.new_code_cell(source, id=asked.name, metadata={"tags": [TAG], "nbgrader": said})
 
 
 def _said(name: str, *, locked: bool = False, grade: bool = False, solution: bool = False) -> dict[str, Any]:
-    return {"schema_version": SCHEMA, "grade_id": name, "grade": grade, "solution": solution, "locked": locked,
-            "task": False}  # fmt: skip
+    kind = {"grade": grade, "solution": solution, "locked": locked, "task": False}
+    return {"schema_version": SCHEMA, "grade_id": name, **kind}
