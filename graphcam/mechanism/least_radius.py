@@ -26,15 +26,12 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
 from graphcam.given.laws import Floats, Law
-from graphcam.given.limits import Limits
+from graphcam.given.limits import Limits, usual_limit
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.spline_law import MEASURED
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, Line, arm_minimum_radius
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES, stationary_places
-
-USUAL_LIMIT = {"translating": math.radians(30), "oscillating": math.radians(45)}
-"""The permitted pressure angle on the rise [rad] where none is given, by the follower's kind."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +147,7 @@ def minimum_radius(
         raise DesignError("offset", offset, "left out", "only a translating follower has an offset")
     if isinstance(follower, FlatFaced):
         return _flat(motion, curvature or 0.0)
-    limits = Limits(USUAL_LIMIT[follower.kind] if rise is None else rise, return_, rest)
+    limits = Limits(usual_limit(follower.kind) if rise is None else rise, return_, rest)
     if isinstance(follower, Oscillating):
         return arm_minimum_radius(motion, follower, sigma, limits)
     return _translating(motion, sigma, limits, offset)

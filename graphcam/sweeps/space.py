@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
 from graphcam.given.laws import LAWS
-from graphcam.given.limits import Limits
+from graphcam.given.limits import Limits, usual_limit
 from graphcam.sweeps.designs import Designs, Kind
-from graphcam.sweeps.sweep import computed, usual_limit
+from graphcam.sweeps.sweep import computed
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.limits import Limits
-from graphcam.mechanism.least_radius import USUAL_LIMIT
+from graphcam.given.limits import Limits, usual_limit
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
 
@@ -97,15 +96,6 @@ def sweep(
             out[name][done:stop] = column
         done = stop
     return out
-
-
-def usual_limit(follower: str) -> float:
-    """The permitted pressure angle on the rise [rad] where none is given.
-
-    >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
-    45.0
-    """
-    return USUAL_LIMIT.get(follower, USUAL_LIMIT["translating"])
 
 
 def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:

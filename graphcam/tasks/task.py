@@ -14,7 +14,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.limits import Limits
+from graphcam.given.limits import USUAL_PRESSURE_ANGLE, Limits
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.tasks.motion_tables import ByKind, MotionTable
@@ -22,8 +22,6 @@ from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, 
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
-USUAL_PRESSURE_ANGLE = {"translating": 30.0, "oscillating": 45.0}
-"""The limit on the rise [degrees] where the task gives none, by the follower's kind."""
 
 
 @dataclass(frozen=True)
