@@ -13,7 +13,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.ink import Step
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
-from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.definition.variant import Variant
@@ -67,7 +67,9 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
     """The sheet to draw on: what is given, and the table for the answers."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    steps = [
+        (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
+    ]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
     blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
     rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
@@ -79,7 +81,9 @@ def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Draw
     """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
+    steps = [
+        (name, step) for name in _drawn_for(exercise, tuple(chain)) for step in construction_of(chain, name).steps()
+    ]
     table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, answer_key)))
     return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
 
@@ -113,7 +117,7 @@ def origins(variant: Variant) -> dict[str, str]:
     """
     chain = board_chain(variant.task)
     of = {asked.layer: asked.construction for asked in variant.exercise.answers if asked.kind != "number"}
-    views = {layer: {step.view.name for step in getattr(chain, name).steps()} for layer, name in of.items()}
+    views = {layer: {step.view.name for step in construction_of(chain, name).steps()} for layer, name in of.items()}
     if len(set().union(*views.values())) == 1:
         return {ORIGIN.upper(): next(iter(views.values())).pop()}
     # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
@@ -140,8 +144,10 @@ def _how(asked: Asked) -> Caption:
         return say(
             "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file and handed in as {file}, "
             "its origin marked by a POINT on the layer ORIGIN.)",
-            what=what, layer=asked.layer, file=DXF,
-        )  # fmt: skip
+            what=what,
+            layer=asked.layer,
+            file=DXF,
+        )
     decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
     if not asked.unit:
         return say("({decimals}.)", decimals=decimals)

@@ -49,7 +49,11 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
         why = say(
             "the layer {layer} holds {count} separate curves instead of one; the nearest gap, {gap:.1f} mm, is at "
             "({x:.1f}, {y:.1f})",
-            layer=layer, count=count, gap=gap, x=at.real, y=at.imag,
+            layer=layer,
+            count=count,
+            gap=gap,
+            x=at.real,
+            y=at.imag,
         )
         raise UnreadableError(why)
     return curve
