@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import json
 import re
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -99,3 +101,19 @@ def test_the_top_level_holds_what_it_should():
     made = {"graphcam-out", "build", "dist"}
     found = {path.name for path in ROOT.iterdir() if not path.name.startswith(".")}
     assert found - made == allowed
+
+
+PACKAGE = ROOT / "graphcam"
+
+
+def test_no_module_bears_the_name_of_another():
+    # The modules of the command line bear their commands' names.
+    paths = [path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE / "cli" and path.stem != "__init__"]
+    counts = Counter(path.stem for path in paths)
+    assert [name for name, count in counts.items() if count > 1] == []
+
+
+def test_no_class_bears_the_name_of_another():
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")]
+    counts = Counter(node.name for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
+    assert [name for name, count in counts.items() if count > 1] == []

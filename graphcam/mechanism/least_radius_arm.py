@@ -59,7 +59,7 @@ class ArmMinimumRadius:
 
 
 @dataclass(frozen=True)
-class _HalfPlane:
+class _ArmHalfPlane:
     """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name."""
 
     name: Line | None
@@ -159,10 +159,10 @@ class _Lines:
         second = arm * (force * j + a * np.sin(angle) + v * v * np.cos(angle)) + a * cross(n, p) + v * v * dot(n, p)
         return first, second
 
-    def half_planes(self, names: Sequence[Line], values: Values) -> list[_HalfPlane]:
+    def half_planes(self, names: Sequence[Line], values: Values) -> list[_ArmHalfPlane]:
         """The lines of some places one by one."""
         parts = zip(names, self.normals(values), self.heights(values), strict=True)
-        return [_HalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
+        return [_ArmHalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
 
 
 class _Region:
@@ -181,21 +181,21 @@ class _Region:
         self.values = motion.at(self.phase[:, None], self.u)
         self.fixed = self._at_rest(limits) if limits.rest else self._reach()
 
-    def _at_rest(self, limits: Limits) -> list[_HalfPlane]:
+    def _at_rest(self, limits: Limits) -> list[_ArmHalfPlane]:
         """On the sides that are not driven, in the lowest and the highest position."""
         s, rest = np.array([0.0, self.motion.lift]), np.zeros(2)
         sides = [(-self.sigma, limits.rise), (self.sigma, limits.return_)]
         lines = [_Lines(np.full(2, tau), np.full(2, limit), self.sigma, self.arm) for tau, limit in sides if limit]
         return [half for some in lines for half in some.half_planes(("rest", "rest"), (s, rest, rest, rest))]
 
-    def _reach(self) -> list[_HalfPlane]:
+    def _reach(self) -> list[_ArmHalfPlane]:
         """The arm stays above the line of centres in its lowest and its highest position."""
-        return [_HalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
+        return [_ArmHalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
 
     def _driven(self, piece: NDArray[np.intp]) -> _Lines:
         return _Lines(self.sigma * self.direction[piece], self.limit[piece], self.sigma, self.arm)
 
-    def worst(self, point: complex, *, refined: bool) -> tuple[float, _HalfPlane]:
+    def worst(self, point: complex, *, refined: bool) -> tuple[float, _ArmHalfPlane]:
         """The line that the point lies farthest beyond, and by how much [mm]; of the samples, or of all places."""
         excess = self._driven(np.arange(self.phase.size)[:, None]).excess(self.values, point)
         piece, k = (np.array([index]) for index in np.unravel_index(np.argmax(excess), excess.shape))
@@ -234,16 +234,16 @@ class _Region:
 
 # --- the least point -------------------------------------------------------------------------------------------------
 
-_Kept = tuple[complex, tuple[_HalfPlane, ...]]
+_Kept = tuple[complex, tuple[_ArmHalfPlane, ...]]
 
 
-def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[_HalfPlane]], _Kept]) -> _Kept:
+def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[_ArmHalfPlane]], _Kept]) -> _Kept:
     """The least point that keeps all lines: meet the lines that bind and the worst one, until none is worse.
 
     A place where the excess is greatest enters with the square of its error, so the exchange converges like Newton's
     method.
     """
-    kept: tuple[_HalfPlane, ...] = ()
+    kept: tuple[_ArmHalfPlane, ...] = ()
     refined = True  # at first, because the one line that may bind alone must be the right one
     while True:
         beyond, line = region.worst(point, refined=refined)
@@ -257,13 +257,13 @@ def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[_HalfPla
         refined = True  # the samples keep, but what is between them?
 
 
-def _nearest(lines: Sequence[_HalfPlane]) -> _Kept:
+def _nearest(lines: Sequence[_ArmHalfPlane]) -> _Kept:
     """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off."""
     # Two half-planes at most fix the nearest point of a plane region (Helly): see the translating follower.
     return max((_nearest_of_two(a, b) for a, b in combinations_with_replacement(lines, 2)), key=lambda p: abs(p[0]))
 
 
-def _nearest_of_two(a: _HalfPlane, b: _HalfPlane) -> _Kept:
+def _nearest_of_two(a: _ArmHalfPlane, b: _ArmHalfPlane) -> _Kept:
     for line, other in ((a, b), (b, a)):
         foot = max(line.height, 0.0) * line.normal
         if line is other or other.excess(foot) <= 0:
@@ -282,7 +282,7 @@ class _Arc:
         """R at that angle."""
         return (self.distance - self.arm) + 2j * self.distance * math.sin(psi0 / 2) * cmath.exp(0.5j * psi0)
 
-    def first(self, lines: Sequence[_HalfPlane]) -> _Kept:
+    def first(self, lines: Sequence[_ArmHalfPlane]) -> _Kept:
         """The point of the arc where psi0, as it grows, comes to keep the last line; R = 0 if the arc nowhere does."""
         line = lines[-1]
         cosine = (line.height + self.arm * line.normal.real) / self.distance
