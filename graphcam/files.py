@@ -47,25 +47,13 @@ def whole_folder(folder: str | Path) -> Generator[Path]:
     ['a.txt']
     """
     folder = Path(folder)
-    made = _missing(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        # In the folder itself, so that each file moves by a rename within one file system.
-        draft = Path(tempfile.mkdtemp(prefix=".graphcam-", dir=folder))
-    except (OSError, ValueError) as error:
-        _remove(made)
-        raise _output_error(folder, error) from error
-    try:
+    # In the folder itself, so that each file moves by a rename within one file system.
+    with _draft(folder, folder) as draft:
         yield draft
         try:
             _move(draft, folder)
         except OSError as error:
             raise _output_error(folder, error) from error
-    except BaseException:
-        shutil.rmtree(draft, ignore_errors=True)
-        _remove(made)
-        raise
-    draft.rmdir()
 
 
 @contextmanager
@@ -85,28 +73,35 @@ def whole_file(path: str | Path) -> Generator[Path]:
     ['a.txt']
     """
     path = Path(path)
-    made = _missing(path.parent)
-    try:
-        if path.is_dir():
-            raise IsADirectoryError("it is a folder")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        # In a folder of its own, because readers and writers of some formats look at the ending.
-        folder = Path(tempfile.mkdtemp(prefix=".graphcam-", dir=path.parent))
-    except (OSError, ValueError) as error:
-        _remove(made)
-        raise _output_error(path, error) from error
-    draft = folder / path.name
-    try:
+    # In a folder of its own, because readers and writers of some formats look at the ending.
+    with _draft(path, path.parent) as folder:
+        draft = folder / path.name
         yield draft
         try:
             draft.replace(path)
         except OSError as error:
             raise _output_error(path, error) from error
+
+
+@contextmanager
+def _draft(target: Path, place: Path) -> Generator[Path]:
+    """A temporary folder in a place that is made where it is not there yet; on an error nothing is left of both."""
+    made = _missing(place)
+    try:
+        if target != place and target.is_dir():
+            raise IsADirectoryError("it is a folder")
+        place.mkdir(parents=True, exist_ok=True)
+        draft = Path(tempfile.mkdtemp(prefix=".graphcam-", dir=place))
+    except (OSError, ValueError) as error:
+        _remove(made)
+        raise _output_error(target, error) from error
+    try:
+        yield draft
     except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(draft, ignore_errors=True)
         _remove(made)
         raise
-    folder.rmdir()
+    draft.rmdir()
 
 
 def check_new(path: str | Path) -> None:

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -154,3 +155,19 @@ def test_nobody_but_the_followers_own_files_asks_which_follower_it_is():
 def test_asking_which_follower_it_is_would_be_found(code):
     assert asked_followers(code)
     assert not asked_followers("isinstance(phase, Dwell) or asked.kind == 'number'")
+
+
+PACKAGE = ROOT / "graphcam"
+
+
+def test_no_module_bears_the_name_of_another():
+    # The modules of the command line bear their commands' names.
+    paths = [path for path in PACKAGE.rglob("*.py") if path.parent != PACKAGE / "cli" and path.stem != "__init__"]
+    counts = Counter(path.stem for path in paths)
+    assert [name for name, count in counts.items() if count > 1] == []
+
+
+def test_no_class_bears_the_name_of_another():
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")]
+    counts = Counter(node.name for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
+    assert [name for name, count in counts.items() if count > 1] == []

@@ -68,13 +68,11 @@ class Exploration:
         except ImportError:  # an extra, and the stills say the same
             return None
         picture = ipywidgets.HTML(self.draw(**{name: slider.start for name, slider in self.sliders.items()}).html)
+        shape = {"style": {"description_width": "initial"}, "layout": {"width": "32em"}, "continuous_update": False}
         controls = {
-            name: ipywidgets.SelectionSlider(
-                options=list(slider.values), value=slider.start, description=slider.label, continuous_update=False,
-                style={"description_width": "initial"}, layout={"width": "32em"},
-            )
-            for name, slider in self.sliders.items()
-        }  # fmt: skip
+            name: ipywidgets.SelectionSlider(options=list(s.values), value=s.start, description=s.label, **shape)
+            for name, s in self.sliders.items()
+        }
 
         def redraw(_: Any) -> None:
             picture.value = self.draw(**{name: control.value for name, control in controls.items()}).html

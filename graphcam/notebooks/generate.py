@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import PurePath
-from typing import Any
-
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
 from graphcam.drafting.units import unit
 from graphcam.notebooks.backgrounds import BACKGROUNDS, CHECKED, ERRORS, FIRST, MOVED, QUESTIONS
-from graphcam.notebooks.extra import needed
+from graphcam.notebooks.kernel import PYTHON
 from graphcam.report import markdown
 from graphcam.report.sheet_contents import UNNAMED, title_name
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Tell, Words, say, say_in
 
-TASK_FILE = "task.toml"
-"""The task's file, beside the notebook."""
 SETUP = f"""\
 import graphcam as gc
 from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, player, show_steps
@@ -29,43 +24,12 @@ from graphcam.notebooks import Question, Slider, changed, compared, drawing, exp
 task = gc.load_task("{TASK_FILE}")
 solution = gc.solve(task)
 tell = task.drawing.tell"""
-PYTHON = {
-    "language_info": {"name": "python"},
-    "kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"},
-}
 PARTS = """\
 def with_parts(parts):
     finer = gc.solve(changed(task, {{"drawing.divisions": parts}}))
     return drawing(finer.drawn["{construction}"], "{view}", tell=tell)
 
 explore(with_parts, parts=Slider("{parts}", {values}, {start}, {shown}))"""
-
-
-def task_files(task: Task | ArcsTask) -> dict[str, str]:
-    """The files of a task by their names: TOML, and the table of a measured motion.
-
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> list(task_files(builtin_task("measured")))
-    ['task.toml', 'measured.csv']
-
-    Raises
-    ------
-    MissingExtraError : the libraries of the extra ``notebooks`` are not installed
-    """
-    said = _filled(task.to_dict())
-    table = task.motion.table if isinstance(task, Task) else None
-    tables: dict[str, str] = {}
-    if table is not None:
-        name = said["motion"]["table"] = PurePath(table.file).name
-        rows = "".join(f"{phi!r},{value!r}\n" for phi, value in table.rows)
-        tables[name] = f"phi_deg,{table.column}\n{rows}"
-    return {TASK_FILE: needed("tomli_w", "writing a task").dumps(said), **tables}
-
-
-def _filled(table: Mapping[str, Any]) -> dict[str, Any]:
-    """A table of a task without its empty texts and tables, which are defaults."""
-    filled = {key: _filled(value) if isinstance(value, Mapping) else value for key, value in table.items()}
-    return {key: value for key, value in filled.items() if value not in ("", {})}
 
 
 def write_notebook(task: Task | ArcsTask) -> NotebookNode:
@@ -79,7 +43,6 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     Raises
     ------
     DesignError : there is no such cam
-    MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     """
     solution = solve(task)
     toml, tell = task_files(task)[TASK_FILE], solution.tell
@@ -105,10 +68,7 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     # Without random names a notebook that is written anew is the same.
     for k, cell in enumerate(cells):
         cell["id"] = f"cell-{k}"
-    title = {"title": notebook_title(task), "language_info": {"name": "python"}}
-    return nb.new_notebook(
-        cells=cells, metadata={**title, "kernelspec": {"name": "python3", "display_name": "Python 3"}}
-    )
+    return nb.new_notebook(cells=cells, metadata={"title": notebook_title(task), **PYTHON})
 
 
 def notebook_title(task: Task | ArcsTask) -> str:

@@ -48,8 +48,8 @@ def _exporter(language: str) -> HTMLExporter:
         NbConvertBase={"display_data_priority": SHOWN},
         CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
     )
-    exporter = HTMLExporter(config=config, template_name="graphcam", extra_template_basedirs=[str(TEMPLATES)],
-                            language_code=language)  # fmt: skip
+    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATES)]}
+    exporter = HTMLExporter(config=config, language_code=language, **template)
     exporter.register_filter("markdown2html", markdown_page)
     return exporter
 

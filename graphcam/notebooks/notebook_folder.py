@@ -8,12 +8,13 @@ from pathlib import Path
 import nbformat
 
 from graphcam.files import OutputError, whole_folder
-from graphcam.notebooks.generate import notebook_title, task_files, write_notebook
+from graphcam.notebooks.generate import notebook_title, write_notebook
 from graphcam.notebooks.html_pages import to_html
 from graphcam.notebooks.printing import NO_BROWSER, browser, print_pdf
 from graphcam.notebooks.running import execute
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.tasks.task_writer import task_files
 
 NOTEBOOK, PAGE, PRINT = "notebook.ipynb", "notebook.html", "notebook.pdf"
 

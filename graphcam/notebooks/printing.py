@@ -37,12 +37,10 @@ def print_pdf(page: Path, pdf: Path) -> None:
     if program is None:
         raise OutputError(pdf, *NO_BROWSER)
     with tempfile.TemporaryDirectory() as profile:
-        command = [
-            program, "--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer",
-            # Chromium does not start its sandbox for the superuser.
-            *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
-            f"--print-to-pdf={pdf.resolve()}", page.resolve().as_uri(),
-        ]  # fmt: skip
+        options = ["--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer"]
+        # Chromium does not start its sandbox for the superuser.
+        options += ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+        command = [program, *options, f"--print-to-pdf={pdf.resolve()}", page.resolve().as_uri()]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:

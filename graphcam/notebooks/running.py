@@ -43,11 +43,11 @@ def execute(notebook: NotebookNode, folder: Path | str = ".") -> NotebookNode:
     nbclient = needed("nbclient", "executing a notebook")
     needed("ipykernel", "executing a notebook")
     executed = NotebookNode(notebook)
-    client = nbclient.NotebookClient(
-        executed, timeout=LONGEST, kernel_name="python3", resources={"metadata": {"path": str(folder)}},
-        # What the sliders show is on the page as well.
-        store_widget_state=False, extra_arguments=["--log-level=ERROR"],
-    )  # fmt: skip
+    client = nbclient.NotebookClient(executed, timeout=LONGEST, kernel_name="python3")
+    client.resources = {"metadata": {"path": str(folder)}}
+    client.extra_arguments = ["--log-level=ERROR"]
+    # What the sliders show is on the page as well.
+    client.store_widget_state = False
     # What failed stands in the outputs, beside what only warned.
     with suppress(nbclient.exceptions.CellExecutionError):
         client.execute()

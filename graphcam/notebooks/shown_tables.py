@@ -44,14 +44,9 @@ def compared(solution: AnySolution, *names: str) -> Markdown:
 
     quantities = solution.comparison.quantities
     chosen = [quantities[name] for name in names] or [q for q in quantities.values() if q.drawn == q.drawn]
-    rows = [
-        (
-            say("{title}, {unit}", title=q.title, unit=unit(q.unit)),
-            *(number(value, 3) for value in (q.drawn, q.exact, q.error, q.error_paper, q.tolerance_paper)),
-        )
-        for q in chosen
-    ]
-    header = (
-        say("quantity"), say("drawn"), say("exact"), say("error"), say("on paper, mm"), say("bound, mm"),
-    )  # fmt: skip
+    titles = [say("{title}, {unit}", title=q.title, unit=unit(q.unit)) for q in chosen]
+    figures = [(q.drawn, q.exact, q.error, q.error_paper, q.tolerance_paper) for q in chosen]
+    rows = [(title, *(number(value, 3) for value in row)) for title, row in zip(titles, figures, strict=True)]
+    errors = (say("error"), say("on paper, mm"), say("bound, mm"))
+    header = (say("quantity"), say("drawn"), say("exact"), *errors)
     return Markdown(markdown.table(header, rows, solution.tell))

@@ -59,8 +59,11 @@ class Stage:
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
         alt = say(
             "{view}. Drawn so far, with step {number} in colour: {title}. {caption}",
-            view=view, number=self.number, title=title, caption=self.step.caption,
-        )  # fmt: skip
+            view=view,
+            number=self.number,
+            title=title,
+            caption=self.step.caption,
+        )
         return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
@@ -86,8 +89,8 @@ def _reading(row: ReadingRow, tell: Tell) -> str:
         return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
     greatest = int(np.nanargmax(np.abs(row.paper)))
     lines = "".join(f"<li>{place}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places))
-    first = say("{title}, the greatest at {place} = {said}",
-                title=row.title, place=row.places[greatest], said=row.said(greatest))  # fmt: skip
+    place, said = row.places[greatest], row.said(greatest)
+    first = say("{title}, the greatest at {place} = {said}", title=row.title, place=place, said=said)
     return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 
 

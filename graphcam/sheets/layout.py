@@ -148,7 +148,7 @@ def _in_order(part: Part, leaves: Sequence[Leaf]) -> list[Leaf]:
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class StepPart:
     """What a step draws at once, and from which step on it is shown: what is given from the start."""
 
     step: int
@@ -156,14 +156,14 @@ class Piece:
     drawn: Drawn
 
 
-def _pieces(part: Part, leaf: Leaf) -> Iterator[Piece]:
+def _pieces(part: Part, leaf: Leaf) -> Iterator[StepPart]:
     """What the steps of a part draw on a page."""
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
             for marks, since in ((step.given, 0), (step.own, number)):
                 if marks or since:
-                    yield Piece(number, since, expand(marks, Placement(origin, panel.factor), panel.letters))
+                    yield StepPart(number, since, expand(marks, Placement(origin, panel.factor), panel.letters))
 
 
 def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: float) -> Page:

@@ -9,7 +9,8 @@ from russian import english_words
 
 from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise, library, load_exercise
-from graphcam.exercises.definition.misconceptions import CATALOGUE, misconception
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.mistakes import CATALOGUE
 from graphcam.language import languages
 from graphcam.tasks.task_file import builtin_text
 
@@ -110,7 +111,7 @@ def test_a_text_without_a_language_is_said_in_every_one(tmp_path):
 def test_an_unknown_exercise_gets_a_suggestion():
     with pytest.raises(TaskError, match="did you mean 'whole-cam'"):
         find_exercise("hole-cam")
-    with pytest.raises(TaskError, match="not readable"):
+    with pytest.raises(TaskError, match="the exercise file is not there"):
         find_exercise("nowhere/mine.toml")
 
 

@@ -18,10 +18,11 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.notebooks import changed, extra
-from graphcam.notebooks.generate import task_files, write_notebook
+from graphcam.notebooks.generate import write_notebook
 from graphcam.notebooks.html_pages import to_html
 from graphcam.notebooks.running import execute
 from graphcam.tasks.task import SpringTable
+from graphcam.tasks.task_writer import task_files
 
 COURSEWORK, ARM, FLAT = (gc.builtin_task(name) for name in ("coursework", "arm", "flat"))
 SMOOTH = tuple(

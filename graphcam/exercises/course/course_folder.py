@@ -1,4 +1,4 @@
-"""The teacher's folder of a course: which exercise it is, in which language, and one certificate a student."""
+"""The teacher's folder of a course: which exercise it is, in which language, and one answer key a student."""
 
 from __future__ import annotations
 
@@ -19,19 +19,21 @@ SUBMITTED = "submitted"
 """Where nbgrader collects: a folder for every student, and in it one for every assignment."""
 COURSE = "course.json"
 """In the teacher's folder, what the course is about."""
+KEPT = "certificates"
+"""In the teacher's folder, or the hidden one, the answer keys."""
 HIDDEN = ".graphcam"
-"""Where certificates go in a course that was not made so; no student's folder has a name that begins with a point."""
+"""Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
 
 
 @dataclass(frozen=True)
 class AnswerKeys:
-    """The certificates kept in a folder."""
+    """The answer keys kept in a folder."""
 
     folder: Path
 
     @staticmethod
     def of(course: Path) -> tuple[Path, AnswerKeys]:
-        """Where the hand-ins of a course are, and where its certificates: beside them if graphcam made the course."""
+        """Where the submissions of a course are, and where its answer keys: beside them if graphcam made the course."""
         for submissions in (STUDENTS, SUBMITTED):
             # Students may have any name, and hand in what they like.
             if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():
@@ -42,25 +44,24 @@ class AnswerKeys:
         return course, AnswerKeys(course / HIDDEN)
 
     def find(self, student: str) -> str:
-        """A student's certificate as JSON; empty where there is none."""
+        """A student's answer key as JSON; empty where there is none."""
         try:
             return self._path(student).read_text(encoding="utf-8")
         except (OSError, UnicodeDecodeError):
             return ""
 
     def student(self, place: str) -> str:
-        """The student whose folder has this name; who had to be cut for it is named by the certificate."""
+        """The student whose folder has this name; who had to be cut for it is named by the answer key."""
         if not is_cut(place):
             return student_of(place)
         try:
-            said = json.loads((self.folder / "certificates" / f"{place}.json").read_bytes())
-            student = str(said["student"])
+            student = str(json.loads((self.folder / KEPT / f"{place}.json").read_bytes())["student"])
         except (OSError, ValueError, TypeError, KeyError):
             return student_of(place)
         return student if folder_name(student) == place else student_of(place)
 
     def keep(self, student: str, answer_key: str) -> None:
-        """Keep a certificate; it is there whole or not at all."""
+        """Keep an answer key; it is there whole or not at all."""
         path = self._path(student)
         path.parent.mkdir(parents=True, exist_ok=True)
         # Two runs may keep the same one.
@@ -94,8 +95,9 @@ class AnswerKeys:
         TaskError : the course was made with another one
         """
         if self.course().get("secret", _digest(secret)) != _digest(secret):
-            raise TaskError(str(path), "the secret", "another one", "the one that the course was made with",
-                            "name the file that 'graphcam exercise make' or 'export' was given")  # fmt: skip
+            remedy = "name the file that 'graphcam exercise make' or 'export' was given"
+            expected = "the one that the course was made with"
+            raise TaskError(str(path), "the secret", "another one", expected, remedy)
 
     def language(self) -> str:
         """The language that the course is noted to be in; English where nothing is."""
@@ -110,7 +112,7 @@ class AnswerKeys:
         return said if isinstance(said, dict) else {}
 
     def _path(self, student: str) -> Path:
-        return self.folder / "certificates" / f"{folder_name(student)}.json"
+        return self.folder / KEPT / f"{folder_name(student)}.json"
 
 
 def _digest(secret: bytes) -> str:
@@ -127,8 +129,8 @@ def read_secret(path: str | Path) -> bytes:
     try:
         secret = Path(path).read_bytes().strip()
     except OSError as error:
-        raise TaskError(str(path), "the secret", error.strerror or "not readable", "a file that only you can read",
-                        "check the name") from None  # fmt: skip
+        why, expected = error.strerror or "not readable", "a file that only you can read"
+        raise TaskError(str(path), "the secret", why, expected, "check the name") from None
     if not secret:
         raise TaskError(str(path), "the secret", "empty", "a long random text", "write one into the file and keep it")
     return secret

@@ -2,35 +2,36 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+
+import nbformat
+import nbformat.v4 as nb
+from nbformat import NotebookNode
 
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.ink import Step
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
-from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.drawn_layers import ORIGIN
-from graphcam.exercises.reading.submission_files import DXF
+from graphcam.exercises.reading.notebook import TAG
+from graphcam.exercises.reading.submission_files import DXF, NOTEBOOK, TOML
+from graphcam.notebooks.kernel import PYTHON
 from graphcam.report.markdown import number
 from graphcam.report.sheet_contents import title_block
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
+from graphcam.tasks.task_writer import task_files
 from graphcam.words import Caption, Words, say, say_in, say_many
 
-TAG = "answers"
-"""The tag of the notebook's cell that holds the answers."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """Of the key's table, as :func:`key_rows` fills them."""
-KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
 
 
 def instructions(variant: Variant) -> str:
@@ -48,31 +49,27 @@ def answer_file(exercise: Exercise) -> str:
     return "\n".join(lines)
 
 
-def notebook(variant: Variant) -> str:
+def notebook(variant: Variant) -> NotebookNode:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
     asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
     how = say("Write your answers into the next cell: plain numbers with a decimal point, nothing else.")
     blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
     cells = [
-        _cell("task", "markdown", f"# {exercise.title}\n\n{instructions(variant)}"),
-        _cell("asked", "markdown", f"{exercise.tell(how)}\n\n{asked}"),
-        _cell("answers", "code", blanks, {"tags": [TAG]}),
+        nb.new_markdown_cell(f"# {exercise.title}\n\n{instructions(variant)}", id="task"),
+        nb.new_markdown_cell(f"{exercise.tell(how)}\n\n{asked}", id="asked"),
+        nb.new_code_cell(blanks, id="answers", metadata={"tags": [TAG]}),
     ]
-    whole = {"cells": cells, "metadata": KERNEL, "nbformat": 4, "nbformat_minor": 5}
-    return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
-
-
-def task_file(variant: Variant) -> str:
-    """The variant as a task file of graphcam."""
-    return toml_text(variant.task.to_dict())
+    return nb.new_notebook(cells=cells, metadata=PYTHON)
 
 
 def worksheet(variant: Variant, student: Student) -> Drawing:
     """The sheet to draw on: what is given, and the table for the answers."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [(name, step) for name, count in exercise.sheet.items() for step in getattr(chain, name).steps()[:count]]
+    steps = [
+        (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
+    ]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
     blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
     rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
@@ -84,7 +81,9 @@ def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Draw
     """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [(name, step) for name in _drawn_for(exercise, tuple(chain)) for step in getattr(chain, name).steps()]
+    steps = [
+        (name, step) for name in _drawn_for(exercise, tuple(chain)) for step in construction_of(chain, name).steps()
+    ]
     table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, answer_key)))
     return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
 
@@ -118,7 +117,7 @@ def origins(variant: Variant) -> dict[str, str]:
     """
     chain = board_chain(variant.task)
     of = {asked.layer: asked.construction for asked in variant.exercise.answers if asked.kind != "number"}
-    views = {layer: {step.view.name for step in getattr(chain, name).steps()} for layer, name in of.items()}
+    views = {layer: {step.view.name for step in construction_of(chain, name).steps()} for layer, name in of.items()}
     if len(set().union(*views.values())) == 1:
         return {ORIGIN.upper(): next(iter(views.values())).pop()}
     # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
@@ -145,8 +144,10 @@ def _how(asked: Asked) -> Caption:
         return say(
             "({what}, or drawn on the layer {layer} of worksheet.dxf or of another DXF file and handed in as {file}, "
             "its origin marked by a POINT on the layer ORIGIN.)",
-            what=what, layer=asked.layer, file=DXF,
-        )  # fmt: skip
+            what=what,
+            layer=asked.layer,
+            file=DXF,
+        )
     decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
     if not asked.unit:
         return say("({decimals}.)", decimals=decimals)
@@ -155,30 +156,6 @@ def _how(asked: Asked) -> Caption:
 
 def _blank(asked: Asked) -> str:
     return "" if asked.kind == "number" else "[[x, y], [x, y]]"
-
-
-def _cell(name: str, kind: str, source: str, metadata: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    code = {"execution_count": None, "outputs": []} if kind == "code" else {}
-    return {"id": name, "cell_type": kind, "metadata": dict(metadata or {}), "source": source, **code}
-
-
-def toml_text(table: Mapping[str, Any]) -> str:
-    """A table of plain values as TOML.
-
-    >>> print(toml_text({"rotation": "cw", "cam": {"prime_radius": 44}}))
-    rotation = "cw"
-    cam = {prime_radius = 44}
-    <BLANKLINE>
-    """
-    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items() if value is not None)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_value(each)}" for key, each in value.items() if each is not None) + "}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_value, value)) + "]"
-    return json.dumps(value, ensure_ascii=False)
 
 
 def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
@@ -190,8 +167,6 @@ def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
     write_pdf(sheet, folder / "worksheet.pdf")
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
-    for name, text in (
-        ("answers.toml", answer_file(variant.exercise)), ("answers.ipynb", notebook(variant)),
-        ("task.toml", task_file(variant)),
-    ):  # fmt: skip
+    files = {TOML: answer_file(variant.exercise), NOTEBOOK: nbformat.writes(notebook(variant))}
+    for name, text in (files | task_files(variant.task)).items():
         (folder / name).write_text(text, encoding="utf-8")

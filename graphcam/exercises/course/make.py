@@ -1,4 +1,4 @@
-"""Making an exercise for a course: the students' papers in one folder, the teacher's in another."""
+"""Making an exercise for a course: the students' handouts in one folder, the teacher's in another."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def make(
     workers: int = 1,
     step: Callable[[int, int], None] = lambda done, total: None,
 ) -> int:
-    """Make every student's papers; how many students there are.
+    """Make every student's handouts; how many students there are.
 
-    language : of all papers, and noted for the feedback
+    language : of all handouts, and noted for the feedback
 
     Raises
     ------
@@ -58,7 +58,7 @@ def make(
     with whole_folder(out) as draft, executor_of(workers) as executor:
         orders = [_Order(exercise, student, secret, draft) for student in students]
         answer_keys: list[AnswerKey] = []
-        for done, text in enumerate(in_order(executor, _papers, orders), 1):
+        for done, text in enumerate(in_order(executor, _made, orders), 1):
             answer_keys.append(AnswerKey.from_json(text))
             step(done, len(orders))
         kept = AnswerKeys(draft / TEACHER)
@@ -67,19 +67,19 @@ def make(
     return len(students)
 
 
-def _papers(order: _Order) -> str:
-    """All papers of one student; the certificate as text."""
+def _made(order: _Order) -> str:
+    """All handouts of one student; the answer key as text."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
     variant, answer_key = issue(order.exercise, order.student.id, order.secret)
     name = folder_name(order.student.id)
-    theirs, keys, kept = order.folder / STUDENTS / name, order.folder / TEACHER / "keys", order.folder / TEACHER
-    for folder in (theirs, keys, kept / "certificates"):
+    theirs, key_sheets = order.folder / STUDENTS / name, order.folder / TEACHER / "keys"
+    for folder in (theirs, key_sheets):
         folder.mkdir(parents=True, exist_ok=True)
     write_handouts(variant, order.student, theirs)
-    write_pdf(key_sheet(variant, order.student, answer_key), keys / f"{name}.pdf")
+    write_pdf(key_sheet(variant, order.student, answer_key), key_sheets / f"{name}.pdf")
     text = answer_key.to_json()
-    (kept / "certificates" / f"{name}.json").write_text(text, encoding="utf-8")
+    AnswerKeys(order.folder / TEACHER).keep(order.student.id, text)
     return text
 
 

@@ -1,4 +1,4 @@
-"""What a student handed in, once it has been read."""
+"""The answers of a submission, once it has been read."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Answers:
 
     values : a number, or points and curves (n,) as complex mm of paper; they may be anything that a file can say
     problems : answers that stand there and could not be read: a sentence for the student by the answer's name
-    notes : sentences about the hand-in as a whole
+    notes : sentences about the submission as a whole
     """
 
     values: Mapping[str, Given]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from graphcam.exercises.definition.exercise import Asked
 from graphcam.given.stations import Stations
 from graphcam.tasks.task import Task
 
+T = TypeVar("T")
 PRIMES = "'’′"
 """How a second or third moving phase is marked on a keyboard and in print."""
 PER_PART = ("middles",)
@@ -34,6 +36,18 @@ def board_chain(task: Task, pencil: Pencil | None = None) -> Chain:
     return Chain(board_of(task), pencil or Pencil())
 
 
+def construction_of(chain: Chain, name: str) -> Construction:
+    """A construction by its name; of a law too the differentiation, which stands beside the others.
+
+    Raises
+    ------
+    DesignError : there is none of that name
+    """
+    if name == "differentiation":
+        return chain.differentiation
+    return _named(chain, name, "construction", "differentiation")
+
+
 def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
     """What a hand that drew this answers: ([samples,]) numbers in the student's unit, or complex points ([samples,] m).
 
@@ -41,7 +55,7 @@ def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
     ------
     DesignError : there is no such place in the drawing
     """
-    construction = _construction(chain, asked)
+    construction = construction_of(chain, asked.construction)
     if asked.points:
         points = _named(construction.points, asked.points, "points")
         if asked.kind != "number":
@@ -60,7 +74,7 @@ def per_mm(chain: Chain, asked: Asked) -> float:
     """Units of the answer in one millimetre of paper; NaN for an angle or a scale, which has no length."""
     if asked.points or asked.of == "paper":
         return 1.0
-    reading = _construction(chain, asked).readings[asked.reading]
+    reading = construction_of(chain, asked.construction).readings[asked.reading]
     if asked.of == "scale" or reading.unit == "rad":
         return math.nan
     return float(np.ravel(reading.scale)[0])
@@ -97,7 +111,7 @@ def with_own(chain: Chain, asked: Asked, values: NDArray[np.float64]) -> Chain:
     """The drawing gone on with from a student's own answers ([samples,]), numbers: what comes later follows them."""
     if asked.points:
         return chain  # a point's own coordinates go no further than its construction
-    return chain.going_on_from(_replaced(chain, _construction(chain, asked), asked, values))
+    return chain.going_on_from(_replaced(chain, construction_of(chain, asked.construction), asked, values))
 
 
 def _replaced(chain: Chain, construction: Construction, asked: Asked, values: NDArray[np.float64]) -> Construction:
@@ -123,8 +137,11 @@ def _replaced(chain: Chain, construction: Construction, asked: Asked, values: ND
     return drawn
 
 
-FOLLOWING = {"s": ("s", "v", "a", "a_before", "max_v", "max_a"), "v": ("v", "a", "a_before", "max_v", "max_a"),
-             "a": ("a", "a_before", "max_a")}  # fmt: skip
+FOLLOWING = {
+    "s": ("s", "v", "a", "a_before", "max_v", "max_a"),
+    "v": ("v", "a", "a_before", "max_v", "max_a"),
+    "a": ("a", "a_before", "max_a"),
+}
 """Scales that are found from one another, each with those that follow from it."""
 
 
@@ -157,14 +174,7 @@ def with_ordinates(diagram: Construction, factor: NDArray[np.float64]) -> Constr
     return replace(diagram, readings={**diagram.readings, **readings})
 
 
-def _construction(chain: Chain, asked: Asked) -> Construction:
-    known = (*chain, "differentiation")
-    if asked.construction not in known:
-        raise DesignError("construction", asked.construction, "one of " + ", ".join(known))
-    return getattr(chain, asked.construction)
-
-
-def _named(things: Any, name: str, kind: str) -> Any:
+def _named(things: Mapping[str, T], name: str, what: str, *others: str) -> T:
     if name not in things:
-        raise DesignError(kind, name, "one of " + ", ".join(things))
+        raise DesignError(what, name, "one of " + ", ".join((*things, *others)))
     return things[name]

@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError
+from graphcam.exercises.definition.hands import SteadyPencil
 from graphcam.language import ENGLISH, language, languages
 from graphcam.tasks.sheet_tables import one_of, positive
 from graphcam.words import Tell, Words
@@ -133,8 +134,6 @@ class HandTable:
 
     def pencil(self, samples: int, seed: int = 0) -> Pencil:
         """As many careful hands."""
-        from graphcam.exercises.definition.hands import SteadyPencil
-
         return SteadyPencil(self.line, self.dividers, self.division, math.radians(self.protractor_deg), samples, seed)
 
 

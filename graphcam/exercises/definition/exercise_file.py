@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
-import json
-import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphcam.errors import DesignError, TaskError, nearest
-from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.drawn_answers import ask, board_chain
+from graphcam.exercises.definition.exercise import Asked, Exercise, HandTable, Parameter
+from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.template import fill_in
 from graphcam.exercises.definition.texts import in_language
 from graphcam.language import ENGLISH
-
-if TYPE_CHECKING:
-    from pydantic import TypeAdapter
+from graphcam.tasks.task_file import EXAMPLE, Classes, checked, parse_toml, read_content
 
 HOW_TO = "see exercises/README.md"
 NO_KEYS = {"name", "language"}
 """What an exercise has and its file does not say."""
-_EXPECTED = {
-    "missing": "given", "float_type": "a number", "string_type": "text in quotes", "tuple_type": "a list",
-    "dict_type": "a table", "dataclass_type": "a table", "finite_number": "a finite number",
-    "int_type": "a whole number",
-}  # fmt: skip
 
 
 class _Word(str):
@@ -67,8 +60,8 @@ def exercise_path(name: str) -> Path:
     if name.endswith(".toml") or "/" in name:
         return Path(name)
     if name not in library():
-        raise TaskError(name, "the exercise", _Word("not there"), "one that 'graphcam exercise list' names",
-                        nearest(name, library()))  # fmt: skip
+        known = "one that 'graphcam exercise list' names"
+        raise TaskError(name, "the exercise", _Word("not there"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 
@@ -81,19 +74,21 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     """
     path = Path(path)
     try:
-        data = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
-    except OSError as error:
-        raise TaskError(str(path), "the exercise file", _Word(f"not readable ({error.strerror})"), "a TOML file",
-                        "check the name") from None  # fmt: skip
-    except (ValueError, RecursionError) as error:
-        raise TaskError(str(path), "the text", _Word(f"not TOML ({error})"), "a TOML file", HOW_TO) from None
-    if "motion" in data and "task" not in data:
-        raise TaskError(str(path), "the file", _Word("a task"), "an exercise, which has the task in its table [task]",
-                        "begin with a copy of one that 'graphcam exercise list' names")  # fmt: skip
-    for key in NO_KEYS & data.keys():
-        raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
-    told = in_language(str(path), data, language)
-    exercise = dataclasses.replace(_exercise(str(path), told), name=path.stem, language=language)
+        data = parse_toml(str(path), read_content(path))
+        if "motion" in data and "task" not in data:
+            remedy = "begin with a copy of one that 'graphcam exercise list' names"
+            expected = "an exercise, which has the task in its table [task]"
+            raise TaskError(str(path), "the file", _Word("a task"), expected, remedy)
+        for key in NO_KEYS & data.keys():
+            raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
+        told = in_language(str(path), data, language)
+        exercise = checked(Exercise, _classes(data), str(path), told, told)
+    except TaskError as error:
+        # A task's example is of no use here.
+        remedy = HOW_TO if error.remedy.endswith(EXAMPLE) else error.remedy
+        field, remedy = (text.replace("task file", "exercise file") for text in (error.field, remedy))
+        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
+    exercise = dataclasses.replace(exercise, name=path.stem, language=language)
     _check(str(path), exercise)
     return exercise
 
@@ -104,37 +99,16 @@ def _folder() -> Path:
     return installed if installed.is_dir() else Path(__file__).parents[3] / "exercises"
 
 
-def _exercise(path: str, data: dict[str, Any]) -> Exercise:
-    from pydantic import ValidationError
-
-    try:
-        return _reader().validate_json(json.dumps(data, default=str))
-    except ValidationError as error:
-        detail = error.errors(include_url=False)[0]
-    field = ".".join(str(step) for step in detail["loc"]) or "the exercise"
-    cause = detail.get("ctx", {}).get("error")
-    if isinstance(cause, DesignError):
-        raise TaskError(path, f"{field}.{cause.quantity}", cause.value, cause.limit, cause.remedy or HOW_TO)
-    kind = detail["type"]
-    if kind == "unexpected_keyword_argument":
-        raise TaskError(path, field, _Word("an unknown key"), "one that is known", HOW_TO)
-    found = _Word("missing") if kind == "missing" else detail["input"]
-    raise TaskError(path, field, found, _EXPECTED.get(kind, detail["msg"]), HOW_TO)
-
-
-@functools.cache
-def _reader() -> TypeAdapter[Exercise]:
-    from pydantic import TypeAdapter
-
-    return TypeAdapter(Exercise)
+def _classes(data: dict[str, Any]) -> Classes:
+    """The class of each table of a file; every parameter has a table by its own name."""
+    parameters = data.get("parameters")
+    named = parameters if isinstance(parameters, dict) else {}
+    tables: Classes = {("parameters", str(name)): Parameter for name in named}
+    return {(): Exercise, ("answers",): Asked, ("hand",): HandTable, **tables}
 
 
 def _check(path: str, exercise: Exercise) -> None:
     """What only a drawing shows: that the task, every answer and every mistake can be drawn."""
-    from graphcam.exercises.definition.drawn_answers import ask, board_chain
-    from graphcam.exercises.definition.misconceptions import misconception
-    from graphcam.exercises.definition.template import fill_in
-
     for name in exercise.misconceptions:
         try:
             misconception(name)

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+
+import nbformat
+import nbformat.v4 as nb
+from nbformat import NotebookNode
 
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
@@ -16,6 +19,7 @@ from graphcam.exercises.definition.template import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
+from graphcam.notebooks.kernel import PYTHON
 from graphcam.words import Tell, say
 
 CELL = {"schema_version": 3, "grade": False, "solution": False, "locked": False, "task": False}
@@ -33,16 +37,12 @@ SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
 
 def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> None:
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
-    import nbformat
-
     tell = exercise.tell
     stub = "# " + tell(say("Write what you read in place of None."))
     (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
-    notebook = nbformat.from_dict(_notebook(exercise))
-    nbformat.validate(notebook)
-    nbformat.write(notebook, source / f"{NOTEBOOK}.ipynb")
+    nbformat.write(_notebook(exercise), source / f"{NOTEBOOK}.ipynb")
     sheets = folder / "sheets"
     sheets.mkdir()
     for answer_key in answer_keys:
@@ -51,13 +51,12 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
         (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8")
 
 
-def _notebook(exercise: Exercise) -> dict[str, Any]:
+def _notebook(exercise: Exercise) -> NotebookNode:
     how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
     cells = [_markdown("task", f"# {exercise.title}\n\n{exercise.tell(how)}")]
     for asked in exercise.answers:
         cells += [_markdown(f"{asked.name}-asked", _question(asked, exercise.tell)), _answer(asked)]
-    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
-    return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+    return nb.new_notebook(cells=cells, metadata=PYTHON)
 
 
 def _question(asked: Asked, tell: Tell) -> str:
@@ -67,14 +66,12 @@ def _question(asked: Asked, tell: Tell) -> str:
     return f"**{asked.name}**{unit} {text}"
 
 
-def _markdown(name: str, text: str) -> dict[str, Any]:
-    graded = CELL | {"grade_id": name, "locked": True}
-    return {"id": name, "cell_type": "markdown", "source": text, "metadata": {"nbgrader": graded}}
+def _markdown(name: str, text: str) -> NotebookNode:
+    return nb.new_markdown_cell(text, id=name, metadata={"nbgrader": CELL | {"grade_id": name, "locked": True}})
 
 
-def _answer(asked: Asked) -> dict[str, Any]:
+def _answer(asked: Asked) -> NotebookNode:
     """A cell that is graded by hand as nbgrader sees it: graphcam is the hand."""
     graded = CELL | {"grade_id": asked.name, "grade": True, "solution": True, "points": asked.marks}
-    metadata, source = {"tags": [TAG], "nbgrader": graded}, f"{asked.name} = None\n{SOLUTION}"
-    cell = {"id": asked.name, "cell_type": "code", "source": source, "metadata": metadata}
-    return cell | {"outputs": [], "execution_count": None}
+    source = f"{asked.name} = None\n{SOLUTION}"
+    return nb.new_code_cell(source, id=asked.name, metadata={"tags": [TAG], "nbgrader": graded})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,7 +10,6 @@ import numpy as np
 
 from graphcam.bench.timing import Timer
 from graphcam.constructions.chain import Chain
-from graphcam.exercises.course.handouts import toml_text
 from graphcam.exercises.definition.answers import Given
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
@@ -71,7 +71,9 @@ def _submissions(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> lis
     found: list[Submission] = []
     for hand in range(HANDS):
         given = {asked.name: _given(answers[hand]) for asked, answers in zip(exercise.answers, drawn, strict=True)}
-        found.append(Submission(STUDENT, STUDENT, {TOML: toml_text(given).encode()}, (), text))
+        # As a student fills it in, every answer on a line.
+        lines = "".join(f"{name} = {json.dumps(answer)}\n" for name, answer in given.items())
+        found.append(Submission(STUDENT, STUDENT, {TOML: lines.encode()}, (), text))
     return found
 
 

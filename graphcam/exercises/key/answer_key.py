@@ -17,11 +17,16 @@ from pydantic_core import from_json
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Value
 from graphcam.exercises.key.deferred import Deferred
-from graphcam.exercises.key.expectation import Expected, from_plain, plain
+from graphcam.exercises.key.expectation import Expected, from_stored, stored
 from graphcam.exercises.key.follow_through import Dependence
 from graphcam.exercises.key.hypothesis import Hypothesis
 
 FORMAT = 2
+STORED_AS_THEY_ARE = (
+    *("exercise", "version", "student", "draw", "parameters"),
+    *("bound", "careful", "too_exact", "alike"),
+)
+"""Fields of an answer key whose values are JSON's own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +56,7 @@ class AnswerKey:
     hypotheses : by the misconception's name, what a student with that mistake answers, in the order of the answers
     alike : pairs of misconceptions, or of one and "careful", that these answers cannot tell apart
     dependences : by the answer's name, how it follows from the student's own earlier answers
-    too_exact : root mean square of the deviations of drawn answers, below which a hand-in is remarked on
+    too_exact : root mean square of the deviations of drawn answers, below which a submission is remarked on
     """
 
     exercise: str
@@ -69,51 +74,45 @@ class AnswerKey:
 
     def to_json(self) -> str:
         """As text; numbers as short as they are exact."""
-        said: dict[str, Any] = {
-            "format": FORMAT, "exercise": self.exercise, "version": self.version, "student": self.student,
-            "draw": self.draw, "parameters": dict(self.parameters), "bound": self.bound, "careful": self.careful,
-            "too_exact": self.too_exact, "alike": [list(pair) for pair in self.alike],
-            "keys": {
-                name: [plain(key.expected), key.tolerance, _finite(key.tolerance_paper), key.drawn]
-                for name, key in self.keys.items()
-            },
-            # As texts within the text: they are read only where an answer is wrong.
-            "hypotheses": json.dumps({name: each.said for name, each in self.hypotheses.items()}),
-            "dependences": json.dumps({name: each.to_json() for name, each in self.dependences.items()}),
-        }  # fmt: skip
+        said = {"format": FORMAT} | {name: getattr(self, name) for name in STORED_AS_THEY_ARE}
+        said["keys"] = {
+            name: [stored(key.expected), key.tolerance, _finite(key.tolerance_paper), key.drawn]
+            for name, key in self.keys.items()
+        }
+        # As texts within the text: they are read only where an answer is wrong.
+        said["hypotheses"] = json.dumps({name: each.said for name, each in self.hypotheses.items()})
+        said["dependences"] = json.dumps({name: each.to_json() for name, each in self.dependences.items()})
         return json.dumps(said, allow_nan=False)
 
     @staticmethod
     def from_json(text: str, path: str = "certificate") -> AnswerKey:
-        """A certificate out of its text.
+        """An answer key out of its text.
 
         Raises
         ------
         TaskError : it is none, or of another format
         """
         try:
-            # Three times as fast as the standard library's, and what takes longest of reading a certificate.
+            # Three times as fast as the standard library's, and what takes longest of reading an answer key.
             return _read(from_json(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise TaskError(path, "the certificate", f"not readable ({error})", f"a certificate of format {FORMAT}",
-                            "make it again with 'graphcam exercise make'") from None  # fmt: skip
+            found, wanted = f"not readable ({error})", f"a certificate of format {FORMAT}"
+            remedy = "make it again with 'graphcam exercise make'"
+            raise TaskError(path, "the certificate", found, wanted, remedy) from None
 
 
 def _read(said: dict[str, Any]) -> AnswerKey:
     if said["format"] != FORMAT:
         raise ValueError(f"format {said['format']}")
-    return AnswerKey(
-        said["exercise"], said["version"], said["student"], said["draw"], said["parameters"], said["bound"],
-        said["careful"],
-        {
-            name: Key(from_plain(expected), tolerance, math.nan if paper is None else paper, drawn)
-            for name, (expected, tolerance, paper, drawn) in said["keys"].items()
-        },
-        Deferred(str(said["hypotheses"]), Hypothesis),
-        tuple((a, b) for a, b in said["alike"]),
-        Deferred(str(said["dependences"]), Dependence.from_json),
-        said["too_exact"],
-    )  # fmt: skip
+    keys = {
+        name: Key(from_stored(expected), tolerance, math.nan if paper is None else paper, drawn)
+        for name, (expected, tolerance, paper, drawn) in said["keys"].items()
+    }
+    hypotheses = Deferred(str(said["hypotheses"]), Hypothesis)
+    dependences = Deferred(str(said["dependences"]), Dependence.from_json)
+    as_they_are = {name: said[name] for name in STORED_AS_THEY_ARE}
+    as_they_are["alike"] = tuple((a, b) for a, b in said["alike"])
+    return AnswerKey(keys=keys, hypotheses=hypotheses, dependences=dependences, **as_they_are)
 
 
 def _finite(number: float) -> float | None:

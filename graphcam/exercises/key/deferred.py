@@ -12,7 +12,7 @@ V = TypeVar("V")
 
 
 class Deferred(Mapping[str, V]):
-    """Values by name that stand there as one JSON text: most hand-ins are right and need none of them.
+    """Values by name that stand there as one JSON text: most submissions are right and need none of them.
 
     read : makes a value of what the JSON says
 

@@ -93,7 +93,7 @@ class Expected:
         return np.abs(paired(given, value) - value)
 
 
-def plain(expected: Expected) -> list[Any]:
+def stored(expected: Expected) -> list[Any]:
     """As JSON takes it: value and scatter, and of points the bulge; a point is a pair."""
     if not isinstance(expected.value, np.ndarray):
         return [expected.value, float(expected.scatter)]
@@ -101,10 +101,10 @@ def plain(expected: Expected) -> list[Any]:
     return [points, np.asarray(expected.scatter).tolist(), expected.bulge.tolist()]
 
 
-def from_plain(said: list[Any]) -> Expected:
-    """What :func:`plain` wrote.
+def from_stored(said: list[Any]) -> Expected:
+    """What :func:`stored` wrote.
 
-    >>> plain(from_plain([[[0.0, 1.0]], [0.5], []]))
+    >>> stored(from_stored([[[0.0, 1.0]], [0.5], []]))
     [[[0.0, 1.0]], [0.5], []]
     """
     if len(said) == 2:

@@ -1,6 +1,6 @@
 """How an answer follows from the student's own earlier ones: the construction drawn again from these.
 
-The construction is drawn again when the certificate is made (:mod:`graphcam.exercises.key.redrawing`), from a range of
+The construction is drawn again when the answer key is made (:mod:`graphcam.exercises.key.redrawing`), from a range of
 values in place of each earlier answer, the others being right; marking only looks up.  A student with several answers
 off gets the effects put together, by factors or by sums, whichever agrees better with drawings from several own values
 at once.

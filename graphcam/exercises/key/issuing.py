@@ -13,7 +13,7 @@ MOST_DRAWS = 400
 
 
 def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, AnswerKey]:
-    """The student's variant and its certificate: the first draw in which every mistake can be told from every other.
+    """The student's variant and its answer key: the first draw in which every mistake can be told from every other.
 
     The same exercise, student and secret give the same variant on every machine.
 
@@ -26,11 +26,8 @@ def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, Ans
         answer_key = draw_key(candidate)
         if answer_key:
             return candidate, answer_key
-    raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws",
-                      "widen the parameters, ask for another reading, leave a misconception out, or choose an ordinate "
-                      "and poles for which the diagrams fit on the worksheet")  # fmt: skip
-
-
-def variant(exercise: Exercise, student: str, secret: bytes) -> Variant:
-    """The student's variant alone."""
-    return issue(exercise, student, secret)[0]
+    remedy = (
+        "widen the parameters, ask for another reading, leave a misconception out, or choose an ordinate and poles for "
+        "which the diagrams fit on the worksheet"
+    )
+    raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws", remedy)

@@ -1,4 +1,4 @@
-"""Making a certificate: the variant drawn by a perfect hand, by many careful ones, and with every mistake."""
+"""Making an answer key: the variant drawn by a perfect hand, by many careful ones, and with every mistake."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ HANDS = 2000
 MARGIN = 0.6
 """The bound is set for this part of the permitted rate of losses: a rate from finitely many hands is uncertain."""
 TOO_EXACT = 5e-4
-"""A hand-in is remarked on as too exact where so few careful hands are as near to the key."""
+"""A submission is remarked on as too exact where so few careful hands are as near to the key."""
 
 
 def draw_key(variant: Variant) -> AnswerKey | None:
-    """The certificate of a variant; None where its answers cannot tell every mistake from every other.
+    """The answer key of a variant; None where its answers cannot tell every mistake from every other.
 
     Nor has one a variant whose diagrams find no room on the worksheet.  What is quickly found out comes first: of
     several draws most are turned away.
@@ -54,16 +54,15 @@ def draw_key(variant: Variant) -> AnswerKey | None:
         return None
     by_hand = [float(np.std(samples)) > 0 for samples in hands]
     near = np.sqrt(np.mean(off[:, by_hand] ** 2, axis=1)) if any(by_hand) else np.full(HANDS, np.nan)
+    tolerances = [bound * float(np.max(key.scatter)) for key in keys]
+    rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
-        exercise.name, exercise.version, variant.student, variant.draw, variant.parameters, bound,
-        float(np.mean(off.max(axis=1) > bound)),
-        {
-            asked.name: Key(key, tolerance, tolerance / length, is_drawn)
-            for asked, key, length, is_drawn in zip(exercise.answers, keys, drawn.lengths, by_hand, strict=True)
-            for tolerance in [bound * float(np.max(key.scatter))]
-        },
-        {name: Hypothesis.of(values) for name, values in wrong.items()},
-        (),
-        dependences(exercise, drawn.right, keys, bound),
-        float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
-    )  # fmt: skip
+        *(exercise.name, exercise.version, variant.student, variant.draw, variant.parameters),
+        bound=bound,
+        careful=float(np.mean(off.max(axis=1) > bound)),
+        keys={asked.name: Key(key, most, most / length, is_drawn) for asked, key, most, length, is_drawn in rows},
+        hypotheses={name: Hypothesis.of(values) for name, values in wrong.items()},
+        alike=(),
+        dependences=dependences(exercise, drawn.right, keys, bound),
+        too_exact=float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
+    )

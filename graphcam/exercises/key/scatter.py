@@ -91,7 +91,7 @@ def bulges_of(exercise: Exercise, chain: Chain) -> list[Floats]:
 
 
 def deviations(exercise: Exercise, keys: list[Expected], off: Drawn) -> NDArray[np.float64]:
-    """How far each of many hand-ins is off, (samples, answers), in pencil units, from its :func:`distances`.
+    """How far each of many submissions is off, (samples, answers), in pencil units, from its :func:`distances`.
 
     A hand that joins its plotted points is nowhere farther off than at one of them, so of curves these count alone.
     """

@@ -1,1 +1,1 @@
-"""Marking: what was handed in beside the answer key, what explains it, and what the student is told."""
+"""Marking: a submission beside the answer key, what explains it, and what the student is told."""

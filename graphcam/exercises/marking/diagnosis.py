@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from graphcam.exercises.definition.answers import Given
-from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.key.hypothesis import Hypothesis
+from graphcam.exercises.marking.comparing import ComparedAnswer
 from graphcam.exercises.marking.record import Diagnosis
 
 FAR = 5.0
@@ -22,15 +21,12 @@ SURE = 0.5
 HOPELESS = 30.0
 """A mistake worse by so much, in twice the logarithm of the probability, is not looked for in what is drawn."""
 
-Seen = Sequence[tuple[int, Asked, Given]]
-"""The answers that can be compared, each with its number in the exercise."""
-
 
 class _Explanation(NamedTuple):
     """How well a mistake fits.
 
     badness : minus twice the logarithm of the probability, each answer being anywhere if it is far off
-    near : the numbers of the wrong answers that look like what the mistake brings: they give it its name
+    near : the places of the wrong answers that look like what the mistake brings: they give it its name
     explained : those of them that are what it brings, as exactly as an answer must be that earns its marks
     """
 
@@ -39,29 +35,15 @@ class _Explanation(NamedTuple):
     explained: frozenset[int]
 
 
-def diagnose(
-    answer_key: AnswerKey, keys: Sequence[Expected], seen: Seen, off: Mapping[int, float], wrong: set[int]
-) -> tuple[Diagnosis, frozenset[int]] | None:
-    """The most probable mistake and the wrong answers that are what it brings; None where none looks like any.
-
-    off : deviations of the answers seen from the key, by their numbers; wrong : the numbers of those that are wrong
-    """
+def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple[Diagnosis, frozenset[int]] | None:
+    """The most probable mistake and the places of the answers that it brings; None where none looks like any."""
     # "Something else": the right answers as a careful hand gives them, each wrong one anywhere.
-    other = sum((FAR**2 if k in wrong else min(off[k] ** 2, FAR**2)) + _width(keys[k]) for k, _, _ in seen)
-    numbers = [(k, given) for k, _, given in seen if isinstance(given, float)]
-    drawn = [each for each in seen if not isinstance(each[2], float)]
-    hypotheses = answer_key.hypotheses
-    fits = {name: _numbers_fit(values, numbers, wrong, answer_key.bound) for name, values in hypotheses.items()}
-    if drawn:
-        # A drawing takes longer to compare than all numbers: only with what these leave possible.
-        least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.near)])
-        fits = {name: _with_drawn(fit, hypotheses[name], drawn, wrong, answer_key.bound)
-                for name, fit in fits.items() if fit.badness <= least + HOPELESS}  # fmt: skip
-    badness = {name: fit.badness for name, fit in fits.items() if fit.near}
-    if not badness:
+    other = sum((FAR**2 if each.wrong else min(each.off.deviation**2, FAR**2)) + _width(each.key) for each in compared)
+    fits = {name: fit for name, fit in _explanations(answer_key, compared, other).items() if fit.near}
+    if not fits:
         return None
-    least = min(other, *badness.values())
-    weights = {name: math.exp((least - bad) / 2) for name, bad in badness.items()}
+    least = min(other, *(fit.badness for fit in fits.values()))
+    weights = {name: math.exp((least - fit.badness) / 2) for name, fit in fits.items()}
     best = max(weights, key=lambda name: weights[name])
     alike = tuple(name for name in weights if name != best and weights[name] >= ALIKE * weights[best])
     total = sum(weights.values()) + math.exp((least - other) / 2)
@@ -70,30 +52,46 @@ def diagnose(
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
 
 
-def _numbers_fit(
-    values: Hypothesis, numbers: Sequence[tuple[int, float]], wrong: set[int], bound: float
-) -> _Explanation:
+def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
+    """How well every mistake fits; one that the numbers make hopeless is left out where something is drawn.
+
+    other : the badness of "something else"
+    """
+    bound, hypotheses = answer_key.bound, answer_key.hypotheses
+    numbers = [(each.place, each.given, each.wrong) for each in compared if isinstance(each.given, float)]
+    drawn = [each for each in compared if not isinstance(each.given, float)]
+    fits = {name: _numbers_fit(values, numbers, bound) for name, values in hypotheses.items()}
+    if not drawn:
+        return fits
+    # A drawing takes longer to compare than all numbers: only with what these leave possible.
+    least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.near)])
+    possible = {name: fit for name, fit in fits.items() if fit.badness <= least + HOPELESS}
+    return {name: _with_drawn(fit, hypotheses[name], drawn, bound) for name, fit in possible.items()}
+
+
+def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float, bool]], bound: float) -> _Explanation:
+    """How well a mistake fits the numbers: of each its place, itself, and whether it is wrong."""
     badness = 0.0
     similar: list[int] = []
     explained: list[int] = []
     # Most of the time of marking wrong work is spent here.
-    for k, given in numbers:
-        value, scatter = values.said[k]
+    for place, given, wrong in numbers:
+        value, scatter = values.said[place]
         off = (given - value) / scatter
         near = -FAR <= off <= FAR
         badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
         # A mistake that makes an answer small is not made by who answers nought.
-        if near and k in wrong and abs(given) > bound * scatter:
-            similar.append(k)
+        if near and wrong and abs(given) > bound * scatter:
+            similar.append(place)
             if abs(off) <= bound:
-                explained.append(k)
+                explained.append(place)
     return _Explanation(badness, frozenset(similar), frozenset(explained))
 
 
-def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Seen, wrong: set[int], bound: float) -> _Explanation:
-    off = {k: values[k].deviation(given, asked.kind, FAR) for k, asked, given in drawn}
-    near = {k for k in off if k in wrong and off[k] <= FAR}
-    explained = {k for k in near if off[k] <= bound}
+def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedAnswer], bound: float) -> _Explanation:
+    off = {each.place: values[each.place].deviation(each.given, each.asked.kind, FAR) for each in drawn}
+    near = {each.place for each in drawn if each.wrong and off[each.place] <= FAR}
+    explained = {place for place in near if off[place] <= bound}
     badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
     return _Explanation(badness, fit.near | near, fit.explained | explained)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphcam.drafting.ink import Caption, Words, say
+from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.misconceptions import misconception
@@ -15,7 +15,7 @@ def feedback(
     exercise: Exercise, marked: Sequence[Marked], answers: Answers, diagnosis: Diagnosis | None
 ) -> tuple[str, ...]:
     """Sentences for the student: about every answer, then about the mistake behind them."""
-    captions = [caption for each in marked for caption in _about(each, answers)]
+    captions = [_about(each, answers) for each in marked]
     if diagnosis:
         captions += _mistake(diagnosis)
     elif any(each.outcome == "wrong" for each in marked):
@@ -23,34 +23,39 @@ def feedback(
     return tuple(map(exercise.tell, captions))
 
 
-def _about(answer: Marked, answers: Answers) -> list[Words]:
+def _about(answer: Marked, answers: Answers) -> Caption:
     name = answer.name
-    if answer.outcome == "right":
-        return [say("{name}: right.", name=name)]
-    if answer.outcome == "missing":
-        return [say("{name}: no answer was given.", name=name)]
-    if answer.outcome == "unreadable":
-        if name not in answers.problems:
-            return [say("{name}: the answer cannot be read.", name=name)]
-        return [say("{name}: the answer cannot be read: {reason}.", name=name, reason=answers.problems[name])]
-    if answer.outcome == "follow-through":
-        return [say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)]
-    if answer.station is None and isinstance(answer.given, list):
-        return [
-            say(
-                "{name}: points read: {count}; another number is asked. Mark every place once, and nothing else.",
-                name=name, count=len(answer.given),
-            )
-        ]  # fmt: skip
-    if answer.station is None:
-        return [say("{name}: farther off than a careful hand draws or calculates.", name=name)]
-    return [
-        say(
+    match answer.outcome:
+        case "right":
+            return say("{name}: right.", name=name)
+        case "missing":
+            return say("{name}: no answer was given.", name=name)
+        case "unreadable" if name in answers.problems:
+            return say("{name}: the answer cannot be read: {reason}.", name=name, reason=answers.problems[name])
+        case "unreadable":
+            return say("{name}: the answer cannot be read.", name=name)
+        case "follow-through":
+            return say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)
+        case "wrong":
+            return _wrong(answer)
+
+
+def _wrong(answer: Marked) -> Caption:
+    name, number = answer.name, answer.station
+    if number is not None:
+        return say(
             "{name}: farther off than a careful hand draws, most of all at point {number}, the first station being "
             "point one.",
-            name=name, number=answer.station + 1,
+            name=name,
+            number=number + 1,
         )
-    ]  # fmt: skip
+    if isinstance(answer.given, list):
+        return say(
+            "{name}: points read: {count}; another number is asked. Mark every place once, and nothing else.",
+            name=name,
+            count=len(answer.given),
+        )
+    return say("{name}: farther off than a careful hand draws or calculates.", name=name)
 
 
 def _mistake(diagnosis: Diagnosis) -> list[Caption]:

@@ -1,4 +1,4 @@
-"""Marking: arithmetic on the certificate, the same result whenever and wherever it is done."""
+"""Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.definition.answers import Answers, Given
+from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.expectation import Expected, Off
-from graphcam.exercises.marking.diagnosis import Seen, diagnose
+from graphcam.exercises.marking.comparing import ComparedAnswer, compare
+from graphcam.exercises.marking.diagnosis import diagnose
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.record import Marked, Outcome, Record
 
@@ -23,7 +23,7 @@ SMALL = 8.0
 
 
 def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: str = "L0") -> Record:
-    """Mark one hand-in.
+    """Mark one submission.
 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
     the tolerance of what follows from the student's own earlier answers, or where the diagnosed mistake was made in an
@@ -40,20 +40,13 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
     0.0
     """
-    keys = [answer_key.keys[asked.name].expected for asked in exercise.answers]
-    readable = {asked.name: _readable(asked, answers) for asked in exercise.answers}
-    seen = [(k, a, given) for k, a in enumerate(exercise.answers) if (given := readable[a.name]) is not None]
-    found = {k: keys[k].off(given, asked.kind, answer_key.bound) for k, asked, given in seen}
-    off = {k: each.deviation for k, each in found.items()}
-    wrong = {k for k in off if not abs(off[k]) <= answer_key.bound}
-    diagnosed = diagnose(answer_key, keys, seen, off, wrong) if wrong else None
-    diagnosis, explained = diagnosed or (None, frozenset[int]())
-    following = _following(answer_key, keys, seen, wrong, explained) if wrong else set[int]()
-    marked = tuple(
-        _marked(asked, readable[asked.name], _outcome(k, asked, answers, off, wrong, following), found.get(k))
-        for k, asked in enumerate(exercise.answers)
-    )
-    exact = _too_exact(answer_key, exercise, off)
+    compared = compare(exercise, answer_key, answers)
+    diagnosis, following = None, set[str]()
+    if any(each.wrong for each in compared):
+        diagnosis, explained = diagnose(answer_key, compared) or (None, frozenset[int]())
+        following = _following(answer_key, compared, explained)
+    beside_key = {each.asked.name: each for each in compared}
+    marked = tuple(_marked(asked, beside_key.get(asked.name), answers, following) for asked in exercise.answers)
     return Record(
         student=answer_key.student,
         exercise=answer_key.exercise,
@@ -64,71 +57,35 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
         total=sum(each.marks for each in marked),
         of=exercise.marks,
         diagnosis=diagnosis,
-        too_exact=exact,
+        too_exact=_too_exact(answer_key, compared),
         feedback=feedback(exercise, marked, answers, diagnosis),
         notes=tuple(map(exercise.tell, answers.notes)),
         level=level,
     )
 
 
-def _readable(asked: Asked, answers: Answers) -> Given | None:
-    """The answer as a finite number or as points, None where it is neither."""
-    given = answers.values.get(asked.name)
-    if asked.kind == "number":
-        if isinstance(given, bool) or not isinstance(given, int | float):
-            return None
-        return float(given) if abs(given) <= _LARGEST else None
-    if not isinstance(given, np.ndarray) or given.ndim != 1 or not 0 < given.size <= _MOST_POINTS:
-        return None
-    # Compared this way round, for a NaN is not less than anything.
-    fits = np.issubdtype(given.dtype, np.number) and bool((np.abs(given) <= _LARGEST).all())
-    return given.astype(np.complex128) if fits else None
+def _following(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], explained: frozenset[int]) -> set[str]:
+    """The names of the wrong answers that follow from the student's own earlier ones.
 
-
-_MOST_POINTS = 20_000
-"""No curve by hand has more, and no hand-in shall keep the marking busy."""
-_LARGEST = 1e15
-"""No reading is larger, and no number up to here makes the arithmetic overflow."""
-
-
-def _outcome(
-    k: int, asked: Asked, answers: Answers, off: Mapping[int, float], wrong: set[int], following: set[int]
-) -> Outcome:
-    if k not in off:
-        unread = asked.name in answers.values or asked.name in answers.problems
-        return "unreadable" if unread else "missing"
-    if k not in wrong:
-        return "right"
-    return "follow-through" if k in following else "wrong"
-
-
-def _following(
-    answer_key: AnswerKey,
-    keys: Sequence[Expected],
-    seen: Seen,
-    wrong: set[int],
-    explained: frozenset[int],
-) -> set[int]:
-    """The wrong answers that follow from the student's own earlier ones.
-
-    explained : those that the diagnosed mistake brings
+    explained : the places of those that the diagnosed mistake brings
     """
-    found: set[int] = set()
+    found: set[str] = set()
     own: dict[str, float] = {}
-    first = min(wrong)
-    shown = min(explained, default=len(keys))
-    for k, asked, given in seen:
+    first = min(each.place for each in compared if each.wrong)
+    shown = min(explained, default=0)
+    for each in compared:
         # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
-        caused = k > shown and k in explained
-        if k in wrong and k > first and (caused or _follows(answer_key, keys[k], asked, given, own)):
-            found.add(k)
-        if isinstance(given, float):
-            own[asked.name] = given
+        caused = each.place > shown and each.place in explained
+        if each.wrong and each.place > first and (caused or _follows(answer_key, each, own)):
+            found.add(each.asked.name)
+        if isinstance(each.given, float):
+            own[each.asked.name] = each.given
     return found
 
 
-def _follows(answer_key: AnswerKey, key: Expected, asked: Asked, given: Given, own: Mapping[str, float]) -> bool:
-    dependence = answer_key.dependences.get(asked.name)
+def _follows(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, float]) -> bool:
+    given, key = answer.given, answer.key
+    dependence = answer_key.dependences.get(answer.asked.name)
     if dependence is None or not isinstance(given, float) or not isinstance(key.value, float):
         return False
     expected = dependence.expected(key.value, own)
@@ -136,22 +93,28 @@ def _follows(answer_key: AnswerKey, key: Expected, asked: Asked, given: Given, o
     # Nought follows from too much that was never drawn.
     if abs(given) <= tolerance < abs(key.value):
         return False
-    if dependence.together == "product" and not asked.unit.startswith("deg"):
+    if dependence.together == "product" and not answer.asked.unit.startswith("deg"):
         # A hand's error grows with the lengths that a wrong scale makes, and does not shrink with them.
         tolerance *= max(1.0, abs(expected) / max(abs(key.value), SMALL * tolerance))
     return abs(given - expected) <= tolerance
 
 
-def _marked(asked: Asked, given: Given | None, outcome: Outcome, off: Off | None) -> Marked:
-    earned = asked.marks if outcome in ("right", "follow-through") else 0.0
-    deviation, station, paper = off or (None, None, None)
-    points: list[Any] | None = [[z.real, z.imag] for z in given.tolist()] if isinstance(given, np.ndarray) else None
-    said = given if points is None else points
-    return Marked(asked.name, outcome, earned, asked.marks, said, deviation, station, paper)
+def _marked(asked: Asked, answer: ComparedAnswer | None, answers: Answers, following: set[str]) -> Marked:
+    if answer is None:
+        there = asked.name in answers.values or asked.name in answers.problems
+        return Marked(asked.name, "unreadable" if there else "missing", 0.0, asked.marks)
+    outcome: Outcome = "right"
+    if answer.wrong:
+        outcome = "follow-through" if asked.name in following else "wrong"
+    earned = 0.0 if outcome == "wrong" else asked.marks
+    given: Any = answer.given
+    if isinstance(given, np.ndarray):
+        given = [[z.real, z.imag] for z in given.tolist()]
+    return Marked(asked.name, outcome, earned, asked.marks, given, *answer.off)
 
 
-def _too_exact(answer_key: AnswerKey, exercise: Exercise, off: Mapping[int, float]) -> bool:
-    drawn = [off[k] for k, asked in enumerate(exercise.answers) if answer_key.keys[asked.name].drawn and k in off]
+def _too_exact(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> bool:
+    drawn = [each.off.deviation for each in compared if answer_key.keys[each.asked.name].drawn]
     if len(drawn) < FEWEST_DRAWN:
         return False
     return math.sqrt(sum(each**2 for each in drawn) / len(drawn)) < answer_key.too_exact

@@ -1,4 +1,4 @@
-"""What marking finds: one record a hand-in, as plain data."""
+"""What marking finds: one record a submission, as plain data."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Record:
-    """One hand-in, marked.
+    """One submission, marked.
 
     version, draw, parameters : of the variant
     total, of : marks earned and possible

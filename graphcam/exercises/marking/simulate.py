@@ -23,20 +23,20 @@ NOTHING = "none"
 
 @dataclass(frozen=True)
 class SimulatedRow:
-    """Hand-ins with one mistake: how many there were, how many earned all marks, and what was named how often."""
+    """Submissions with one mistake: how many there were, how many earned all marks, and what was named how often."""
 
     hands: int
     accepted: int
     named: dict[str, int]
 
     def right(self, name: str) -> float:
-        """Part of the hand-ins in which the mistake was named."""
+        """Part of the submissions in which the mistake was named."""
         return self.named.get(name, 0) / self.hands
 
 
 @dataclass
 class _Tally:
-    """What is counted of hand-ins of one kind, over all variants."""
+    """What is counted of like submissions, over all variants."""
 
     hands: int = 0
     losing: int = 0
@@ -47,7 +47,7 @@ class _Tally:
     def mark(self, exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> None:
         """Mark all that these hands drew."""
         drawn = answers_of(exercise, chain)
-        given = (_hand_in(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
+        given = (_submission(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
         records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
         self.losing += sum(record.total < record.of for record in records)
@@ -82,13 +82,13 @@ class Simulation:
 
     @property
     def false_acceptances(self) -> float:
-        """Part of the hand-ins with a mistake that earned all marks."""
+        """Part of the submissions with a mistake that earned all marks."""
         hands = sum(row.hands for row in self.rows.values())
         return sum(row.accepted for row in self.rows.values()) / hands if hands else 0.0
 
     @property
     def right_diagnoses(self) -> float:
-        """Part of the hand-ins with a mistake in which that mistake was named."""
+        """Part of the submissions with a mistake in which that mistake was named."""
         hands = sum(row.hands for row in self.rows.values())
         return sum(row.named.get(name, 0) for name, row in self.rows.items()) / hands if hands else 1.0
 
@@ -119,19 +119,18 @@ def simulate(
     for k in range(variants):
         variant, answer_key = issue(exercise, f"student {k}", secret)
         issued[variant.draw] += 1
-        # Never the seed of the hands that the certificate was made from.
+        # Never the seed of the hands that the answer key was made from.
         drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
         careful.mark(exercise, answer_key, drawn)
         for name, tally in wrong.items():
             tally.mark(exercise, answer_key, misconception(name).change(drawn))
         step(k + 1, variants)
-    return Simulation(
-        exercise.name, exercise.version, variants, careful.hands, careful.losing, careful.too_exact,
-        {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()},
-        tuple(issued[draw] for draw in range(max(issued) + 1)),
-    )  # fmt: skip
+    rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()}
+    counts = (careful.hands, careful.losing, careful.too_exact)
+    draws = tuple(issued[draw] for draw in range(max(issued) + 1))
+    return Simulation(exercise.name, exercise.version, variants, *counts, rows, draws)
 
 
-def _hand_in(exercise: Exercise, drawn: Drawn, row: int) -> Answers:
+def _submission(exercise: Exercise, drawn: Drawn, row: int) -> Answers:
     pairs = zip(exercise.answers, drawn, strict=True)
     return Answers({a.name: float(v[row]) if a.kind == "number" else v[row] for a, v in pairs})

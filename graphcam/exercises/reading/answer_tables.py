@@ -11,7 +11,7 @@ from typing import Any
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points, decimal, shown
-from graphcam.words import Caption, say
+from graphcam.words import say
 
 MOST_ROWS = 20_000
 MOST_PARTS = 16
@@ -101,17 +101,16 @@ def _of_anything(name: str, text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
     except (ValueError, RecursionError) as error:
-        raise UnreadableError(_no_toml(name, error)) from None
-
-
-def _no_toml(name: str, error: Exception) -> Caption:
-    """Why a text is not TOML; the library's own words are English, so only the line is taken from them."""
-    if line := re.search(r"at line (\d+)", str(error)):
-        return say(
-            "{name}: line {line} is not valid TOML; a line such as v_max = 12.5 is, with a decimal point",
-            name=name, line=line[1],
-        )  # fmt: skip
-    return say("{name} is not valid TOML", name=name)
+        # The library's own words are English, so only the line is taken from them.
+        line = re.search(r"at line (\d+)", str(error))
+    if line is None:
+        raise UnreadableError(say("{name} is not valid TOML", name=name))
+    why = say(
+        "{name}: line {line} is not valid TOML; a line such as v_max = 12.5 is, with a decimal point",
+        name=name,
+        line=line[1],
+    )
+    raise UnreadableError(why)
 
 
 def _longest_key(text: str) -> int:

@@ -29,10 +29,12 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
     array([0.+0.j, 1.+1.j, 2.+0.j])
     """
     if len(pieces) > MOST_PIECES:
-        raise UnreadableError(say(
+        why = say(
             "the layer {layer} holds more than {most} pieces of a curve; join them to one polyline",
-            layer=layer, most=MOST_PIECES,
-        ))  # fmt: skip
+            layer=layer,
+            most=MOST_PIECES,
+        )
+        raise UnreadableError(why)
     left = _distinct(pieces)
     if not left:
         raise UnreadableError(say("there is no curve on the layer {layer}", layer=layer))
@@ -44,11 +46,16 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
         while free.any():
             _traced(left, ends, free)
             count += 1
-        raise UnreadableError(say(
+        why = say(
             "the layer {layer} holds {count} separate curves instead of one; the nearest gap, {gap:.1f} mm, is at "
             "({x:.1f}, {y:.1f})",
-            layer=layer, count=count, gap=gap, x=at.real, y=at.imag,
-        ))  # fmt: skip
+            layer=layer,
+            count=count,
+            gap=gap,
+            x=at.real,
+            y=at.imag,
+        )
+        raise UnreadableError(why)
     return curve
 
 
@@ -81,9 +88,8 @@ def _distinct(pieces: list[Points]) -> list[Points]:
     kept: list[Points] = []
     for piece in pieces:
         marks = [complex(np.round(z, 3)) for z in (piece[0], piece[len(piece) // 2], piece[-1])]
-        key = tuple(
-            sorted((marks[0], marks[-1]), key=lambda z: (z.real, z.imag)) + ([marks[1]] if len(piece) > 2 else [])
-        )
+        ends = sorted((marks[0], marks[-1]), key=lambda z: (z.real, z.imag))
+        key = tuple(ends + ([marks[1]] if len(piece) > 2 else []))
         if np.ptp(piece.real) + np.ptp(piece.imag) > 0 and key not in seen:
             kept.append(piece)
             seen.add(key)

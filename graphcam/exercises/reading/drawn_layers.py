@@ -62,10 +62,12 @@ class Drawn:
         """
         layer = self._layer(name)
         if layer.strange:
-            raise UnreadableError(say(
+            why = say(
                 "the layer {layer} holds {kinds}, which is no plain curve; draw lines, arcs, polylines or splines",
-                layer=name, kinds=", ".join(sorted(layer.strange)),
-            ))  # fmt: skip
+                layer=name,
+                kinds=", ".join(sorted(layer.strange)),
+            )
+            raise UnreadableError(why)
         if not layer.curves:
             raise UnreadableError(say("there is no curve on the layer {layer}", layer=name))
         return one_curve(name, layer.curves) - self._origin(name)
@@ -76,29 +78,24 @@ class Drawn:
 
     def _layer(self, name: str) -> Layer:
         if name.lower() not in self.layers:
-            there = [shown(layer) for layer in sorted(self.layers)[:LISTED]]
+            there = ", ".join(shown(layer) for layer in sorted(self.layers)[:LISTED])
             if not there:
                 raise UnreadableError(say("the drawing is empty"))
-            raise UnreadableError(
-                say(
-                    "the drawing has nothing on the layer {layer}; its layers are {there}",
-                    layer=name, there=", ".join(there),
-                )
-            )  # fmt: skip
+            why = say("the drawing has nothing on the layer {layer}; its layers are {there}", layer=name, there=there)
+            raise UnreadableError(why)
         return self.layers[name.lower()]
 
     def _origin(self, name: str) -> complex:
         """Where the origin is marked; the drawing's own zero where it is not."""
-        for layer in _origin_layers(name):
-            if layer in self.layers:
-                marks = set(np.round(self.layers[layer].points or self.layers[layer].centres, 6).tolist())
-                if len(marks) != 1:
-                    raise UnreadableError(say(
-                        "the layer {layer} must hold one POINT, the origin, but holds {count}",
-                        layer=layer, count=len(marks),
-                    ))  # fmt: skip
-                return marks.pop()
-        return 0j
+        layer = next((layer for layer in _origin_layers(name) if layer in self.layers), None)
+        if layer is None:
+            return 0j
+        marks = set(np.round(self.layers[layer].points or self.layers[layer].centres, 6).tolist())
+        if len(marks) != 1:
+            held = len(marks)
+            why = say("the layer {layer} must hold one POINT, the origin, but holds {count}", layer=layer, count=held)
+            raise UnreadableError(why)
+        return marks.pop()
 
 
 def _origin_layers(name: str) -> tuple[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +12,28 @@ from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import Points
-from graphcam.words import Caption, say
+from graphcam.words import say
 
 SIZES = 5.0
 """A drawing so many times larger or smaller than any that can be meant is in another unit, or is a part only."""
 NEAR = 3.0
-"""What is drawn by hand strays less from what is meant, mm, where a certificate permits no more."""
+"""What is drawn by hand strays less from what is meant, mm, where an answer key permits no more."""
 FINE = 0.1
 """The shift of a drawing is looked for as finely as that, mm."""
 VERTICES = 400
 """So many of a curve's vertices are enough to see whether it is moved."""
+ELSEWHERE = say(
+    "the drawing on the layer {layer} lies far from where it can be, counted from the POINT on the layer ORIGIN; check "
+    "that it marks the origin of this drawing"
+)
+ELSEWHERE_UNMARKED = say(
+    "the drawing on the layer {layer} lies far from where it can be, counted from the drawing's own zero; mark the "
+    "origin of the paper by a POINT on the layer ORIGIN"
+)
+MOVED_UNMARKED = say(
+    "the drawing on the layer {layer} looks moved as a whole, and it marks no origin; mark the origin of the paper by "
+    "a POINT on the layer ORIGIN"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +49,7 @@ class PaperArea:
 
     @staticmethod
     def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> PaperArea:
-        """The room of the right answer and of wrong ones, where a hand may stray by the tolerance."""
+        """The area of the right answer and of wrong ones, where a hand may stray by the tolerance."""
         return PaperArea(kind, tuple(known), max(NEAR, tolerance))
 
     def admit(self, name: str, points: Points, *, marked: bool) -> None:
@@ -49,8 +61,8 @@ class PaperArea:
         ------
         UnreadableError : the drawing is not where, or not of the size, that any answer could be
 
-        >>> room = PaperArea("curve", (Expected(np.array([0j, 6 + 8j]), 1.0),))
-        >>> room.admit("pitch", np.array([300j, 6 + 308j]), marked=False)
+        >>> area = PaperArea("curve", (Expected(np.array([0j, 6 + 8j]), 1.0),))
+        >>> area.admit("pitch", np.array([300j, 6 + 308j]), marked=False)
         Traceback (most recent call last):
         ...
         graphcam.exercises.reading.regular_file.UnreadableError: the drawing on the layer pitch lies far from where \
@@ -58,27 +70,25 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         """
         sizes = [_size(_points(each)) for each in self.known]
         if not min(sizes) / SIZES <= _size(points) <= max(sizes) * SIZES:
-            raise UnreadableError(say(
+            why = say(
                 "the drawing on the layer {layer} is {size:.3g} mm across, and no answer is of such a size; draw the "
                 "whole of it in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
-                layer=name, size=_size(points),
-            ))  # fmt: skip
+                layer=name,
+                size=_size(points),
+            )
+            raise UnreadableError(why)
         low, high = _corners(np.concatenate([_points(each) for each in self.known]))
         middle = sum(_corners(points)) / 2
         if not (low.real <= middle.real <= high.real and low.imag <= middle.imag <= high.imag):
-            raise UnreadableError(_elsewhere(name, marked=marked))
+            raise UnreadableError(replace(ELSEWHERE if marked else ELSEWHERE_UNMARKED, values={"layer": name}))
         if not marked and self.moved(points):
-            raise UnreadableError(say(
-                "the drawing on the layer {layer} looks moved as a whole, and it marks no origin; mark the origin of "
-                "the paper by a POINT on the layer ORIGIN",
-                layer=name,
-            ))  # fmt: skip
+            raise UnreadableError(replace(MOVED_UNMARKED, values={"layer": name}))
 
     def moved(self, points: Points) -> bool:
         """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
 
-        >>> room = PaperArea("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
-        >>> room.moved(np.array([8 + 0j, 38 + 40j])), room.moved(np.array([1 + 0j, 31 + 40j]))
+        >>> area = PaperArea("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
+        >>> area.moved(np.array([8 + 0j, 38 + 40j])), area.moved(np.array([1 + 0j, 31 + 40j]))
         (True, False)
         """
         if self.kind == "curve":
@@ -105,20 +115,6 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         fine = {"xatol": FINE, "fatol": FINE}
         best = minimize(left, np.array([first.real, first.imag]), method="Nelder-Mead", options=fine)
         return complex(best.x[0], best.x[1])
-
-
-def _elsewhere(name: str, *, marked: bool) -> Caption:
-    if marked:
-        return say(
-            "the drawing on the layer {layer} lies far from where it can be, counted from the POINT on the layer "
-            "ORIGIN; check that it marks the origin of this drawing",
-            layer=name,
-        )
-    return say(
-        "the drawing on the layer {layer} lies far from where it can be, counted from the drawing's own zero; mark the "
-        "origin of the paper by a POINT on the layer ORIGIN",
-        layer=name,
-    )
 
 
 def _points(known: Expected) -> Points:

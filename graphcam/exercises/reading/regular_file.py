@@ -11,7 +11,7 @@ from graphcam.drafting.ink import Caption, say
 
 
 class UnreadableError(Exception):
-    """What is handed in cannot be read; ``why`` is the sentence for the record.
+    """A submission that cannot be read; ``why`` is the sentence for the record.
 
     >>> print(UnreadableError(say("{name} is empty", name="answers.toml")))
     answers.toml is empty
@@ -53,9 +53,9 @@ def read_regular(path: str | os.PathLike[str], limit: int, folder: int | None = 
     graphcam.exercises.reading.regular_file.UnreadableError: b is a link; hand in the file itself
     """
     name = Path(path).name
+    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
     try:
-        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY,
-                             dir_fd=folder)  # fmt: skip
+        descriptor = os.open(path, flags, dir_fd=folder)
     except OSError as error:
         if error.errno == errno.ELOOP:
             raise UnreadableError(say("{name} is a link; hand in the file itself", name=name)) from None

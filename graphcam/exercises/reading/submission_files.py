@@ -134,9 +134,13 @@ def _drawn(asked: Asked, drawing: Drawn, room: PaperArea | None) -> tuple[Given,
     room.admit(asked.layer, points, marked=marked)
     if not (marked and room.moved(points)):
         return points, []
+    moved = say(
+        "the drawing on the layer {layer} looks moved as a whole against the POINT on the layer ORIGIN; check that it "
+        "marks the origin of this drawing",
+        layer=asked.layer,
+    )
     # It is marked as it lies: the place is part of the answer.
-    return points, [say("the drawing on the layer {layer} looks moved as a whole against the POINT on the layer "
-                        "ORIGIN; check that it marks the origin of this drawing", layer=asked.layer)]  # fmt: skip
+    return points, [moved]
 
 
 def _agreed(asked: Asked, listed: list[Any]) -> Given:

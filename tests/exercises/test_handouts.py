@@ -20,7 +20,7 @@ from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
 from graphcam.exercises.course.folder_names import folder_name
-from graphcam.exercises.course.handouts import TAG, answer_file, instructions, key_sheet, notebook, task_file, worksheet
+from graphcam.exercises.course.handouts import answer_file, instructions, key_sheet, notebook, worksheet
 from graphcam.exercises.course.roster import Student, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain
@@ -28,14 +28,16 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.reading.notebook import TAG
 from graphcam.exercises.reading.submission_files import read_files
 from graphcam.sheets.model import Text
+from graphcam.tasks.task_writer import task_files
 
 
 @pytest.mark.parametrize("name", library())
 def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     variant = drawn(find_exercise(name), "Anna", SECRET, 0)
-    read = nbformat.reads(notebook(variant), as_version=4)
+    read = notebook(variant)
     nbformat.validate(read)
     cell = next(cell for cell in read.cells if TAG in cell.metadata.get("tags", ()))
     assert cell.source.splitlines() == [f"{asked.name} = None" for asked in variant.exercise.answers]
@@ -43,7 +45,7 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     filled = answer_file(variant.exercise).replace("\n# ", "\n").splitlines()
     assert {f"{asked.name} =" in " ".join(filled) for asked in variant.exercise.answers} == {True}
     path = tmp_path / "task.toml"
-    path.write_text(task_file(variant), encoding="utf-8")
+    path.write_text(task_files(variant.task)["task.toml"], encoding="utf-8")
     assert gc.load_task(path) == variant.task
     said = instructions(variant)
     assert "{" not in said
@@ -61,7 +63,7 @@ def english(text: str, exercise: Exercise) -> set[str]:
 @pytest.mark.parametrize("name", library())
 def test_the_papers_of_a_russian_course_are_russian(name):
     variant = drawn(find_exercise(name, "ru"), "Anna", SECRET, 0)
-    cells = json.loads(notebook(variant))["cells"]
+    cells = notebook(variant).cells
     told = [cell["source"] for cell in cells if cell["cell_type"] == "markdown"]
     for text in (answer_file(variant.exercise), *told, instructions(variant)):
         assert english(text, variant.exercise) == set()

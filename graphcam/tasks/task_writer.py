@@ -1,0 +1,37 @@
+"""A task as the files that it is read from again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import PurePath
+from typing import Any
+
+import tomli_w
+
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+
+TASK_FILE = "task.toml"
+
+
+def task_files(task: Task | ArcsTask) -> dict[str, str]:
+    """The files of a task by their names: TOML, and the table of a measured motion.
+
+    >>> from graphcam.tasks.task_file import builtin_task
+    >>> list(task_files(builtin_task("measured")))
+    ['task.toml', 'measured.csv']
+    """
+    said = _filled(task.to_dict())
+    table = task.motion.table if isinstance(task, Task) else None
+    tables: dict[str, str] = {}
+    if table is not None:
+        name = said["motion"]["table"] = PurePath(table.file).name
+        rows = "".join(f"{phi!r},{value!r}\n" for phi, value in table.rows)
+        tables[name] = f"phi_deg,{table.column}\n{rows}"
+    return {TASK_FILE: tomli_w.dumps(said), **tables}
+
+
+def _filled(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A table of a task without its empty texts and tables, which are defaults."""
+    filled = {key: _filled(value) if isinstance(value, Mapping) else value for key, value in table.items()}
+    return {key: value for key, value in filled.items() if value not in ("", {})}
