@@ -135,7 +135,7 @@ def _solve(
 ) -> tuple[dict[str, Any], dict[str, str | None], list[str]]:
     """The solution's document, the files that were written into the folder, if there is one, and the warnings."""
     # Loads the renderers: only when the input has been found right.
-    from graphcam.report.output_folder import check_choices, write
+    from graphcam.report.output_folder import check_choices
     from graphcam.solving.solve import solve
 
     progress("drawing and computing")
@@ -145,7 +145,7 @@ def _solve(
         # A wrong choice is one even where nothing is drawn by it.
         check_choices(solution, papers["upto"], dxf=papers["dxf"])
         return document, {}, solution.warnings
-    files = write(solution, folder, progress, **papers)
+    files = solution.write(folder, progress=progress, **papers)
     return document | {"files": files}, files, solution.warnings
 
 

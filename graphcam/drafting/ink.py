@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # A construction says what it draws, so both come from here.
+from graphcam.showing import LINES, WIDTH, Axes, Shown, from_above, in_lines
 from graphcam.words import Caption as Caption
 from graphcam.words import Tell
 from graphcam.words import Words as Words
@@ -153,13 +155,15 @@ class Region:
 Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region
 
 
-@dataclass(frozen=True, eq=False)
-class Step:
+@dataclass(frozen=True, eq=False, repr=False)
+class Step(Shown):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
     """
+
+    _drawn_in = "construction_drawing"
 
     title: Caption
     caption: Caption
@@ -167,6 +171,11 @@ class Step:
     marks: tuple[Mark, ...]
     reads: tuple[str, ...] = ()
     given: tuple[Mark, ...] = ()
+
+    def __repr__(self) -> str:
+        said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
+        first = f"Step {str(self.title)!r}, view {self.view.name!r}, marks: {len(self.marks)}"
+        return in_lines(first, said, ".caption, .marks, .reads")
 
     @property
     def own(self) -> tuple[Mark, ...]:
@@ -196,7 +205,7 @@ def _plain(caption: Caption, tell: Tell) -> Caption:
     return Caption("{text}", {"text": tell(caption)})
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reading:
     """A length or an angle read off the paper, and what it stands for.
 
@@ -208,12 +217,30 @@ class Reading:
     scale: float | NDArray[np.float64]
     unit: str
 
+    def __repr__(self) -> str:
+        return f"Reading {self}"
+
+    def __str__(self) -> str:
+        if self.unit == "mm of paper" or np.all(np.asarray(self.scale) == 1):
+            return f"{_range(self.paper)} {self.unit}"
+        per_mm = f"({self.unit})/mm" if "/" in self.unit else f"{self.unit}/mm"
+        return f"{_range(self.paper)} mm × {_range(self.scale)} {per_mm} = {_range(self.value)} {self.unit}"
+
     @property
     def value(self) -> NDArray[np.float64]:
         """The machine quantity: scale times paper."""
         scale = np.asarray(self.scale)
         # A scale per sample stands before the axes of one drawing.
         return self.paper * scale.reshape(scale.shape + (1,) * (np.ndim(self.paper) - scale.ndim))
+
+
+def _range(values: ArrayLike) -> str:
+    """A number, or the least and the greatest of many."""
+    values = np.asarray(values)
+    if not values.ndim:
+        return f"{values:.5g}"
+    known = values[np.isfinite(values)]
+    return f"[{np.min(known):.5g} ... {np.max(known):.5g}]" if known.size else "[nan]"
 
 
 def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> Reading:
@@ -225,8 +252,8 @@ def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> 
     return Reading(np.asarray(paper, dtype=np.float64), scale, unit)
 
 
-@dataclass(frozen=True, eq=False)
-class Construction:
+@dataclass(frozen=True, eq=False, repr=False)
+class Construction(Shown):
     """A textbook construction as a value: what was given, what was read, and how to draw it.
 
     Attributes
@@ -236,7 +263,17 @@ class Construction:
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
+
+    >>> import graphcam as gc
+    >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]
+    Construction 'minimum_radius'
+      prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm
+      offset: -16.667 mm × 0.6 mm/mm = -10 mm
+      s0: 70.182 mm × 0.6 mm/mm = 42.109 mm
+    .readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it
     """
+
+    _drawn_in = "construction_drawing"
 
     name: str
     givens: Mapping[str, Any]
@@ -247,6 +284,28 @@ class Construction:
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""
         return self.draw(self)
+
+    def __repr__(self) -> str:
+        samples = self.givens["pencil"].samples
+        first = f"Construction {self.name!r}" + (f", samples of a hand: {samples}" if samples is not None else "")
+        rows = (f"{name}: {reading}" for name, reading in self.readings.items())
+        return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
+
+    def plot(self, step: int | None = None, axes: Axes | None = None) -> Axes:
+        """Draw it in mm of paper from the origin of its first view, all of it or up to a step.
+
+        step : index of the last step that is drawn, which is in colour
+        axes : to draw on, by default those of a new figure
+
+        Raises
+        ------
+        DesignError : there is no such step, or the construction draws nothing
+
+        >>> import graphcam as gc
+        >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"].plot(step=0).get_xlabel()
+        'mm of paper'
+        """
+        return from_above("plots.construction_drawing.plot")(self, step, axes)
 
     def first(self, name: str) -> Any:
         """The points or the reading's paper of that name in the first sample (or the only one): what a step shows."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
+from graphcam.showing import WIDTH, Axes, Shown, from_above, in_lines
 from graphcam.words import Caption, say, sequence
 
 if TYPE_CHECKING:
@@ -30,8 +32,8 @@ ROUNDING = 4 * float(np.finfo(np.float64).eps)
 """What a sum of lengths may be off by, as a part of them: a flank that bends by no more is straight."""
 
 
-@dataclass(frozen=True, eq=False)
-class ThreeArcCam:
+@dataclass(frozen=True, eq=False, repr=False)
+class ThreeArcCam(Shown):
     """One root of a three-arc cam; points are (2,) arrays in cam coordinates [mm].
 
     Attributes
@@ -45,6 +47,8 @@ class ThreeArcCam:
     sound : whether the profile can be built: F, C1, C3 and G, C3, C2 lie in these orders on their lines
     reason : why it is sound or not, in whole sentences
     """
+
+    _drawn_in = "arcs_outline"
 
     given: ThreeArcs
     A: Floats
@@ -66,6 +70,31 @@ class ThreeArcCam:
         """The reason in English."""
         return str(self.reason)
 
+    def __repr__(self) -> str:
+        radii = f"radii {self.rho1:.6g}, {self.rho2:.6g} and {self.rho3:.6g} mm about C1, C2 and C3"
+        points = (
+            f"{name} ({getattr(self, name)[0]:.6g}, {getattr(self, name)[1]:.6g})" for name in ("A", "G", "F", "D")
+        )
+        first = f"Cam of three circular arcs, {'sound' if self.sound else 'not sound'}"
+        rows = (radii, f"{', '.join(points)} mm", *wrap(self.why, WIDTH))
+        return in_lines(first, rows, ".motion(roller_radius); .plot() draws it")
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draw the profile of a sound cam with its flank's arcs and their centres, in mm.
+
+        axes : to draw on, by default those of a new figure
+
+        Raises
+        ------
+        DesignError : the root is not sound
+
+        >>> import graphcam as gc
+        >>> upper, _ = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
+        >>> upper.plot().get_xlabel()
+        'x, mm'
+        """
+        return from_above("plots.arcs_outline.plot")(self, axes)
+
     @property
     def straight(self) -> bool:
         """Whether the flank from G to F is a straight line."""
@@ -81,7 +110,8 @@ class ThreeArcCam:
         ------
         DesignError : the root is not sound, its arcs do not form a profile, or the follower cannot run on it
 
-        >>> upper, _ = three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
+        >>> import graphcam as gc
+        >>> upper, _ = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
         >>> motion = upper.motion(roller_radius=10, dwell=math.radians(40))
         >>> round(motion.lift, 2), round(math.degrees(motion.rise), 2)
         (15.0, 70.0)
@@ -103,7 +133,8 @@ def three_arc_cam(
     ------
     DesignError : the data cannot be, or A and G ask for a second arc that is straight
 
-    >>> cam, other = three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, C1=(35.71, 13), C2=(0, -75.64))
+    >>> import graphcam as gc
+    >>> cam, other = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, C1=(35.71, 13), C2=(0, -75.64))
     >>> cam.sound, cam.C3.round(3).tolist(), cam.F.round(3).tolist()
     (True, [12.003, -14.394], [46.834, 25.855])
     >>> print(other.why)

@@ -11,6 +11,7 @@ import math
 import os
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from io import StringIO
 from itertools import groupby
@@ -25,7 +26,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, Transform
 
 from graphcam.drafting.ink import Points
 from graphcam.sheets.fonts import FAMILY, points_size, width
@@ -34,7 +35,9 @@ from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 
 if TYPE_CHECKING:
-    from matplotlib.backend_bases import RendererBase
+    from matplotlib.axes import Axes
+    from matplotlib.backend_bases import GraphicsContextBase, RendererBase
+    from matplotlib.transforms import Bbox
 
 INCH = 25.4
 POINT = 72 / INCH
@@ -82,33 +85,75 @@ def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float =
         )
 
 
+def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -> None:
+    """Draw a page on axes of equal scales; letters and lines grow and shrink with them, as those of a print do.
+
+    origin : where the axes' origin lies on the page [mm]
+    factor : millimetres of the page to one unit of the axes
+    """
+    to_axes = Affine2D().translate(-origin.real, -origin.imag).scale(1 / factor)
+    for group in page.groups:
+        axes.add_artist(_GroupArtist(group, to_axes + axes.transData))
+    (left, bottom), (right, top) = to_axes.transform([(0.0, 0.0), (page.width, page.height)]).tolist()
+    axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
+
+
 def _figure(page: Page) -> Figure:
     figure = Figure(figsize=(page.width / INCH, page.height / INCH))
     for group in page.groups:
-        figure.add_artist(_GroupArtist(group), clip=False)
+        figure.add_artist(_GroupArtist(group, Affine2D().scale(1 / INCH) + figure.dpi_scale_trans), clip=False)
     return figure
+
+
+@dataclass(frozen=True)
+class _Pen:
+    """What a group is drawn with.
+
+    to_device : from mm of the page;  times : what a millimetre of paper measures on the figure [mm]
+    clip : what is drawn outside of it is not shown
+    """
+
+    renderer: RendererBase
+    to_device: Transform
+    times: float
+    clip: Bbox | None
+
+    def context(self, colour: str, width: float) -> GraphicsContextBase:
+        """For lines of a width [mm]."""
+        context = self.renderer.new_gc()
+        context.set_foreground(colour)
+        context.set_linewidth(self.times * width * POINT)
+        if self.clip is not None:
+            context.set_clip_rectangle(self.clip)
+        return context
 
 
 class _GroupArtist(Artist):
     """Draws the entities of one group, in their order."""
 
-    def __init__(self, group: Group) -> None:
+    def __init__(self, group: Group, to_device: Transform) -> None:
         super().__init__()
-        self.group = group
+        self.group, self.to_device = group, to_device
+        self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw into the group of the renderer that bears the group's key."""
         figure = self.get_figure(root=True)
         assert figure is not None
-        to_device = Affine2D().scale(1 / INCH) + figure.dpi_scale_trans
+        if self.axes is None:
+            pen = _Pen(renderer, self.to_device, 1.0, None)
+        else:
+            unit = self.to_device.transform([(0.0, 0.0), (1.0, 0.0)])
+            times = math.hypot(*(unit[1] - unit[0])) * INCH / figure.dpi
+            pen = _Pen(renderer, self.to_device, times, self.axes.bbox)
         renderer.open_group("group", gid=self.group.key)
         # Neighbours of one kind and role make one path; a text goes alone.
         for (kind, role), run in groupby(self.group.entities, key=_kind):
             if kind == "text":
                 for text in run:
-                    _draw_text(renderer, cast(Text, text), to_device)
+                    _draw_text(pen, cast(Text, text))
             else:
-                _draw_path(renderer, list(run), kind, role, to_device)
+                _draw_path(pen, list(run), kind, role)
         renderer.close_group("group")
 
 
@@ -125,34 +170,31 @@ def _kind(entity: Entity) -> tuple[str, str]:
     return kind, entity.role
 
 
-def _draw_path(renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str, to_device: Any) -> None:
+def _draw_path(pen: _Pen, entities: Sequence[Entity], kind: str, role: str) -> None:
     style = STYLES[role]
-    context = renderer.new_gc()
-    context.set_foreground(style.colour)
+    context = pen.context(style.colour, 0.0 if kind == "filled" else style.width)
     context.set_joinstyle("miter" if kind == "filled" else "round")
     context.set_capstyle("butt")
     context.set_snap(False)
-    context.set_linewidth(0.0 if kind == "filled" else style.width * POINT)
     if style.pattern and kind == "line":
-        context.set_dashes(0.0, [POINT * mm for mm in style.pattern])
+        context.set_dashes(0.0, [pen.times * POINT * mm for mm in style.pattern])
     fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
     path = Path.make_compound_path(*(_path(entity) for entity in entities))
     path.should_simplify = False
-    renderer.draw_path(context, path, to_device, fill)
+    pen.renderer.draw_path(context, path, pen.to_device, fill)
     context.restore()
 
 
-def _draw_text(renderer: RendererBase, text: Text, to_device: Any) -> None:
-    context = renderer.new_gc()
-    context.set_foreground(STYLES[text.role].colour)
-    context.set_linewidth(STYLES[text.role].width * POINT)
+def _draw_text(pen: _Pen, text: Text) -> None:
+    renderer = pen.renderer
+    context = pen.context(STYLES[text.role].colour, STYLES[text.role].width)
     # The renderers place the left end of the base line.
     shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
     start = text.at - cmath.rect(shift, text.angle)
-    x, y = to_device.transform((start.real, start.imag))
+    x, y = pen.to_device.transform((start.real, start.imag))
     if renderer.flipy():
         y = renderer.get_canvas_width_height()[1] - y
-    renderer.draw_text(context, x, y, text.text, _font(text.height), math.degrees(text.angle), ismath=False)
+    renderer.draw_text(context, x, y, text.text, _font(pen.times * text.height), math.degrees(text.angle), ismath=False)
     context.restore()
 
 

@@ -1,0 +1,75 @@
+"""A cam at the start of its turn: pitch curve, working profile, prime circle, and the roller or the flat face."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.mechanism.cam import Cam
+from graphcam.plots.figures import given_or_new, svg_of
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+
+SIZE = 6.0, 6.5
+"""Of a new figure [inches]."""
+POINTS = 181
+"""Of each curve between two breaks."""
+FACE = 0.5
+"""Half of the drawn face, as a part of the prime radius."""
+TURNS = {"ccw": "counter-clockwise", "cw": "clockwise"}
+
+
+def plot(cam: Cam, axes: Axes | None = None) -> Axes:
+    """Draw a cam in its own coordinates, mm, as it stands at the start of the turn."""
+    axes = given_or_new(axes, *SIZE)
+    phi = turn(cam.motion.breaks)
+    pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
+    flat = np.array_equal(pitch, profile)
+    if not flat:
+        axes.plot(*pitch.T, color=GREY, linewidth=1.0, linestyle=(0, (9, 2, 1, 2)), label="pitch curve")
+    axes.plot(*profile.T, color=BLACK, linewidth=2.0, label="working profile")
+    draw_circle(axes, (0.0, 0.0), cam.prime_radius, GREY, f"prime circle, {cam.prime_radius:.6g} mm", dashed=True)
+    if cam.roller_radius:
+        at = cam.pitch_curve(0.0)
+        draw_circle(axes, (at[0], at[1]), cam.roller_radius, CURRENT, f"roller, {cam.roller_radius:.6g} mm")
+    if flat:
+        half, up = FACE * cam.prime_radius, profile[0, 1]
+        axes.plot([-half, half], [up, up], color=CURRENT, linewidth=1.5, label="flat face")
+    mark_centre(axes)
+    axes.set_title(f"Cam that turns {TURNS[cam.rotation]}, at φ = 0", fontsize="medium")
+    return finished(axes)
+
+
+def svg(cam: Cam) -> str:
+    """The cam as SVG."""
+    return svg_of(lambda axes: plot(cam, axes), *SIZE)
+
+
+def turn(breaks: Floats) -> Floats:
+    """Cam angles [rad] over a whole turn, the breaks among them."""
+    ends = np.append(breaks, FULL_TURN)
+    return np.unique(np.linspace(ends[:-1], ends[1:], POINTS))
+
+
+def draw_circle(
+    axes: Axes, centre: tuple[float, float], radius: float, colour: str, label: str, *, dashed: bool = False
+) -> None:
+    """A thin circle with an entry in the legend."""
+    line = "--" if dashed else "-"
+    axes.add_patch(Circle(centre, radius, fill=False, color=colour, linewidth=1.0, linestyle=line, label=label))
+
+
+def mark_centre(axes: Axes) -> None:
+    """The cam centre."""
+    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=12, label="cam centre")
+
+
+def finished(axes: Axes) -> Axes:
+    """Equal scales, what the axes measure, and the legend below, where no curve runs."""
+    axes.set(xlabel="x, mm", ylabel="y, mm")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.06)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3, frameon=False, fontsize="small")
+    return axes
