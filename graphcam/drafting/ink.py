@@ -266,7 +266,7 @@ class Construction(Shown):
 
     >>> import graphcam as gc
     >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]
-    Construction 'minimum_radius'
+    Construction 'minimum_radius' in 5 steps
       prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm
       offset: -16.667 mm × 0.6 mm/mm = -10 mm
       s0: 70.182 mm × 0.6 mm/mm = 42.109 mm
@@ -287,9 +287,13 @@ class Construction(Shown):
 
     def __repr__(self) -> str:
         samples = self.givens["pencil"].samples
-        first = f"Construction {self.name!r}" + (f", samples of a hand: {samples}" if samples is not None else "")
+        drawn = f"in {len(self.steps())} steps" + (f", by a hand that draws {samples} times" if samples else "")
         rows = (f"{name}: {reading}" for name, reading in self.readings.items())
-        return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
+        return in_lines(
+            f"Construction {self.name!r} {drawn}",
+            rows,
+            ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it",
+        )
 
     def plot(self, step: int | None = None, axes: Axes | None = None) -> Axes:
         """Draw it in mm of paper from the origin of its first view, all of it or up to a step.

@@ -153,7 +153,7 @@ class Cam(Shown):
         >>> import graphcam as gc
         >>> axes = gc.solve(gc.builtin_task()).cam.plot()
         >>> [line.get_label() for line in axes.lines]
-        ['pitch curve', 'working profile', 'cam centre']
+        ['pitch curve', 'working profile', 'prime circle, 44 mm', 'roller, 17 mm', 'cam centre']
         """
         return from_above("plots.cam_outline.plot")(self, axes)
 

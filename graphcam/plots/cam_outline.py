@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle
 
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -16,6 +15,8 @@ SIZE = 6.0, 6.5
 """Of a new figure [inches]."""
 POINTS = 181
 """Of each curve between two breaks."""
+BELOW = 0.3
+"""Room for the legend, as a part of the cam's height."""
 FACE = 0.5
 """Half of the drawn face, as a part of the prime radius."""
 TURNS = {"ccw": "counter-clockwise", "cw": "clockwise"}
@@ -30,10 +31,12 @@ def plot(cam: Cam, axes: Axes | None = None) -> Axes:
     if not flat:
         axes.plot(*pitch.T, color=GREY, linewidth=1.0, linestyle=(0, (9, 2, 1, 2)), label="pitch curve")
     axes.plot(*profile.T, color=BLACK, linewidth=2.0, label="working profile")
-    draw_circle(axes, (0.0, 0.0), cam.prime_radius, GREY, f"prime circle, {cam.prime_radius:.6g} mm", dashed=True)
+    circle = np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+    prime = f"prime circle, {cam.prime_radius:.6g} mm"
+    axes.plot(*(cam.prime_radius * circle).T, color=GREY, linewidth=1.0, linestyle="--", label=prime)
     if cam.roller_radius:
-        at = cam.pitch_curve(0.0)
-        draw_circle(axes, (at[0], at[1]), cam.roller_radius, CURRENT, f"roller, {cam.roller_radius:.6g} mm")
+        roller = cam.pitch_curve(0.0) + cam.roller_radius * circle
+        axes.plot(*roller.T, color=CURRENT, linewidth=1.5, label=f"roller, {cam.roller_radius:.6g} mm")
     if flat:
         half, up = FACE * cam.prime_radius, profile[0, 1]
         axes.plot([-half, half], [up, up], color=CURRENT, linewidth=1.5, label="flat face")
@@ -53,23 +56,14 @@ def turn(breaks: Floats) -> Floats:
     return np.unique(np.linspace(ends[:-1], ends[1:], POINTS))
 
 
-def draw_circle(
-    axes: Axes, centre: tuple[float, float], radius: float, colour: str, label: str, *, dashed: bool = False
-) -> None:
-    """A thin circle with an entry in the legend."""
-    line = "--" if dashed else "-"
-    axes.add_patch(Circle(centre, radius, fill=False, color=colour, linewidth=1.0, linestyle=line, label=label))
-
-
 def mark_centre(axes: Axes) -> None:
     """The cam centre."""
-    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=12, label="cam centre")
+    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label="cam centre")
 
 
 def finished(axes: Axes) -> Axes:
-    """Equal scales, what the axes measure, and the legend below, where no curve runs."""
-    axes.set(xlabel="x, mm", ylabel="y, mm")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.06)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3, frameon=False, fontsize="small")
+    """Equal scales, what the axes measure, and the legend below the cam, in room of its own."""
+    bottom, top = axes.get_ylim()
+    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - BELOW * (top - bottom), top))
+    axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
     return axes

@@ -27,7 +27,7 @@ POINTS = 61
 """Of each curve between two breaks."""
 GAP = 0.03
 """Between two diagrams, as a part of the axes."""
-BEFORE = -0.09
+BEFORE = -0.125
 """Where the names of the axes stand, as a part of the diagram's width."""
 BESIDE, UPRIGHT = 28.0, 8.0
 """A phase of at least so many degrees has room for its name, one of at least so many for its name turned."""
@@ -60,6 +60,8 @@ def plot(motion: PhasedMotion, axes: Axes | None = None) -> Axes:
     diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - GAP)) for k in reversed(range(len(CURVES)))]
     for diagram, (up, colour), value in zip(diagrams, CURVES, values, strict=True):
         diagram.plot(np.degrees(phi), value, color=colour, linewidth=1.5)
+        if not np.any(value):
+            diagram.set_ylim(-1.0, 1.0)  # of no height there would be divisions of a hundredth
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))

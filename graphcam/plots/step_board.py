@@ -111,7 +111,9 @@ def _in_progress(entity: Entity, stage: str) -> Entity:
 
 def arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
     """Views by name with their origins, the first one's 0: those that share an axis as it asks, all others in rows."""
-    groups = [(group, stand(group, GAP)) for group in clusters(views)]
+    # In the order of their first views.
+    in_order = sorted(clusters(views), key=lambda group: views.index(group[0]))
+    groups = [(group, stand(group, GAP)) for group in in_order]
     boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
     room = max(*(box.width for box in boxes), math.sqrt(LYING * sum(box.width * box.height for box in boxes)))
     placed: dict[str, tuple[Panel, complex]] = {}
