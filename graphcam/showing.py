@@ -11,10 +11,11 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from graphcam.errors import DesignError
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes
-else:
-    Axes = Any
+    from matplotlib.figure import Figure as Figure
 
 LINES, WIDTH = 8, 100
 """Of a value's text at most: lines, and letters of a line that may be cut."""
@@ -31,17 +32,10 @@ def from_above(function: str) -> Callable[..., Any]:
 
 
 def in_lines(first: str, rows: Iterable[str], last: str) -> str:
-    """The text of a value: what it is, its sizes, and how to go on.
+    """The text of a value: what it is, its sizes as far as there is room, and how to go on.
 
-    >>> print(in_lines("Cam", (f"radius {k}" for k in range(20)), ".plot()"))
-    Cam
-      radius 0
-      radius 1
-      radius 2
-      radius 3
-      radius 4
-      and 15 more
-    .plot()
+    >>> in_lines("Cam", ["radius 20 mm"], ".plot()")
+    'Cam\\n  radius 20 mm\\n.plot()'
     """
     rows, room = list(rows), LINES - 2
     if len(rows) > room:
@@ -50,9 +44,26 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
 
 
 class Shown:
-    """A value that a notebook shows as a drawing: by ``svg`` of the module ``_drawn_in`` of :mod:`graphcam.plots`."""
+    """A value that is drawn by ``plot`` of the module ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
 
     _drawn_in: ClassVar[str]
 
+    def plot(self, axes: Axes | Figure | None = None) -> Axes:
+        """Draw it on the given axes, on new ones in the given figure, or in a new figure; returns the axes.
+
+        Raises
+        ------
+        DesignError : there is nothing to draw
+
+        >>> import graphcam as gc
+        >>> motion = gc.builtin_task().motion()
+        >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
+        ['s, mm', 'v, mm/rad', 'a, mm/rad²', 'j, mm/rad³']
+        """
+        return from_above(f"plots.{self._drawn_in}.plot")(self, axes)
+
     def _repr_svg_(self) -> str | None:
-        return from_above(f"plots.{self._drawn_in}.svg")(self)
+        try:
+            return from_above("plots.figures.svg_of")(self)
+        except DesignError:
+            return None

@@ -284,8 +284,8 @@ class Chain(Shown, Mapping[str, Construction]):
             return self.board.roller_radius
         proposed = float(self.perfect.roller.readings["roller_radius"].value)
         if not proposed > 0:
-            raise DesignError("roller radius by the rule", f"{proposed:.4g} mm", "greater than 0 mm",
-                              "give follower.roller_radius or another rule")  # fmt: skip
+            remedy = "give follower.roller_radius or another rule"
+            raise DesignError("roller radius by the rule", f"{proposed:.4g} mm", "greater than 0 mm", remedy)
         # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
@@ -325,11 +325,10 @@ class Chain(Shown, Mapping[str, Construction]):
             follower, given = self.board.follower, self.board.prime_radius
             missing = [f"follower.{follower.place_name}"] if follower.place is None else []
             missing += ["cam.prime_radius"] if given is None else []
-            raise DesignError(
-                "least prime radius", "unreadable", "a place within all limits, where lines cross at a degree or more",
-                f"give {' and '.join(missing)}, or permit greater pressure angles",
-            )  # fmt: skip
+            limit = "a place within all limits, where lines cross at a degree or more"
+            remedy = f"give {' and '.join(missing)}, or permit greater pressure angles"
+            raise DesignError("least prime radius", "unreadable", limit, remedy)
         if name == "prime_radius" and not value > 0:
-            raise DesignError("least prime radius", f"{value:g} mm", "greater than 0 mm",
-                              "any radius keeps the limits: give cam.prime_radius, or stricter limits")  # fmt: skip
+            remedy = "any radius keeps the limits: give cam.prime_radius, or stricter limits"
+            raise DesignError("least prime radius", f"{value:g} mm", "greater than 0 mm", remedy)
         return value

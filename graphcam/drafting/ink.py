@@ -10,17 +10,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from textwrap import wrap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # A construction says what it draws, so both come from here.
-from graphcam.showing import LINES, WIDTH, Axes, Shown, from_above, in_lines
+from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 from graphcam.words import Caption as Caption
 from graphcam.words import Tell
 from graphcam.words import Words as Words
 from graphcam.words import say as say
+
+if TYPE_CHECKING:
+    from graphcam.showing import Axes, Figure
 
 Points = NDArray[np.complexfloating[Any, Any]]
 
@@ -266,7 +269,7 @@ class Construction(Shown):
 
     >>> import graphcam as gc
     >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]
-    Construction 'minimum_radius' in 5 steps
+    Construction 'minimum_radius', steps: 5
       prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm
       offset: -16.667 mm × 0.6 mm/mm = -10 mm
       s0: 70.182 mm × 0.6 mm/mm = 42.109 mm
@@ -287,29 +290,21 @@ class Construction(Shown):
 
     def __repr__(self) -> str:
         samples = self.givens["pencil"].samples
-        drawn = f"in {len(self.steps())} steps" + (f", by a hand that draws {samples} times" if samples else "")
+        first = f"Construction {self.name!r}, steps: {len(self.steps())}" + (f", samples: {samples}" if samples else "")
         rows = (f"{name}: {reading}" for name, reading in self.readings.items())
-        return in_lines(
-            f"Construction {self.name!r} {drawn}",
-            rows,
-            ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it",
-        )
+        return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
 
-    def plot(self, step: int | None = None, axes: Axes | None = None) -> Axes:
-        """Draw it in mm of paper from the origin of its first view, all of it or up to a step.
-
-        step : index of the last step that is drawn, which is in colour
-        axes : to draw on, by default those of a new figure
+    # A step is what one names first.
+    def plot(  # pyright: ignore[reportIncompatibleMethodOverride]
+        self, step: int | None = None, axes: Axes | Figure | None = None
+    ) -> Axes:
+        """Draw it, all or up to the step of that index, in colour: mm of paper from the origin of its first view.
 
         Raises
         ------
         DesignError : there is no such step, or the construction draws nothing
-
-        >>> import graphcam as gc
-        >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"].plot(step=0).get_xlabel()
-        'mm of paper'
         """
-        return from_above("plots.construction_drawing.plot")(self, step, axes)
+        return from_above("plots.construction_drawing.plot")(self, axes, step)
 
     def first(self, name: str) -> Any:
         """The points or the reading's paper of that name in the first sample (or the only one): what a step shows."""

@@ -184,17 +184,13 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     widest = float(np.max(np.diff(phi)))
     last = phi.size - 1
     if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
-        raise RowError(
-            last, "turn that the rows cover", _degrees(span), "360 degrees, or a step less",
-            "give one revolution of the cam",
-        )  # fmt: skip
+        limit, remedy = "360 degrees, or a step less", "give one revolution of the cam"
+        raise RowError(last, "turn that the rows cover", _degrees(span), limit, remedy)
     if span < FULL_TURN - ROUNDING:
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
-        raise RowError(
-            last, "last row", f"{values[-1]:g}", f"{values[0]:g} as in the first, a turn before",
-            "the follower comes back to where it was",
-        )  # fmt: skip
+        limit, remedy = f"{values[0]:g} as in the first, a turn before", "the follower comes back to where it was"
+        raise RowError(last, "last row", f"{values[-1]:g}", limit, remedy)
     return phi[:-1], values[:-1]
 
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Law, Side, law
 from graphcam.given.pieces import Piece, Piecewise, chunks
-from graphcam.showing import Axes, Shown, from_above, in_lines
+from graphcam.showing import Shown, in_lines
 
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the greatest)."""
@@ -169,10 +169,8 @@ class Motion(Shown):
                 raise DesignError("motion", f"without a {kind}", "at least one rise and one return", f"add a {kind}")
         turn = math.fsum(angles)
         if abs(turn - FULL_TURN) > CLOSURE:
-            raise DesignError(
-                "sum of the phase angles", f"{math.degrees(turn):.10g} degrees", "360 degrees",
-                "lengthen or shorten a dwell by the difference",
-            )  # fmt: skip
+            found, remedy = f"{math.degrees(turn):.10g} degrees", "lengthen or shorten a dwell by the difference"
+            raise DesignError("sum of the phase angles", found, "360 degrees", remedy)
         closing = math.fsum(steps)
         if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
             raise DesignError(
@@ -211,16 +209,6 @@ class Motion(Shown):
 
     def _said(self) -> str:
         return f"with a lift of {self.lift:.6g} mm (of an arm: rad)"
-
-    def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw s, v, a and j over the cam angle: four diagrams in the given axes, or in those of a new figure.
-
-        >>> import graphcam as gc
-        >>> axes = gc.builtin_task().motion().plot()
-        >>> [diagram.get_ylabel() for diagram in axes.child_axes]
-        ['s, mm', 'v, mm/rad', 'a, mm/rad²', 'j, mm/rad³']
-        """
-        return from_above("plots.motion_curves.plot")(self, axes)
 
     @property
     def piece_starts(self) -> Floats:
@@ -330,11 +318,9 @@ def _pieces(phase: Phase, ends: tuple[float, float], levels: tuple[float, float]
     # A return is measured from its lower end, where the missing lift keeps its digits.
     low = levels[0] if phase.direction > 0 else levels[1]
     units = [phase.direction * h / angle**n for n in range(4)]
-    return [
-        Piece(
-            formula, ends[0] + angle * start, ends[int(origin)], angle * length,
-            low + h * (base if phase.direction > 0 else 1 - base),
-            (factors[0] * units[0], factors[1] * units[1], factors[2] * units[2], factors[3] * units[3]),
-        )
-        for formula, start, origin, length, base, factors in phase.normalised.pieces
-    ]  # fmt: skip
+    pieces: list[Piece] = []
+    for formula, start, origin, length, base, (f0, f1, f2, f3) in phase.normalised.pieces:
+        level = low + h * (base if phase.direction > 0 else 1 - base)
+        factors = f0 * units[0], f1 * units[1], f2 * units[2], f3 * units[3]
+        pieces.append(Piece(formula, ends[0] + angle * start, ends[int(origin)], angle * length, level, factors))
+    return pieces

@@ -30,7 +30,7 @@ from graphcam.given.three_arcs import Point
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.mechanism.roots import roots
-from graphcam.showing import Axes, Shown, from_above, in_lines
+from graphcam.showing import Shown, in_lines
 
 FIT = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
@@ -116,11 +116,11 @@ class ArcMotion(Shown):
         _check_pressure(outward, trace)
         rise = float(turned[3])
         if not 0 < turned[1] < turned[2] < rise:
-            raise DesignError("rise", f"{np.degrees(turned[1:]).round(4).tolist()} degrees at G, F and D",
-                              "growing angles", "move G or C1")  # fmt: skip
+            found = f"{np.degrees(turned[1:]).round(4).tolist()} degrees at G, F and D"
+            raise DesignError("rise", found, "growing angles", "move G or C1")
         if 2 * rise + self.dwell > FULL_TURN + CLOSURE:
-            raise DesignError("rise, dwell and return", f"{math.degrees(2 * rise + self.dwell):.6g} degrees",
-                              "at most a turn", "shorten the dwell")  # fmt: skip
+            found = f"{math.degrees(2 * rise + self.dwell):.6g} degrees"
+            raise DesignError("rise, dwell and return", found, "at most a turn", "shorten the dwell")
         down = 2 * rise + self.dwell - turned[::-1]
         object.__setattr__(self, "edges", np.concatenate([turned, down]))
 
@@ -141,15 +141,6 @@ class ArcMotion(Shown):
         sizes = f"prime radius {self.prime_radius:.6g} mm, roller radius {self.roller_radius:.6g} mm"
         last = "motion(phi) gives s, v, a and j at phi in rad; .jumps, .pitch_curve(phi); .plot() draws them"
         return in_lines(f"ArcMotion with a lift of {self.lift:.6g} mm", (", ".join(phases), sizes), last)
-
-    def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw s, v, a and j over the cam angle: four diagrams in the given axes, or in those of a new figure.
-
-        >>> import graphcam as gc
-        >>> len(gc.solve(gc.builtin_arcs_task()).motion.plot().child_axes)
-        4
-        """
-        return from_above("plots.motion_curves.plot")(self, axes)
 
     @property
     def rise(self) -> float:
@@ -284,10 +275,9 @@ def _check_fit(cam: ThreeArcCam) -> None:
         if not np.all(np.isfinite(found)):
             raise DesignError(centre, _shown((0, 0)), f"on the line from the cam centre to {name}", f"move {centre}")
         if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
-            raise DesignError(
-                name, _shown(given), f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre",
-                f"make {name} and {centre} agree, or leave {centre} out",
-            )  # fmt: skip
+            touching = f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre"
+            remedy = f"make {name} and {centre} agree, or leave {centre} out"
+            raise DesignError(name, _shown(given), touching, remedy)
 
 
 def _shown(point: Point) -> str:
@@ -300,8 +290,8 @@ def _check_turning(outward: Complexes) -> int:
     sigma = -1 if turning.sum() > 0 else 1
     for name, angle in zip(NAMES, -sigma * turning, strict=True):
         if not angle > 0:
-            raise DesignError(f"angle of the arc {name}", f"{math.degrees(angle):.4g} degrees",
-                              "greater than 0, in the sense from A to D", "move G or C1")  # fmt: skip
+            found, limit = f"{math.degrees(angle):.4g} degrees", "greater than 0, in the sense from A to D"
+            raise DesignError(f"angle of the arc {name}", found, limit, "move G or C1")
     return sigma
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
-from graphcam.showing import WIDTH, Axes, Shown, from_above, in_lines
+from graphcam.showing import WIDTH, Shown, in_lines
 from graphcam.words import Caption, say, sequence
 
 if TYPE_CHECKING:
@@ -78,22 +78,6 @@ class ThreeArcCam(Shown):
         first = f"Cam of three circular arcs, {'sound' if self.sound else 'not sound'}"
         rows = (radii, f"{', '.join(points)} mm", *wrap(self.why, WIDTH))
         return in_lines(first, rows, ".motion(roller_radius); .plot() draws it")
-
-    def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw the profile of a sound cam with its flank's arcs and their centres, in mm.
-
-        axes : to draw on, by default those of a new figure
-
-        Raises
-        ------
-        DesignError : the root is not sound
-
-        >>> import graphcam as gc
-        >>> upper, _ = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
-        >>> upper.plot().get_xlabel()
-        'x, mm'
-        """
-        return from_above("plots.arcs_outline.plot")(self, axes)
 
     @property
     def straight(self) -> bool:
@@ -190,10 +174,8 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
-    return ThreeArcCam(
-        given, _xy(_base_point(c2, rho2, g)), _xy(_outer_point(c1, abs(k))), _xy(f), _xy(g), _xy(c1), _xy(c2), _xy(c3),
-        abs(k), rho2, abs(t), t < 0, 0 < k < t < rho2, why,
-    )  # fmt: skip
+    points = map(_xy, (_base_point(c2, rho2, g), _outer_point(c1, abs(k)), f, g, c1, c2, c3))
+    return ThreeArcCam(given, *points, abs(k), rho2, abs(t), t < 0, 0 < k < t < rho2, why)
 
 
 def _base_point(c2: complex, rho2: float, g: complex) -> complex:
@@ -225,22 +207,12 @@ def _why(k: float, t: float, rho2: float) -> Caption:
         reason = say("the profile would turn back in a cusp at F")
         if k > 0:
             reason = hollow if t < 0 else say("the third arc would bend more sharply than the first")
-        order = _order(F=-k, C1=0.0, C3=t - k)
-        said.append(
-            say(
-                "On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.",
-                order=order, reason=reason,
-            )
-        )  # fmt: skip
+        found = {"order": _order(F=-k, C1=0.0, C3=t - k), "reason": reason}
+        said.append(say("On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.", **found))
     if not 0 < t < rho2:
         reason = hollow if t < 0 else say("the third arc would be flatter than the second")
-        order = _order(G=0.0, C3=t, C2=rho2)
-        said.append(
-            say(
-                "On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.",
-                order=order, reason=reason,
-            )
-        )  # fmt: skip
+        found = {"order": _order(G=0.0, C3=t, C2=rho2), "reason": reason}
+        said.append(say("On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.", **found))
     if said:
         return sequence(said, " ")
     return say("F, C1, C3 and G, C3, C2 lie in these orders: the arcs touch from inside at F and at G.")

@@ -25,7 +25,7 @@ from graphcam.given.pieces import chunks
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross
 from graphcam.mechanism.stationary import Places, stationary_places
-from graphcam.showing import WIDTH, Axes, Shown, from_above, in_lines
+from graphcam.showing import WIDTH, Shown, in_lines
 
 if TYPE_CHECKING:
     from graphcam.mechanism.undercut import Undercut
@@ -119,10 +119,9 @@ class Cam(Shown):
         if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
             raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
         if not self.roller_radius < self.prime_radius:
-            raise DesignError(
-                "roller radius", self.roller_radius, f"smaller than the prime radius of {self.prime_radius} mm",
-                "take a smaller roller or enlarge the prime radius",
-            )  # fmt: skip
+            limit = f"smaller than the prime radius of {self.prime_radius} mm"
+            remedy = "take a smaller roller or enlarge the prime radius"
+            raise DesignError("roller radius", self.roller_radius, limit, remedy)
         object.__setattr__(self, "sigma", sense(self.rotation))
         _ = self._kinematics  # says at once what does not fit
 
@@ -144,18 +143,6 @@ class Cam(Shown):
         return in_lines(
             f"Cam that turns {self.rotation}, prime radius {self.prime_radius:.6g} mm", (follower, turn), last
         )
-
-    def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw pitch curve, working profile, prime circle and roller at the start of the turn, in mm.
-
-        axes : to draw on, by default those of a new figure
-
-        >>> import graphcam as gc
-        >>> axes = gc.solve(gc.builtin_task()).cam.plot()
-        >>> [line.get_label() for line in axes.lines]
-        ['pitch curve', 'working profile', 'prime circle, 44 mm', 'roller, 17 mm', 'cam centre']
-        """
-        return from_above("plots.cam_outline.plot")(self, axes)
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""

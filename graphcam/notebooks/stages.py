@@ -13,7 +13,7 @@ from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.notebooks.picture import Picture
-from graphcam.plots.step_board import StepBoard, board_of
+from graphcam.plots.step_board import board_of
 from graphcam.sheets.model import Page
 from graphcam.words import Tell, say
 
@@ -44,10 +44,8 @@ class Stage:
         from graphcam.sheets.matplotlib_renderer import svg
 
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
-        alt = say(
-            "{view}. Drawn so far, with step {number} in colour: {title}. {caption}",
-            view=view, number=self.number, title=title, caption=self.step.caption,
-        )  # fmt: skip
+        said = {"view": view, "number": self.number, "title": title, "caption": self.step.caption}
+        alt = say("{view}. Drawn so far, with step {number} in colour: {title}. {caption}", **said)
         return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
@@ -73,23 +71,14 @@ def _reading(row: ReadingRow, tell: Tell) -> str:
         return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
     greatest = int(np.nanargmax(np.abs(row.paper)))
     lines = "".join(f"<li>{place}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places))
-    first = say("{title}, the greatest at {place} = {said}",
-                title=row.title, place=row.places[greatest], said=row.said(greatest))  # fmt: skip
+    said = {"title": row.title, "place": row.places[greatest], "said": row.said(greatest)}
+    first = say("{title}, the greatest at {place} = {said}", **said)
     return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 
 
-def boards(construction: Construction, tell: Tell = str, on: Construction | None = None) -> dict[str, StepBoard]:
-    """The views that a construction draws in, by name, each with what stood in it before.
-
-    on : a construction that it does not start from, but is drawn over
-    """
-    board = board_of(construction, tell, on)
-    return {name: board.alone(name) for name in board.views}
-
-
 def stages(construction: Construction, tell: Tell = str, on: Construction | None = None) -> Iterator[Stage]:
-    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for boards."""
-    of_view, drawn = boards(construction, tell, on), Counter[str]()
+    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for board_of."""
+    of_view, drawn = board_of(construction, tell, on).by_view, Counter[str]()
     for number, step in enumerate(construction.steps(), 1):
         name = step.view.name
         page = of_view[name].page(drawn[name]) if name in of_view else None
@@ -111,7 +100,7 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
     """
     from graphcam.sheets.matplotlib_renderer import svg
 
-    of_view = boards(construction, tell)
+    of_view = board_of(construction, tell).by_view
     if view is not None and view not in of_view:
         raise DesignError("view", view, f"one of {', '.join(of_view)}")
     board = of_view[view] if view is not None else next(iter(of_view.values()))

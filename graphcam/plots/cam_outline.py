@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.cam import Cam
-from graphcam.plots.figures import given_or_new, svg_of
+from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
 SIZE = 6.0, 6.5
@@ -22,9 +23,9 @@ FACE = 0.5
 TURNS = {"ccw": "counter-clockwise", "cw": "clockwise"}
 
 
-def plot(cam: Cam, axes: Axes | None = None) -> Axes:
+def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
     """Draw a cam in its own coordinates, mm, as it stands at the start of the turn."""
-    axes = given_or_new(axes, *SIZE)
+    axes = axes_on(on, *SIZE)
     phi = turn(cam.motion.breaks)
     pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
     flat = np.array_equal(pitch, profile)
@@ -43,11 +44,6 @@ def plot(cam: Cam, axes: Axes | None = None) -> Axes:
     mark_centre(axes)
     axes.set_title(f"Cam that turns {TURNS[cam.rotation]}, at φ = 0", fontsize="medium")
     return finished(axes)
-
-
-def svg(cam: Cam) -> str:
-    """The cam as SVG."""
-    return svg_of(lambda axes: plot(cam, axes), *SIZE)
 
 
 def turn(breaks: Floats) -> Floats:

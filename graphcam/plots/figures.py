@@ -2,37 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from io import StringIO
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
+
+from graphcam.showing import Shown
 
 WIDEST = 12.0
 """Of a new figure [inches]: a larger drawing is shown reduced."""
 
 
-def given_or_new(axes: Axes | None, width: float, height: float) -> Axes:
-    """The given axes, or those of a new figure of pyplot, so that a notebook shows it.
+def axes_on(on: Axes | FigureBase | None, width: float, height: float) -> Axes:
+    """The given axes, or new ones in the given figure or in a new one of pyplot, which a notebook shows.
 
-    width, height : of a new figure [inches]
+    width, height : of the figure [inches], unless axes are given
     """
-    if axes is not None:
-        return axes
-    from matplotlib import pyplot
+    if isinstance(on, Axes):
+        return on
+    if on is None:
+        from matplotlib import pyplot
 
-    return pyplot.figure(figsize=_fitted(width, height)).add_subplot()
+        on = pyplot.figure()
+    if isinstance(on, Figure):
+        times = min(1.0, WIDEST / width, WIDEST / height)
+        on.set_size_inches(times * width, times * height)
+    return on.add_subplot()
 
 
-def svg_of(draw: Callable[[Axes], object], width: float, height: float) -> str:
-    """What ``draw`` draws on axes, as SVG; pyplot hears nothing of it.
+def svg_of(shown: Shown) -> str:
+    """What a value plots, as SVG; pyplot hears nothing of it.
 
-    >>> svg_of(lambda axes: axes.plot([0, 1], [0, 1]), 3.0, 2.0).startswith("<?xml")
+    >>> import graphcam as gc
+    >>> svg_of(gc.builtin_task().motion()).startswith("<?xml")
     True
     """
-    figure = Figure(_fitted(width, height))
-    draw(figure.add_subplot())
+    figure = Figure()
+    shown.plot(axes=figure)
     return figure_svg(figure)
 
 
@@ -43,8 +50,3 @@ def figure_svg(figure: Figure) -> str:
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "graphcam"}):
         figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None, "Creator": "graphcam"})
     return text.getvalue()
-
-
-def _fitted(width: float, height: float) -> tuple[float, float]:
-    times = min(1.0, WIDEST / width, WIDEST / height)
-    return times * width, times * height

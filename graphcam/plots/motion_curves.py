@@ -6,11 +6,12 @@ from typing import Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
-from graphcam.plots.figures import given_or_new, svg_of
+from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
 CURVES = (
@@ -51,9 +52,9 @@ class PhasedMotion(Protocol):
         ...
 
 
-def plot(motion: PhasedMotion, axes: Axes | None = None) -> Axes:
+def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
     """Draw s, v, a and j in four diagrams inside of axes; returns the axes, whose ``child_axes`` are the diagrams."""
-    axes = given_or_new(axes, *SIZE)
+    axes = axes_on(on, *SIZE)
     axes.set_axis_off()
     phi, values = _curves(motion)
     height = (1 + GAP) / len(CURVES)
@@ -73,11 +74,6 @@ def plot(motion: PhasedMotion, axes: Axes | None = None) -> Axes:
     _name_phases(diagrams[0], motion)
     diagrams[-1].set_xlabel(ACROSS)
     return axes
-
-
-def svg(motion: PhasedMotion) -> str:
-    """The diagrams as SVG."""
-    return svg_of(lambda axes: plot(motion, axes), *SIZE)
 
 
 def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,7 +12,7 @@ from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.lettered import lettered, shading_parted
 from graphcam.sheets.model import Entity, Group, Page
-from graphcam.sheets.panels import Panel, clusters, panels, stand
+from graphcam.sheets.panels import Panel, panels, stand
 from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
 from graphcam.words import Tell
 
@@ -25,8 +24,6 @@ MARGIN = 5.0
 """Free margin around a drawing, where its outermost labels find room [mm]."""
 GAP = 8.0
 """Between views [mm]."""
-LYING = 1.6
-"""Views that share no axis are laid out in rows, so that all are about so many times as wide as high."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,15 +37,15 @@ class StepBoard:
     former: tuple[Step, ...]
     steps: tuple[Step, ...]
 
-    def alone(self, view: str) -> StepBoard:
-        """One of the views."""
-        former, steps = (tuple(s for s in steps if s.view.name == view) for steps in (self.former, self.steps))
-        return StepBoard(former, steps)
-
     @property
     def views(self) -> dict[str, View]:
         """The views that the steps draw in, by name."""
         return {step.view.name: step.view for step in self.steps if step.marks}
+
+    @cached_property
+    def by_view(self) -> dict[str, StepBoard]:
+        """Every view on a board of its own."""
+        return {name: StepBoard(_in_view(self.former, name), _in_view(self.steps, name)) for name in self.views}
 
     @cached_property
     def factor(self) -> float:
@@ -68,7 +65,8 @@ class StepBoard:
     @cached_property
     def _placed(self) -> dict[str, tuple[Panel, complex]]:
         """The views by name, each with its origin, that of the first one at 0."""
-        return arranged(self._panels(self.factor))
+        shown = self._panels(self.factor)
+        return {panel.view.name: (panel, at) for panel, at in zip(shown, stand(shown, GAP), strict=True)}
 
     @cached_property
     def _titled(self) -> bool:
@@ -105,27 +103,12 @@ class StepBoard:
         return Page(box.width, box.height, box, tuple(groups))
 
 
+def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
+    return tuple(step for step in steps if step.view.name == name)
+
+
 def _in_progress(entity: Entity, stage: str) -> Entity:
     return replace(entity, role=in_progress(entity.role, stage))
-
-
-def arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
-    """Views by name with their origins, the first one's 0: those that share an axis as it asks, all others in rows."""
-    # In the order of their first views.
-    in_order = sorted(clusters(views), key=lambda group: views.index(group[0]))
-    groups = [(group, stand(group, GAP)) for group in in_order]
-    boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
-    room = max(*(box.width for box in boxes), math.sqrt(LYING * sum(box.width * box.height for box in boxes)))
-    placed: dict[str, tuple[Panel, complex]] = {}
-    x = top = low = 0.0
-    for (group, origins), box in zip(groups, boxes, strict=True):
-        if x > 0 and x + box.width > room:
-            x, top = 0.0, low - GAP
-        by = complex(x, top) - complex(box.left, box.top)
-        placed |= {panel.view.name: (panel, at + by) for panel, at in zip(group, origins, strict=True)}
-        x, low = x + box.width + GAP, min(low, top - box.height)
-    _, first = placed[views[0].view.name]
-    return {panel.view.name: (panel, placed[panel.view.name][1] - first) for panel in views}
 
 
 def ancestors(construction: Construction) -> list[Construction]:

@@ -120,9 +120,13 @@ class Panel:
     def title(self, origin: complex, *, answered: bool = True) -> list[Entity]:
         """The title's texts on the page, with what is only found by drawing or a blank to write it in."""
         corner, answer = origin + self.title_box.corner, str(self.view.answer or "")
-        texts = [text if answered or not answer else replace(text, text=text.text.replace(answer, BLANK))
-                 for text in self.heading if text.text]  # fmt: skip
-        return [replace(text, at=corner + text.at, view=self.view.name) for text in texts]
+        if answered or not answer:
+            answer = BLANK
+        return [
+            replace(text, at=corner + text.at, text=text.text.replace(answer, BLANK), view=self.view.name)
+            for text in self.heading
+            if text.text
+        ]
 
 
 def panels(steps: Iterable[Step], letters: Lettering, tell: Tell = str) -> list[Panel]:

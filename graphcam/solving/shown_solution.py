@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from textwrap import wrap
 
-from graphcam.showing import WIDTH, Axes, Shown, from_above, in_lines
+from graphcam.showing import WIDTH, Shown, from_above, in_lines
 
 FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
 """The kinds of files that a solution is written to."""
@@ -16,18 +16,6 @@ class ShownSolution(Shown):
     """A solution that plots its sheet and writes its files."""
 
     _drawn_in = "sheet_page"
-
-    def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw the first page of the finished sheet in mm of paper, from its lower left corner.
-
-        axes : to draw on, by default those of a new figure
-
-        >>> import graphcam as gc
-        >>> axes = gc.solve(gc.builtin_task()).plot()
-        >>> [round(end) for end in (*axes.get_xlim(), *axes.get_ylim())]
-        [0, 841, 0, 594]
-        """
-        return from_above("plots.sheet_page.plot")(self, axes)
 
     def write(
         self,
