@@ -272,7 +272,7 @@ class Construction(Shown):
     Construction 'minimum_radius', steps: 5
       prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm
       offset: -16.667 mm × 0.6 mm/mm = -10 mm
-      s0: 70.182 mm × 0.6 mm/mm = 42.109 mm
+      s0: 70.181 mm × 0.6 mm/mm = 42.109 mm
     .readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it
     """
 

@@ -11,7 +11,6 @@ import math
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from io import StringIO
 from itertools import groupby
@@ -37,7 +36,6 @@ from graphcam.sheets.styles import STYLES
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.backend_bases import GraphicsContextBase, RendererBase
-    from matplotlib.transforms import Bbox
 
 INCH = 25.4
 POINT = 72 / INCH
@@ -105,31 +103,8 @@ def _figure(page: Page) -> Figure:
     return figure
 
 
-@dataclass(frozen=True)
-class _Pen:
-    """What a group is drawn with.
-
-    to_device : from mm of the page;  times : what a millimetre of paper measures on the figure [mm]
-    clip : what is drawn outside of it is not shown
-    """
-
-    renderer: RendererBase
-    to_device: Transform
-    times: float
-    clip: Bbox | None
-
-    def context(self, colour: str, width: float) -> GraphicsContextBase:
-        """For lines of a width [mm]."""
-        context = self.renderer.new_gc()
-        context.set_foreground(colour)
-        context.set_linewidth(self.times * width * POINT)
-        if self.clip is not None:
-            context.set_clip_rectangle(self.clip)
-        return context
-
-
 class _GroupArtist(Artist):
-    """Draws the entities of one group, in their order."""
+    """Draws the entities of one group, in their order; ``to_device`` is from mm of the page."""
 
     def __init__(self, group: Group, to_device: Transform) -> None:
         super().__init__()
@@ -138,23 +113,59 @@ class _GroupArtist(Artist):
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw into the group of the renderer that bears the group's key."""
-        figure = self.get_figure(root=True)
-        assert figure is not None
-        if self.axes is None:
-            pen = _Pen(renderer, self.to_device, 1.0, None)
-        else:
-            unit = self.to_device.transform([(0.0, 0.0), (1.0, 0.0)])
-            times = math.hypot(*(unit[1] - unit[0])) * INCH / figure.dpi
-            pen = _Pen(renderer, self.to_device, times, self.axes.bbox)
         renderer.open_group("group", gid=self.group.key)
         # Neighbours of one kind and role make one path; a text goes alone.
         for (kind, role), run in groupby(self.group.entities, key=_kind):
             if kind == "text":
                 for text in run:
-                    _draw_text(pen, cast(Text, text))
+                    self._draw_text(renderer, cast(Text, text))
             else:
-                _draw_path(pen, list(run), kind, role)
+                self._draw_path(renderer, list(run), kind, role)
         renderer.close_group("group")
+
+    @property
+    def _times(self) -> float:
+        """What a millimetre of the page measures on the figure [mm]."""
+        figure = self.get_figure(root=True)
+        if self.axes is None or figure is None:
+            return 1.0
+        origin, unit = self.to_device.transform([(0.0, 0.0), (1.0, 0.0)])
+        return math.hypot(*(unit - origin)) * INCH / figure.dpi
+
+    def _context(self, renderer: RendererBase, colour: str, width: float) -> GraphicsContextBase:
+        """For lines of a width [mm of the page]."""
+        context = renderer.new_gc()
+        context.set_foreground(colour)
+        context.set_linewidth(self._times * width * POINT)
+        if self.axes is not None:
+            context.set_clip_rectangle(self.axes.bbox)
+        return context
+
+    def _draw_path(self, renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str) -> None:
+        style = STYLES[role]
+        context = self._context(renderer, style.colour, 0.0 if kind == "filled" else style.width)
+        context.set_joinstyle("miter" if kind == "filled" else "round")
+        context.set_capstyle("butt")
+        context.set_snap(False)
+        if style.pattern and kind == "line":
+            context.set_dashes(0.0, [self._times * POINT * mm for mm in style.pattern])
+        fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
+        path = Path.make_compound_path(*(_path(entity) for entity in entities))
+        path.should_simplify = False
+        renderer.draw_path(context, path, self.to_device, fill)
+        context.restore()
+
+    def _draw_text(self, renderer: RendererBase, text: Text) -> None:
+        context = self._context(renderer, STYLES[text.role].colour, STYLES[text.role].width)
+        # The renderers place the left end of the base line.
+        shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
+        start = text.at - cmath.rect(shift, text.angle)
+        x, y = self.to_device.transform((start.real, start.imag))
+        if renderer.flipy():
+            y = renderer.get_canvas_width_height()[1] - y
+        font = _font(self._times * text.height)
+        renderer.draw_text(context, x, y, text.text, font, math.degrees(text.angle), ismath=False)
+        context.restore()
 
 
 def _kind(entity: Entity) -> tuple[str, str]:
@@ -168,34 +179,6 @@ def _kind(entity: Entity) -> tuple[str, str]:
         case _:
             kind = "line"
     return kind, entity.role
-
-
-def _draw_path(pen: _Pen, entities: Sequence[Entity], kind: str, role: str) -> None:
-    style = STYLES[role]
-    context = pen.context(style.colour, 0.0 if kind == "filled" else style.width)
-    context.set_joinstyle("miter" if kind == "filled" else "round")
-    context.set_capstyle("butt")
-    context.set_snap(False)
-    if style.pattern and kind == "line":
-        context.set_dashes(0.0, [pen.times * POINT * mm for mm in style.pattern])
-    fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
-    path = Path.make_compound_path(*(_path(entity) for entity in entities))
-    path.should_simplify = False
-    pen.renderer.draw_path(context, path, pen.to_device, fill)
-    context.restore()
-
-
-def _draw_text(pen: _Pen, text: Text) -> None:
-    renderer = pen.renderer
-    context = pen.context(STYLES[text.role].colour, STYLES[text.role].width)
-    # The renderers place the left end of the base line.
-    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-    start = text.at - cmath.rect(shift, text.angle)
-    x, y = pen.to_device.transform((start.real, start.imag))
-    if renderer.flipy():
-        y = renderer.get_canvas_width_height()[1] - y
-    renderer.draw_text(context, x, y, text.text, _font(pen.times * text.height), math.degrees(text.angle), ismath=False)
-    context.restore()
 
 
 @cache
