@@ -22,6 +22,7 @@ def solution():
 @pytest.fixture(autouse=True)
 def without_a_display():
     pyplot.switch_backend("agg")
+    pyplot.close("all")
     yield
     pyplot.close("all")
 
@@ -75,7 +76,8 @@ def test_the_curves_of_a_motion_are_its_values(task):
         right, left = (motion(np.radians(phi), side)[k] for side in ("right", "left"))
         off = np.minimum(np.abs(drawn - right), np.abs(drawn - left))
         assert off.max() <= 1e-9 * max(1.0, np.abs(drawn).max())
-        assert phi[0] == 0 and phi[-1] == pytest.approx(360)
+        assert phi[0] == 0
+        assert phi[-1] == pytest.approx(360)
         # Where a phase begins there is a line across.
         across = [line.get_xdata()[0] for line in diagram.lines if line.get_linestyle() == "--"]
         assert across == pytest.approx(np.degrees(motion.starts).tolist())
@@ -136,7 +138,8 @@ def test_a_construction_is_drawn_in_millimetres_of_paper(solution):
     assert first.get_ylim() == whole.get_ylim()
     left, right = whole.get_xlim()
     length = solution.drawn["acceleration"].readings["base"].paper
-    assert left < -float(integration.givens["poles"][0]) and right > length
+    assert left < -float(integration.givens["poles"][0])
+    assert right > length
     assert right - left < length + 100
 
 
