@@ -174,8 +174,9 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
-    points = map(_xy, (_base_point(c2, rho2, g), _outer_point(c1, abs(k)), f, g, c1, c2, c3))
-    return ThreeArcCam(given, *points, abs(k), rho2, abs(t), t < 0, 0 < k < t < rho2, why)
+    a, d, sound = _base_point(c2, rho2, g), _outer_point(c1, abs(k)), 0 < k < t < rho2
+    points = _xy(a), _xy(d), _xy(f), _xy(g), _xy(c1), _xy(c2), _xy(c3)
+    return ThreeArcCam(given, *points, abs(k), rho2, abs(t), t < 0, sound, why)
 
 
 def _base_point(c2: complex, rho2: float, g: complex) -> complex:
