@@ -11,7 +11,6 @@ from playwright.sync_api import sync_playwright
 import graphcam as gc
 from graphcam.bench.bench_files import bench
 from graphcam.bench.bench_report import QUICK
-from graphcam.report.output_folder import write
 
 HERE = Path(__file__).parent
 WIDTHS = {"coursework": 1800, "arm": 1200, "flat": 1200}
@@ -40,7 +39,7 @@ def player_picture(page_file: Path) -> Image.Image:
 
 for name, width in WIDTHS.items():
     with TemporaryDirectory() as folder:
-        files = write(gc.solve(gc.builtin_task(name)), folder)
+        files = gc.solve(gc.builtin_task(name)).write(folder)
         with Image.open(Path(folder, str(files["png"]))) as sheet:
             size = (width, round(width * sheet.height / sheet.width))
             picture = sheet.convert("RGB").resize(size, Image.Resampling.LANCZOS)

@@ -34,6 +34,13 @@ class Solution:
     def to_dict(self):
         return {"graphcam": graphcam.__version__, "task": self.task.to_dict(), "quantities": QUANTITIES, "files": {}}
 
+    def write(self, folder, *, progress, **choices):
+        with whole_folder(folder) as draft:
+            (draft / "cam.pdf").write_text("a sheet")
+            (draft / "solution.json").write_text(json.dumps(self.to_dict()))
+        progress("PDF")
+        return {"pdf": "cam.pdf", "player": None}
+
 
 @pytest.fixture
 def asked(monkeypatch):
@@ -47,14 +54,7 @@ def asked(monkeypatch):
         calls.append((task, pencil))
         return Solution(task)
 
-    def write(solution, directory, progress=None, **papers):
-        with whole_folder(directory) as draft:
-            (draft / "cam.pdf").write_text("a sheet")
-            (draft / "solution.json").write_text(json.dumps(solution.to_dict()))
-        progress("PDF")
-        return {"pdf": "cam.pdf", "player": None}
-
-    solving.solve, report.write, report.check_choices = solve, write, lambda solution, upto, dxf: None
+    solving.solve, report.check_choices = solve, lambda solution, upto, dxf: None
     for module in (solving, report):
         monkeypatch.setitem(sys.modules, module.__name__, module)
     return calls

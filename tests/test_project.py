@@ -50,6 +50,13 @@ def test_public_names_stand_and_are_documented():
         graphcam.nonsense  # noqa: B018
 
 
+def test_a_look_at_the_package_shows_public_names_only():
+    code = "import graphcam\nprint(*(name for name in dir(graphcam) if not name.startswith('_')))"
+    names = set(subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split())
+    assert names == set(graphcam.__all__)
+    assert {"Cam", "Motion", "Solution", "solve"} <= names
+
+
 def readme_commands() -> dict[str, str]:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     return dict(re.findall(r"^<!-- (.+) -->\n```bash\n(.+)\n```$", text, re.MULTILINE))

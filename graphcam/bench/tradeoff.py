@@ -57,7 +57,7 @@ class TimedSizes:
 
 
 @dataclass(frozen=True)
-class MethodTried:
+class Trial:
     """A method before it is timed: its work in n parts or stations, and the error of what comes out."""
 
     question: str
@@ -75,23 +75,23 @@ def tradeoff(sizes: TimedSizes, timer: Timer, pair: float) -> list[Method]:
     return [_timed(way, timer, pair) for way in ways]
 
 
-def _timed(way: MethodTried, timer: Timer, pair: float) -> Method:
+def _timed(way: Trial, timer: Timer, pair: float) -> Method:
     # In rounds, so that a disturbance of the machine spoils no point in all of them.
     rounds = [[timer.seconds(partial(way.work, n)) / pair for n in way.counts] for _ in range(ROUNDS)]
     times, errors = np.min(rounds, axis=0).tolist(), map(way.error, way.counts)
     return Method(way.question, way.name, way.kind, way.counts, tuple(times), tuple(errors))
 
 
-def _drawn(question: str, counts: Parts, where: TestScene, construction: str, error: convergence.Measure) -> MethodTried:
+def _drawn(question: str, counts: Parts, where: TestScene, construction: str, error: convergence.Measure) -> Trial:
     """By a construction, drawn anew with all that it starts from."""
 
     def work(n: int) -> object:
         return where.chain(n)[construction]
 
-    return MethodTried(question, "graphical", "graphical", counts, work, lambda n: error(where, where.chain(n)))
+    return Trial(question, "graphical", "graphical", counts, work, lambda n: error(where, where.chain(n)))
 
 
-def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
+def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     motion = where.board.motion
     yield _drawn("displacement", sizes.graphical, where, "integration", convergence.displacement_error)
     for name, method in rivals.INTEGRATORS.items():
@@ -100,10 +100,10 @@ def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
             return [method(phi, a) for phi, a in rivals.samples(motion, n)]
 
         error = partial(rivals.integrated_error, motion, method=method)
-        yield MethodTried("displacement", name, "sampled", sizes.integrators, work, error)
+        yield Trial("displacement", name, "sampled", sizes.integrators, work, error)
 
 
-def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
+def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     motion, exact = where.board.motion, where.least().prime_radius
     yield _drawn("least radius", sizes.graphical, where, "minimum_radius", convergence.least_radius_error)
     solvers = (
@@ -115,10 +115,10 @@ def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
         def work(n: int, solve: rivals.Solver = solve) -> float:
             return solve(rivals.translating_lines(motion, LIMIT, n), INSIDE)
 
-        yield MethodTried("least radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1))
+        yield Trial("least radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1))
 
 
-def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
+def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     cam = where.cam
     yield _drawn("profile", sizes.profile, where, "working_profile", convergence.profile_error)
 
@@ -132,10 +132,10 @@ def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[MethodTried]:
         return float(off.max()) / where.sizes.prime_radius
 
     if rivals.optional("shapely"):
-        yield MethodTried("profile", "shapely buffer", "sampled", sizes.buffer, work, error)
+        yield Trial("profile", "shapely buffer", "sampled", sizes.buffer, work, error)
 
 
-def _exact(fixed: TestScene, free: TestScene) -> Iterator[MethodTried]:
+def _exact(fixed: TestScene, free: TestScene) -> Iterator[Trial]:
     motion, cam = fixed.board.motion, fixed.cam
     exact: list[tuple[str, Callable[[int], object], Callable[[], float]]] = [
         ("displacement", lambda n: motion(turn(n)), partial(exact_displacement_error, fixed)),
@@ -145,7 +145,7 @@ def _exact(fixed: TestScene, free: TestScene) -> Iterator[MethodTried]:
     for question, work, error in exact:
         # Without a reference of more digits the exact side's own rounding cannot be seen: one eps stands for it.
         shown = error() if reference.available() else reference.EPS
-        yield MethodTried(question, "exact", "exact", (STATIONS,), work, lambda _, shown=shown: shown)
+        yield Trial(question, "exact", "exact", (STATIONS,), work, lambda _, shown=shown: shown)
 
 
 def turn(n: int) -> Floats:

@@ -70,7 +70,7 @@ def solve(
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
-        from graphcam.report.output_folder import check_choices, write
+        from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
@@ -80,8 +80,8 @@ def solve(
             # A wrong choice is one even where nothing is drawn by it.
             check_choices(solution, last, dxf=dxf)
         else:
-            files = write(solution, folder, progress, upto=last, per_construction=per_construction, dxf=dxf)
-            document["files"] = files
+            parts = per_construction
+            document["files"] = solution.write(folder, upto=last, per_construction=parts, dxf=dxf, progress=progress)
     if as_json:
         typer.echo(json.dumps(document, indent=2, allow_nan=False))
     else:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from textwrap import wrap
 
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_outline import three_arcs
@@ -14,6 +15,7 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.three_arcs import ThreeArcs
+from graphcam.showing import WIDTH, Shown, in_lines
 
 NAMES = ("three_arcs", "arc_roller", "arc_diagrams")
 
@@ -46,12 +48,14 @@ class ArcBoard:
         return standard_scale(outer + below, min(self.room))
 
 
-@dataclass(frozen=True, eq=False)
-class ArcChain(Mapping[str, Construction]):
+@dataclass(frozen=True, eq=False, repr=False)
+class ArcChain(Shown, Mapping[str, Construction]):
     """All constructions of one cam of three arcs by name, in the order in which they are drawn.
 
     pencil : the hand that draws
     """
+
+    _drawn_in = "construction_drawing"
 
     board: ArcBoard
     pencil: Pencil = field(default_factory=Pencil)
@@ -63,6 +67,10 @@ class ArcChain(Mapping[str, Construction]):
 
     def __iter__(self) -> Iterator[str]:
         return iter(NAMES)
+
+    def __repr__(self) -> str:
+        last = "chain[name] is a construction, drawn when it is first asked for"
+        return in_lines(f"ArcChain of {len(self)} constructions", wrap(", ".join(self), WIDTH), last)
 
     def __len__(self) -> int:
         return len(NAMES)

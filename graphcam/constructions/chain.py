@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from textwrap import wrap
 
 from graphcam.constructions.acceleration import acceleration_diagram
 from graphcam.constructions.adoption import ROUNDING_SLACK, lies_in, multiple, nearest_multiple, steps_up
@@ -24,6 +25,7 @@ from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
+from graphcam.showing import WIDTH, Shown, in_lines
 
 PHASE_ANGLES = 48.0
 """What the phase angles and their texts need on both sides of the profile together [mm of paper]."""
@@ -42,8 +44,8 @@ class AdoptedSizes:
     roller_radius: float
 
 
-@dataclass(frozen=True, eq=False)
-class Chain(Mapping[str, Construction]):
+@dataclass(frozen=True, eq=False, repr=False)
+class Chain(Shown, Mapping[str, Construction]):
     """All constructions of one cam by name, in the order in which they are drawn.
 
     What the task leaves open is decided as in a design office: proposed by the drawing and adopted as a round number.
@@ -54,6 +56,8 @@ class Chain(Mapping[str, Construction]):
     decided : sizes that were decided before, in place of the proposals
     done : constructions that lie on the board already, by name, and are not drawn again
     """
+
+    _drawn_in = "construction_drawing"
 
     board: Board
     pencil: Pencil = field(default_factory=Pencil)
@@ -71,6 +75,10 @@ class Chain(Mapping[str, Construction]):
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
+
+    def __repr__(self) -> str:
+        last = "chain[name] is a construction, drawn when it is first asked for"
+        return in_lines(f"Chain of {len(self)} constructions", wrap(", ".join(self), WIDTH), last)
 
     def __len__(self) -> int:
         return len(self._names)

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
+from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 
 # A construction says what it draws, so both come from here.
 from graphcam.words import Caption as Caption, Tell, Words as Words, say as say
+
+if TYPE_CHECKING:
+    from graphcam.showing import Axes, Figure
 
 
 @dataclass(frozen=True)
@@ -34,13 +39,15 @@ class View:
     found_by: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class Step:
+@dataclass(frozen=True, eq=False, repr=False)
+class Step(Shown):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
     """
+
+    _drawn_in = "construction_drawing"
 
     title: Caption
     caption: Caption
@@ -48,6 +55,11 @@ class Step:
     marks: tuple[Mark, ...]
     reads: tuple[str, ...] = ()
     given: tuple[Mark, ...] = ()
+
+    def __repr__(self) -> str:
+        said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
+        first = f"Step {str(self.title)!r}, view {self.view.name!r}, marks: {len(self.marks)}"
+        return in_lines(first, said, ".caption, .marks, .reads")
 
     @property
     def own(self) -> tuple[Mark, ...]:
@@ -77,7 +89,7 @@ def _plain(caption: Caption, tell: Tell) -> Caption:
     return Caption("{text}", {"text": tell(caption)})
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Reading:
     """A length or an angle read off the paper, and what it stands for.
 
@@ -88,6 +100,15 @@ class Reading:
     paper: NDArray[np.float64]
     scale: float | NDArray[np.float64]
     unit: str
+
+    def __repr__(self) -> str:
+        return f"Reading {self}"
+
+    def __str__(self) -> str:
+        if self.unit == "mm of paper" or np.all(np.asarray(self.scale) == 1):
+            return f"{_range(self.paper)} {self.unit}"
+        per_mm = f"({self.unit})/mm" if "/" in self.unit else f"{self.unit}/mm"
+        return f"{_range(self.paper)} mm × {_range(self.scale)} {per_mm} = {_range(self.value)} {self.unit}"
 
     @property
     def value(self) -> NDArray[np.float64]:
@@ -102,6 +123,15 @@ class Reading:
         return float(np.ravel(self.scale)[0])
 
 
+def _range(values: ArrayLike) -> str:
+    """A number, or the least and the greatest of many."""
+    values = np.asarray(values)
+    if not values.ndim:
+        return f"{values:.5g}"
+    known = values[np.isfinite(values)]
+    return f"[{np.min(known):.5g} ... {np.max(known):.5g}]" if known.size else "[nan]"
+
+
 def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> Reading:
     """A :class:`Reading` of what is on the paper.
 
@@ -111,8 +141,8 @@ def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> 
     return Reading(np.asarray(paper, dtype=np.float64), scale, unit)
 
 
-@dataclass(frozen=True, eq=False)
-class Construction:
+@dataclass(frozen=True, eq=False, repr=False)
+class Construction(Shown):
     """A textbook construction as a value: what was given, what was read, and how to draw it.
 
     Attributes
@@ -122,7 +152,17 @@ class Construction:
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
+
+    >>> import graphcam as gc
+    >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]
+    Construction 'minimum_radius', steps: 5
+      prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm
+      offset: -16.667 mm × 0.6 mm/mm = -10 mm
+      s0: 70.181 mm × 0.6 mm/mm = 42.109 mm
+    .readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it
     """
+
+    _drawn_in = "construction_drawing"
 
     name: str
     givens: Mapping[str, Any]
@@ -133,6 +173,24 @@ class Construction:
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""
         return self.draw(self)
+
+    def __repr__(self) -> str:
+        samples = self.givens["pencil"].samples
+        first = f"Construction {self.name!r}, steps: {len(self.steps())}" + (f", samples: {samples}" if samples else "")
+        rows = (f"{name}: {reading}" for name, reading in self.readings.items())
+        return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
+
+    # A step is what one names first.
+    def plot(  # pyright: ignore[reportIncompatibleMethodOverride]
+        self, step: int | None = None, axes: Axes | Figure | None = None
+    ) -> Axes:
+        """Draw it, all or up to the step of that index, in colour: mm of paper from the origin of its first view.
+
+        Raises
+        ------
+        DesignError : there is no such step, or the construction draws nothing
+        """
+        return from_above("plots.construction_drawing.plot")(self, axes, step)
 
     def first(self, name: str) -> Any:
         """The points or the reading's paper of that name in the first sample (or the only one): what a step shows."""

@@ -38,7 +38,7 @@ class RowError(DesignError):
         self.row = row
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class MeasuredMotion(Motion):
     """A motion through the rows of a table; made by :func:`measured_motion` and :func:`integrated_motion`.
 
@@ -53,6 +53,9 @@ class MeasuredMotion(Motion):
     phi: Floats
     measured: Floats
     tolerance: float
+
+    def _said(self) -> str:
+        return f"{super()._said()}, through {self.phi.size} rows to {self.tolerance:g}"
 
     @property
     def residuals(self) -> Floats:
@@ -70,7 +73,7 @@ class MeasuredMotion(Motion):
         return float(np.sqrt(np.mean(self.residuals**2)))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class IntegratedMotion(MeasuredMotion):
     """A motion whose accelerations were measured; made by :func:`integrated_motion`.
 

@@ -16,6 +16,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side, law
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, chunks
+from graphcam.showing import Shown, in_lines
 
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the greatest)."""
@@ -120,8 +121,8 @@ class Return(Moving):
 Phase = Rise | Dwell | Return
 
 
-@dataclass(frozen=True, eq=False)
-class Motion:
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(Shown):
     """The motion s(phi) of a follower over one revolution of the cam.
 
     Call it with cam angles in radians for (s, v, a, j), the displacement and its derivatives by phi.
@@ -134,12 +135,21 @@ class Motion:
     ------
     DesignError : there is no rise or no return, or the angles or the lifts do not close
 
+    >>> import graphcam as gc
     >>> from math import pi
-    >>> motion = Motion([Rise(30, pi / 2), Dwell(pi / 2), Return(30, pi, "cosine")])
+    >>> motion = gc.Motion([gc.Rise(30, pi / 2), gc.Dwell(pi / 2), gc.Return(30, pi, "cosine")])
+    >>> motion
+    Motion with a lift of 30 mm (of an arm: rad)
+      rise by 30 over 90°, 3-4-5
+      dwell over 90°
+      return by 30 over 180°, cosine
+    motion(phi) gives s, v, a and j at phi in rad; .plot() draws them
     >>> s, v, a, j = motion([pi / 4, pi])
     >>> s.tolist()
     [15.0, 30.0]
     """
+
+    _drawn_in = "motion_curves"
 
     phases: Sequence[Phase]
     starts: Floats = field(init=False)
@@ -186,6 +196,19 @@ class Motion:
     def lift(self) -> float:
         """The greatest displacement [mm]."""
         return float(self.levels.max())
+
+    @property
+    def timing(self) -> list[tuple[str, float, float]]:
+        """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
+        ends = [*self.starts.tolist(), FULL_TURN]
+        return [(phase.kind, *span) for phase, span in zip(self.phases, pairwise(ends), strict=True)]
+
+    def __repr__(self) -> str:
+        last = "motion(phi) gives s, v, a and j at phi in rad; .plot() draws them"
+        return in_lines(f"{type(self).__name__} {self._said()}", map(_in_words, self.phases), last)
+
+    def _said(self) -> str:
+        return f"with a lift of {self.lift:.6g} mm (of an arm: rad)"
 
     @property
     def piece_starts(self) -> Floats:
@@ -270,6 +293,16 @@ class Motion:
     def _from_end(self) -> NDArray[np.bool_]:
         """(p,) whether a piece is seen from the end of its phase."""
         return np.array([piece.length < 0 for piece in self._piecewise.pieces])
+
+
+def _in_words(phase: Phase) -> str:
+    """A phase in one line."""
+    over = f"over {math.degrees(phase.angle):.6g}°"
+    if isinstance(phase, Dwell):
+        return f"{phase.kind} {over}"
+    law = phase.normalised
+    ratio = f", ratio {law.ratio:g}" if law.ratio != 1 else ""
+    return f"{phase.kind} by {phase.lift:.6g} {over}, {law.name}{ratio}"
 
 
 def _rest(x: Floats) -> tuple[Floats, Floats, Floats, Floats]:

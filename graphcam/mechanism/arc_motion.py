@@ -29,6 +29,7 @@ from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
 from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.mechanism.roots import roots
+from graphcam.showing import Shown, in_lines
 
 SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
 """Fractions of an arc between which a quantity is taken to have one extreme at most."""
@@ -43,8 +44,8 @@ class Arcs:
     power: Floats
 
 
-@dataclass(frozen=True, eq=False)
-class ArcMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class ArcMotion(Shown):
     """The motion s(phi) of a central translating follower; call it with cam angles [rad] for (s, v, a, j).
 
     The rise runs over the arcs AG, GF and FD, the return over their mirror image; between them the outer circle holds
@@ -61,14 +62,16 @@ class ArcMotion:
     DesignError : the root is not sound, the given A or D misses its arc, the arcs do not follow one another around the
         cam, the phases take more than a turn, or the pressure angle reaches 90 degrees
 
-    >>> from graphcam.mechanism.arcs import three_arc_cam
-    >>> motion = ArcMotion(three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))[0], 10.0, 0.5)
+    >>> import graphcam as gc
+    >>> motion = gc.ArcMotion(gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))[0], 10.0, 0.5)
     >>> s, v, a, j = motion(motion.breaks[1], side="left")
     >>> round(float(s), 4), round(float(v), 4), round(float(a), 4)
     (3.4297, 15.1134, 36.4642)
     >>> [round(jump.size, 3) for jump in motion.jumps[:4]]
     [30.092, -25.181, -96.294, 91.469]
     """
+
+    _drawn_in = "motion_curves"
 
     cam: ArcFlank
     roller_radius: float = 0.0
@@ -121,6 +124,19 @@ class ArcMotion:
     def breaks(self) -> Floats:
         """The cam angles [rad] where one arc takes over from another, 0 among them."""
         return np.unique(self.edges[self.edges < FULL_TURN - CLOSURE])
+
+    @property
+    def timing(self) -> list[tuple[str, float, float]]:
+        """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
+        ends = [0.0, *self.edges[[3, 4, 7]].tolist(), FULL_TURN]
+        phases = zip(("rise", "dwell", "return", "dwell"), ends[:-1], ends[1:], strict=True)
+        return [(kind, start, end) for kind, start, end in phases if end - start > CLOSURE]
+
+    def __repr__(self) -> str:
+        phases = (f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.timing)
+        sizes = f"prime radius {self.prime_radius:.6g} mm, roller radius {self.roller_radius:.6g} mm"
+        last = "motion(phi) gives s, v, a and j at phi in rad; .jumps, .pitch_curve(phi); .plot() draws them"
+        return in_lines(f"ArcMotion with a lift of {self.lift:.6g} mm", (", ".join(phases), sizes), last)
 
     @property
     def rise(self) -> float:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from textwrap import wrap
 
 import numpy as np
 
@@ -22,14 +23,24 @@ from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.arc_motion import ArcMotion
+from graphcam.showing import WIDTH, Shown, in_lines
 from graphcam.words import Caption, say, sequence
 
 ROUNDING = 4 * float(np.finfo(np.float64).eps)
 """What a sum of lengths may be off by, as a part of them: a flank that bends by no more is straight."""
 
 
-class ThreeArcCam(ArcFlank):
+class ThreeArcCam(ArcFlank, Shown):
     """One root of a three-arc cam: its flank, and the motion of a follower on it."""
+
+    _drawn_in = "arcs_outline"
+
+    def __repr__(self) -> str:
+        radii = f"radii {self.rho1:.6g}, {self.rho2:.6g} and {self.rho3:.6g} mm about C1, C2 and C3"
+        points = [f"{name} ({x:.6g}, {y:.6g})" for name in ("A", "G", "F", "D") for x, y in [getattr(self, name)]]
+        first = f"Cam of three circular arcs, {'sound' if self.sound else 'not sound'}"
+        rows = (radii, f"{', '.join(points)} mm", *wrap(self.why, WIDTH))
+        return in_lines(first, rows, ".motion(roller_radius); .plot() draws it")
 
     def motion(self, roller_radius: float = 0.0, dwell: float = 0.0) -> ArcMotion:
         """What a central translating follower does on this flank and its mirror image.
@@ -41,7 +52,8 @@ class ThreeArcCam(ArcFlank):
         ------
         DesignError : the root is not sound, its arcs do not form a profile, or the follower cannot run on it
 
-        >>> upper, _ = three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
+        >>> import graphcam as gc
+        >>> upper, _ = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
         >>> motion = upper.motion(roller_radius=10, dwell=math.radians(40))
         >>> round(motion.lift, 2), round(math.degrees(motion.rise), 2)
         (15.0, 70.0)
@@ -61,7 +73,8 @@ def three_arc_cam(
     ------
     DesignError : the data cannot be, or A and G ask for a second arc that is straight
 
-    >>> cam, other = three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, C1=(35.71, 13), C2=(0, -75.64))
+    >>> import graphcam as gc
+    >>> cam, other = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, C1=(35.71, 13), C2=(0, -75.64))
     >>> cam.sound, cam.C3.round(3).tolist(), cam.F.round(3).tolist()
     (True, [12.003, -14.394], [46.834, 25.855])
     >>> print(other.why)
@@ -116,11 +129,9 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
-    a, d = _base_point(c2, rho2, g), _outer_point(c1, abs(k))
+    a, d, sound = _base_point(c2, rho2, g), _outer_point(c1, abs(k)), 0 < k < t < rho2
     A, D, F, G, C1, C2, C3 = (_xy(point) for point in (a, d, f, g, c1, c2, c3))
-    return ThreeArcCam(
-        *(given, A, D, F, G, C1, C2, C3, abs(k), rho2, abs(t)), hollow=t < 0, sound=0 < k < t < rho2, reason=why
-    )
+    return ThreeArcCam(given, A, D, F, G, C1, C2, C3, abs(k), rho2, abs(t), t < 0, sound, why)
 
 
 def _base_point(c2: complex, rho2: float, g: complex) -> complex:

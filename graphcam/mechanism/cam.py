@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
+from textwrap import shorten
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +26,7 @@ from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross
 from graphcam.mechanism.stationary import Places, stationary_places
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
+from graphcam.showing import WIDTH, Shown, in_lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +62,8 @@ class Extremes:
     min_convex_radius_moving: tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Cam:
+@dataclass(frozen=True, repr=False)
+class Cam(Shown):
     """A disk cam that gives the motion to the follower.
 
     Parameters
@@ -79,11 +81,16 @@ class Cam:
     A roller larger than the least radius of curvature is no error here: the profile is then the whole envelope, with
     its loops; :meth:`undercuts` finds them.  So it is with a flat face on too small a cam.
 
+    >>> import graphcam as gc
     >>> from math import degrees, radians
-    >>> from graphcam.given.follower import Translating
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
-    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> rise, dwell, back = gc.Rise(30, radians(120)), gc.Dwell(radians(60)), gc.Return(30, radians(120))
+    >>> motion, follower = gc.Motion([rise, dwell, back, dwell]), gc.Translating(offset=10, roller_radius=12)
+    >>> cam = gc.Cam(motion, follower, prime_radius=50)
+    >>> cam
+    Cam that turns ccw, prime radius 50 mm
+      translating follower, offset 10 mm, roller radius 12 mm
+      rise 120°, dwell 60°, return 120°, dwell 60°
+    .pitch_curve(phi), .profile(phi), .pressure_angle(phi) at phi in rad; .extremes(); .plot() draws it
     >>> cam.pitch_curve(0).round(4).tolist()
     [10.0, 48.9898]
     >>> cam.profile(0).round(4).tolist()
@@ -96,6 +103,8 @@ class Cam:
     >>> round(degrees(value), 4), round(degrees(phi), 4)
     (14.9781, 55.8179)
     """
+
+    _drawn_in = "cam_outline"
 
     motion: Motion
     follower: Follower
@@ -128,6 +137,15 @@ class Cam:
     def envelope(self) -> Envelope:
         """The profile as a curve, with its loops."""
         return Envelope(self.motion, self.kinematics, self.roller_radius)
+
+    def __repr__(self) -> str:
+        sizes = [f"{name.replace('_', ' ')} {size:.6g} mm" for name, size in asdict(self.follower).items()]
+        phases = [f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.motion.timing]
+        first = f"Cam that turns {self.rotation}, prime radius {self.prime_radius:.6g} mm"
+        follower = ", ".join([f"{self.follower.kind} follower", *sizes])
+        turn = shorten(", ".join(phases), WIDTH, placeholder=" ...")
+        last = ".pitch_curve(phi), .profile(phi), .pressure_angle(phi) at phi in rad; .extremes(); .plot() draws it"
+        return in_lines(first, (follower, turn), last)
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
@@ -185,11 +203,11 @@ class Cam:
         ------
         DesignError : the loops cannot be told apart
 
+        >>> import graphcam as gc
         >>> from math import degrees, radians
-        >>> from graphcam.given.follower import Translating
-        >>> from graphcam.given.motion import Dwell, Return, Rise
-        >>> motion = Motion([Rise(30, radians(60)), Dwell(radians(90)), Return(30, radians(90)), Dwell(radians(120))])
-        >>> lost, = Cam(motion, Translating(offset=5, roller_radius=20), prime_radius=30).undercuts()
+        >>> rise, back = gc.Rise(30, radians(60)), gc.Return(30, radians(90))
+        >>> motion = gc.Motion([rise, gc.Dwell(radians(90)), back, gc.Dwell(radians(120))])
+        >>> lost, = gc.Cam(motion, gc.Translating(offset=5, roller_radius=20), prime_radius=30).undercuts()
         >>> [round(degrees(phi), 2) for phi in lost.cusps], [round(x, 4) for x in lost.crossing[2:]]
         ([42.22, 54.12], [35.6465, 17.6731])
         """

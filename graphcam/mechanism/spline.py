@@ -49,7 +49,7 @@ SAME_CURVATURE = 1e-9
 """A curvature that changes at a break by more than this part of 1/r0 jumps there."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ProfileSpline:
     """A closed profile as a clamped cubic B-spline; the parameter is the arc length [mm] from its start.
 
@@ -60,6 +60,10 @@ class ProfileSpline:
     knots: Floats
     control: Floats
     deviation: float
+
+    def __repr__(self) -> str:
+        size = f"{len(self.control)} control points, length {self.knots[-1]:.6g} mm, deviation {self.deviation:.2g} mm"
+        return f"ProfileSpline of {size}; .knots, .control"
 
     def __call__(self, at: ArrayLike, derivative: int = 0) -> Floats:
         """(..., 2) the points, or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""

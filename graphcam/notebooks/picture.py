@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from dataclasses import dataclass
 from html import escape
-from io import BytesIO, StringIO
+from io import BytesIO
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -87,10 +87,6 @@ def picture_of(figure: Figure, alt: str, caption: str = "") -> Picture:
     >>> picture_of(Figure((1, 1)), "an empty chart").image.startswith("<?xml")
     True
     """
-    import matplotlib as mpl
+    from graphcam.plots.figures import figure_svg
 
-    text = StringIO()
-    # Letters as letters, and nothing that changes from one run to the next.
-    with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "graphcam"}):
-        figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None, "Creator": "graphcam"})
-    return Picture(text.getvalue(), alt, caption)
+    return Picture(figure_svg(figure), alt, caption)

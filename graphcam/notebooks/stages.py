@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Iterator
+from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -14,21 +13,9 @@ from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.notebooks.picture import Picture
-from graphcam.sheets.box import Box
-from graphcam.sheets.expand import Placement, expand
-from graphcam.sheets.formats import Lettering
-from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.model import Entity, Group, Page
-from graphcam.sheets.panels import Panel
-from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
+from graphcam.plots.step_board import board_of
+from graphcam.sheets.model import Page
 from graphcam.words import Tell, say
-
-LETTERS = Lettering(3.5, 3.0, 2.4)
-"""Heights of letters [mm], for a page that is read on a screen."""
-WIDEST, HIGHEST = 230.0, 175.0
-"""What a screen shows well [mm]: a larger drawing is shown reduced."""
-MARGIN = 5.0
-"""Free margin around a drawing, where its outermost labels find room [mm]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +44,8 @@ class Stage:
         from graphcam.sheets.matplotlib_renderer import svg
 
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
-        alt = say(
-            "{view}. Drawn so far, with step {number} in colour: {title}. {caption}",
-            view=view,
-            number=self.number,
-            title=title,
-            caption=self.step.caption,
-        )
+        said = {"view": view, "number": self.number, "title": title, "caption": self.step.caption}
+        alt = say("{view}. Drawn so far, with step {number} in colour: {title}. {caption}", **said)
         return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
@@ -94,83 +76,9 @@ def _reading(row: ReadingRow, tell: Tell) -> str:
     return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 
 
-@dataclass(frozen=True, eq=False)
-class StepBoard:
-    """One view of a construction with all that is drawn in it, so that nothing moves from one step to the next.
-
-    former : steps of the constructions that this one starts from, drawn in the same view before it
-    steps : its own
-    """
-
-    former: tuple[Step, ...]
-    steps: tuple[Step, ...]
-
-    @cached_property
-    def _panel(self) -> Panel:
-        marks = tuple(mark for step in (*self.former, *self.steps) for mark in step.marks)
-        panel = Panel(self.steps[-1].view, marks, LETTERS)
-        size = panel.content
-        return replace(panel, factor=min(1.0, WIDEST / size.width, HIGHEST / size.height))
-
-    @cached_property
-    def _box(self) -> Box:
-        return self._panel.content.grown(MARGIN)
-
-    @cached_property
-    def _drawn(self) -> list[list[Entity]]:
-        place = Placement(-self._box.corner, self._panel.factor)
-        expanded = [expand(step.marks, place, LETTERS) for step in (*self.former, *self.steps)]
-        return lettered(expanded, [], self._box.moved(-self._box.corner))
-
-    def page(self, current: int | None = None) -> Page:
-        """The drawing up to the own step of that index, which is in colour; by default the finished drawing."""
-        count = len(self._drawn) if current is None else len(self.former) + current + 1
-        groups: list[Group] = []
-        for k, entities in enumerate(shading_parted(self._drawn[:count])):
-            stage = CURRENT_STEP if k == count - 1 else FORMER_STEP
-            shown = entities if current is None else tuple(_in_progress(e, stage) for e in entities)
-            groups.append(Group(f"step-{k + 1:02d}", shown))
-        box = self._box.moved(-self._box.corner)
-        return Page(box.width, box.height, box, tuple(groups))
-
-
-def _in_progress(entity: Entity, stage: str) -> Entity:
-    return replace(entity, role=in_progress(entity.role, stage))
-
-
-def ancestors(construction: Construction) -> list[Construction]:
-    """The constructions that one starts from, directly or not, the first drawn first.
-
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> [c.name for c in ancestors(solve(builtin_task()).drawn["minimum_radius"])]
-    ['acceleration', 'integration']
-    """
-    found: dict[str, Construction] = {}
-    for given in construction.givens.values():
-        if isinstance(given, Construction):
-            found |= {c.name: c for c in (*ancestors(given), given)}
-    return list(found.values())
-
-
-def boards(construction: Construction, tell: Tell = str, on: Construction | None = None) -> dict[str, StepBoard]:
-    """The views that a construction draws in, by name, each with what stood in it before.
-
-    on : a construction that it does not start from, but is drawn over
-    """
-    steps = [step.told(tell) for step in construction.steps()]
-    before = [step.told(tell) for c in (*ancestors(construction), *([on] if on else ())) for step in c.steps()]
-    names = dict.fromkeys(step.view.name for step in steps if step.marks)
-    return {name: StepBoard(_in_view(before, name), _in_view(steps, name)) for name in names}
-
-
-def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
-    return tuple(step for step in steps if step.view.name == name)
-
-
 def stages(construction: Construction, tell: Tell = str, on: Construction | None = None) -> Iterator[Stage]:
-    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for boards."""
-    of_view, drawn = boards(construction, tell, on), Counter[str]()
+    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for board_of."""
+    of_view, drawn = board_of(construction, tell, on).by_view, Counter[str]()
     for number, step in enumerate(construction.steps(), 1):
         name = step.view.name
         page = of_view[name].page(drawn[name]) if name in of_view else None
@@ -192,7 +100,7 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
     """
     from graphcam.sheets.matplotlib_renderer import svg
 
-    of_view = boards(construction, tell)
+    of_view = board_of(construction, tell).by_view
     if view is not None and view not in of_view:
         raise DesignError("view", view, f"one of {', '.join(of_view)}")
     board = of_view[view] if view is not None else next(iter(of_view.values()))

@@ -7,6 +7,7 @@ one B-spline.  All three hold the profile that can be cut: what a roller too lar
 from __future__ import annotations
 
 import csv
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +21,8 @@ POINTS = 720
 NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 
 
-def write_profile(cam: Cam, folder: Path) -> dict[str, str]:
-    """Write the three files into a folder; returns their names by kind.
+def write_profile(cam: Cam, folder: Path, kinds: Collection[str] = tuple(NAMES)) -> dict[str, str]:
+    """Write those of the three files into a folder that are wanted; returns their names by kind.
 
     Raises
     ------
@@ -29,11 +30,17 @@ def write_profile(cam: Cam, folder: Path) -> dict[str, str]:
     """
     from graphcam.sheets.dxf_renderer import write_spline
 
+    wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
+    if not wanted:
+        return {}
     cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam)
-    write_spline(spline.control, spline.knots, folder / NAMES["profile_dxf"], layer="profile")
-    _write_csv(cut, folder / NAMES["profile_csv"])
-    _write_xyz(cut, folder / NAMES["profile_xyz"])
-    return NAMES
+    if "profile_dxf" in wanted:
+        write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile")
+    if "profile_csv" in wanted:
+        _write_csv(cut, folder / wanted["profile_csv"])
+    if "profile_xyz" in wanted:
+        _write_xyz(cut, folder / wanted["profile_xyz"])
+    return wanted
 
 
 def _write_csv(cut: CutProfile, path: Path) -> None:

@@ -24,7 +24,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, Transform
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import FAMILY, points_size, width
@@ -33,7 +33,8 @@ from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 
 if TYPE_CHECKING:
-    from matplotlib.backend_bases import RendererBase
+    from matplotlib.axes import Axes
+    from matplotlib.backend_bases import GraphicsContextBase, RendererBase
 
 INCH = 25.4
 POINT = 72 / INCH
@@ -80,64 +81,88 @@ def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float =
         _figure(page).savefig(path, format="png", dpi=dpi, metadata=about, pil_kwargs=quick)
 
 
+def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -> None:
+    """Draw a page on axes of equal scales; letters and lines grow and shrink with them, as those of a print do.
+
+    origin : where the axes' origin lies on the page [mm]
+    factor : millimetres of the page to one unit of the axes
+    """
+    to_axes = Affine2D().translate(-origin.real, -origin.imag).scale(1 / factor)
+    for group in page.groups:
+        axes.add_artist(_GroupArtist(group, to_axes + axes.transData))
+    (left, bottom), (right, top) = to_axes.transform([(0.0, 0.0), (page.width, page.height)]).tolist()
+    axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
+
+
 def _figure(page: Page) -> Figure:
     figure = Figure(figsize=(page.width / INCH, page.height / INCH))
     for group in page.groups:
-        figure.add_artist(_GroupArtist(group), clip=False)
+        figure.add_artist(_GroupArtist(group, Affine2D().scale(1 / INCH) + figure.dpi_scale_trans), clip=False)
     return figure
 
 
 class _GroupArtist(Artist):
-    """Draws the entities of one group, in their order."""
+    """Draws the entities of one group, in their order; ``to_device`` is from mm of the page."""
 
-    def __init__(self, group: Group) -> None:
+    def __init__(self, group: Group, to_device: Transform) -> None:
         super().__init__()
-        self.group = group
+        self.group, self.to_device = group, to_device
+        self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw into the group of the renderer that bears the group's key."""
-        figure = self.get_figure(root=True)
-        assert figure is not None
-        to_device = Affine2D().scale(1 / INCH) + figure.dpi_scale_trans
         renderer.open_group("group", gid=self.group.key)
         for kind, role, run in self.group.runs():
             if kind == "text":
                 for text in run:
-                    _draw_text(renderer, cast(Text, text), to_device)
+                    self._draw_text(renderer, cast(Text, text))
             else:
-                _draw_path(renderer, run, kind, role, to_device)
+                self._draw_path(renderer, run, kind, role)
         renderer.close_group("group")
 
+    @property
+    def _times(self) -> float:
+        """What a millimetre of the page measures on the figure [mm]."""
+        figure = self.get_figure(root=True)
+        if self.axes is None or figure is None:
+            return 1.0
+        origin, unit = self.to_device.transform([(0.0, 0.0), (1.0, 0.0)])
+        return math.hypot(*(unit - origin)) * INCH / figure.dpi
 
-def _draw_path(renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str, to_device: Any) -> None:
-    style = STYLES[role]
-    context = renderer.new_gc()
-    context.set_foreground(style.colour)
-    context.set_joinstyle("miter" if kind == "filled" else "round")
-    context.set_capstyle("butt")
-    context.set_snap(False)
-    context.set_linewidth(0.0 if kind == "filled" else style.width * POINT)
-    if style.pattern and kind == "line":
-        context.set_dashes(0.0, [POINT * mm for mm in style.pattern])
-    fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
-    path = Path.make_compound_path(*(_path(entity) for entity in entities))
-    path.should_simplify = False
-    renderer.draw_path(context, path, to_device, fill)
-    context.restore()
+    def _context(self, renderer: RendererBase, colour: str, width: float) -> GraphicsContextBase:
+        """For lines of a width [mm of the page]."""
+        context = renderer.new_gc()
+        context.set_foreground(colour)
+        context.set_linewidth(self._times * width * POINT)
+        if self.axes is not None:
+            context.set_clip_rectangle(self.axes.bbox)
+        return context
 
+    def _draw_path(self, renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str) -> None:
+        style = STYLES[role]
+        context = self._context(renderer, style.colour, 0.0 if kind == "filled" else style.width)
+        context.set_joinstyle("miter" if kind == "filled" else "round")
+        context.set_capstyle("butt")
+        context.set_snap(False)
+        if style.pattern and kind == "line":
+            context.set_dashes(0.0, [self._times * POINT * mm for mm in style.pattern])
+        fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
+        path = Path.make_compound_path(*(_path(entity) for entity in entities))
+        path.should_simplify = False
+        renderer.draw_path(context, path, self.to_device, fill)
+        context.restore()
 
-def _draw_text(renderer: RendererBase, text: Text, to_device: Any) -> None:
-    context = renderer.new_gc()
-    context.set_foreground(STYLES[text.role].colour)
-    context.set_linewidth(STYLES[text.role].width * POINT)
-    # The renderers place the left end of the base line.
-    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-    start = text.at - cmath.rect(shift, text.angle)
-    x, y = to_device.transform((start.real, start.imag))
-    if renderer.flipy():
-        y = renderer.get_canvas_width_height()[1] - y
-    renderer.draw_text(context, x, y, text.text, _font(text.height), math.degrees(text.angle), ismath=False)
-    context.restore()
+    def _draw_text(self, renderer: RendererBase, text: Text) -> None:
+        context = self._context(renderer, STYLES[text.role].colour, STYLES[text.role].width)
+        # The renderers place the left end of the base line.
+        shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
+        start = text.at - cmath.rect(shift, text.angle)
+        x, y = self.to_device.transform((start.real, start.imag))
+        if renderer.flipy():
+            y = renderer.get_canvas_width_height()[1] - y
+        font = _font(self._times * text.height)
+        renderer.draw_text(context, x, y, text.text, font, math.degrees(text.angle), ismath=False)
+        context.restore()
 
 
 @cache

@@ -33,13 +33,17 @@ LEADING = 1.7
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A view with everything that is drawn in it, shown reduced by ``factor``; boxes are about the view's origin."""
+    """A view with everything that is drawn in it, shown reduced by ``factor``; boxes are about the view's origin.
+
+    noted : whether the title says by how much it is shown reduced
+    """
 
     view: View
     marks: tuple[Mark, ...]
     letters: Lettering
     factor: float = 1.0
     tell: Tell = str
+    noted: bool = True
 
     @cached_property
     def _drawn(self) -> list[Entity]:
@@ -60,7 +64,7 @@ class Panel:
     def heading(self) -> list[Text]:
         """The title about the lower left corner of its box: its first words large, what follows a comma as a note."""
         name, _, note = str(self.view.title).partition(", ")
-        if self.factor != 1:
+        if self.noted and self.factor != 1:
             note += "; " * bool(note) + self.tell(say("shown reduced 1:{times:g}", times=1 / self.factor))
         large, small = self.letters.title, self.letters.label
         room = max(self.content.width, 17.0 * self.letters.title)

@@ -23,7 +23,8 @@ from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
 from graphcam.sheets.layout import profile_room
 from graphcam.solving.diagram_sizes import diagram_room
 from graphcam.solving.json_values import plain_number, plain_quantities, plain_stations
-from graphcam.solving.solution import FILES, Solution
+from graphcam.solving.shown_solution import FILES, ShownSolution
+from graphcam.solving.solution import Solution
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.words import Tell
 
@@ -39,8 +40,8 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
     ------
     DesignError : the data give no sound cam, or the roller cannot run on it
 
-    >>> from graphcam.tasks.task_file import builtin_arcs_task
-    >>> solution = solve_arcs(builtin_arcs_task())
+    >>> import graphcam as gc
+    >>> solution = solve_arcs(gc.builtin_arcs_task())
     >>> solution.cam.F.round(3).tolist(), round(float(solution.drawn["three_arcs"].readings["F_x"].value), 3)
     ([46.834, 25.855], 46.834)
     """
@@ -63,8 +64,8 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
     return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
 
 
-@dataclass(frozen=True, eq=False)
-class ArcsSolution:
+@dataclass(frozen=True, eq=False, repr=False)
+class ArcsSolution(ShownSolution):
     """A solved cam of three circular arcs.
 
     Attributes
@@ -79,6 +80,9 @@ class ArcsSolution:
     chain: ArcChain
     roots: tuple[ThreeArcCam, ThreeArcCam]
     motion: ArcMotion
+
+    def __repr__(self) -> str:
+        return self._in_lines(self.task.title.name, self.motion, self.drawn)
 
     @property
     def cam(self) -> ThreeArcCam:
@@ -141,9 +145,11 @@ class ArcsSolution:
         phi, (s, v, a, _), alpha, pitch = self.comparison.exact_stations
         drawn = self.comparison.drawn_stations
         pairs = {
-            "s": (drawn["s"], s), "v": (drawn["v"], v), "a": (drawn["a"], a),
+            "s": (drawn["s"], s),
+            "v": (drawn["v"], v),
+            "a": (drawn["a"], a),
             "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
-        }  # fmt: skip
+        }
         read = np.stack([drawn["x"], drawn["y"]], axis=-1)
         return plain_stations(phi, self.chain.stations.arc.tolist(), pairs, (read, pitch))
 

@@ -17,13 +17,12 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.mechanism.cam import Cam
 from graphcam.solving.json_values import plain_quantities, plain_stations
+from graphcam.solving.shown_solution import FILES, ShownSolution
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import less_round, warnings_of
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
-
-FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
 
 
 def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
@@ -33,8 +32,8 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
     ------
     DesignError : there is no such cam, or its follower is not there yet
 
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> solution = solve_motion(builtin_task())
+    >>> import graphcam as gc
+    >>> solution = solve_motion(gc.builtin_task())
     >>> solution.cam.prime_radius, solution.cam.follower
     (44.0, Translating(offset=-10.0, roller_radius=17.0))
     >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
@@ -45,8 +44,8 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
     return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
 
 
-@dataclass(frozen=True, eq=False)
-class Solution:
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(ShownSolution):
     """A solved task.
 
     Attributes
@@ -59,6 +58,9 @@ class Solution:
     task: Task
     chain: Chain
     cam: Cam
+
+    def __repr__(self) -> str:
+        return self._in_lines(self.task.title.name, self.cam, self.drawn)
 
     @property
     def drawn(self) -> Mapping[str, Construction]:

@@ -24,10 +24,16 @@ def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
     ------
     DesignError : there is no such cam
 
-    >>> from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
-    >>> list(solve(builtin_arcs_task()).drawn)
+    >>> import graphcam as gc
+    >>> list(gc.solve(gc.builtin_arcs_task()).drawn)
     ['three_arcs', 'arc_roller', 'arc_diagrams']
-    >>> solve(builtin_task()).cam.prime_radius
-    44.0
+    >>> gc.solve(gc.builtin_task())
+    Solution of 'Cam mechanism'
+      Cam that turns cw, prime radius 44 mm
+      translating follower, offset -10 mm, roller radius 17 mm
+      rise 80°, dwell 45°, return 60°, dwell 175°
+      drawn: acceleration, integration, minimum_radius, pressure_angle, angle_diagram, inversion,
+      curvature, roller, working_profile, scheme
+    .drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files
     """
     return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solve_motion(task, pencil)

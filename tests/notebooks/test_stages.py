@@ -6,7 +6,8 @@ import pytest
 
 import graphcam as gc
 from graphcam.drafting.marks import Role
-from graphcam.notebooks.stages import boards, drawing, show_steps, stages
+from graphcam.notebooks.stages import drawing, show_steps, stages
+from graphcam.plots.step_board import board_of
 from graphcam.sheets.model import Text
 
 
@@ -40,13 +41,13 @@ def test_nothing_moves_from_step_to_step(drawn):
 
 def test_a_drawing_stands_on_what_was_drawn_before_in_its_view(drawn):
     """The poles of the first integration are set in the acceleration diagram, over its four steps."""
-    board = boards(drawn["integration"])["acceleration"]
+    board = board_of(drawn["integration"]).by_view["acceleration"]
     assert [str(step.title) for step in board.former] == [str(s.title) for s in drawn["acceleration"].steps()]
     assert len(board.page(0).groups) == 5
 
 
 def test_the_finished_drawing_has_the_ink_of_the_sheet(drawn):
-    page = boards(drawn["minimum_radius"])["combined"].page()
+    page = board_of(drawn["minimum_radius"]).by_view["combined"].page()
     assert {e.role for group in page.groups for e in group.entities} <= {*Role, "text"}
 
 
@@ -83,6 +84,6 @@ def test_chosen_steps_are_shown(drawn, monkeypatch):
 
 
 def test_the_rays_of_the_pressure_angles_are_drawn_over_the_combined_diagram(drawn):
-    alone = boards(drawn["pressure_angle"])["combined"].page()
-    over = boards(drawn["pressure_angle"], on=drawn["minimum_radius"])["combined"].page()
-    assert len(over.groups) == len(alone.groups) + len(boards(drawn["minimum_radius"])["combined"].steps)
+    alone = board_of(drawn["pressure_angle"]).by_view["combined"].page()
+    over = board_of(drawn["pressure_angle"], on=drawn["minimum_radius"]).by_view["combined"].page()
+    assert len(over.groups) == len(alone.groups) + len(board_of(drawn["minimum_radius"]).by_view["combined"].steps)

@@ -1,0 +1,65 @@
+"""A cam at the start of its turn: pitch curve, working profile, prime circle, and the roller or the flat face."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.mechanism.cam import Cam
+from graphcam.plots.figures import axes_on
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+
+SIZE = 6.0, 6.5
+"""Of a new figure [inches]."""
+POINTS = 181
+"""Of each curve between two breaks."""
+BELOW = 0.3
+"""Room for the legend, as a part of the cam's height."""
+FACE = 0.5
+"""Half of the drawn face, as a part of the prime radius."""
+TURNS = {"ccw": "counter-clockwise", "cw": "clockwise"}
+
+
+def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
+    """Draw a cam in its own coordinates, mm, as it stands at the start of the turn."""
+    axes = axes_on(on, *SIZE)
+    phi = turn(cam.motion.breaks)
+    pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
+    flat = np.array_equal(pitch, profile)
+    if not flat:
+        axes.plot(*pitch.T, color=GREY, linewidth=1.0, linestyle=(0, (9, 2, 1, 2)), label="pitch curve")
+    axes.plot(*profile.T, color=BLACK, linewidth=2.0, label="working profile")
+    circle = np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+    prime = f"prime circle, {cam.prime_radius:.6g} mm"
+    axes.plot(*(cam.prime_radius * circle).T, color=GREY, linewidth=1.0, linestyle="--", label=prime)
+    if cam.roller_radius:
+        roller = cam.pitch_curve(0.0) + cam.roller_radius * circle
+        axes.plot(*roller.T, color=CURRENT, linewidth=1.5, label=f"roller, {cam.roller_radius:.6g} mm")
+    if flat:
+        half, up = FACE * cam.prime_radius, profile[0, 1]
+        axes.plot([-half, half], [up, up], color=CURRENT, linewidth=1.5, label="flat face")
+    mark_centre(axes)
+    axes.set_title(f"Cam that turns {TURNS[cam.rotation]}, at φ = 0", fontsize="medium")
+    return finished(axes)
+
+
+def turn(breaks: Floats) -> Floats:
+    """Cam angles [rad] over a whole turn, the breaks among them."""
+    ends = np.append(breaks, FULL_TURN)
+    return np.unique(np.linspace(ends[:-1], ends[1:], POINTS))
+
+
+def mark_centre(axes: Axes) -> None:
+    """The cam centre."""
+    axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label="cam centre")
+
+
+def finished(axes: Axes) -> Axes:
+    """Equal scales, what the axes measure, and the legend below the cam, in room of its own."""
+    bottom, top = axes.get_ylim()
+    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - BELOW * (top - bottom), top))
+    axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
+    return axes

@@ -1,0 +1,49 @@
+"""A construction as it is drawn, all of it or up to a step; a step alone, and all constructions of a cam."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from graphcam.drafting.ink import Construction, Step
+from graphcam.errors import DesignError
+from graphcam.plots.figures import axes_on
+from graphcam.plots.step_board import StepBoard, board_of
+from graphcam.sheets.matplotlib_renderer import INCH, draw_on
+
+AROUND = 1.0
+"""What the axes of a new figure need beside the drawing [inches]."""
+
+
+def plot(
+    drawn: Construction | Step | Mapping[str, Construction], on: Axes | Figure | None = None, step: int | None = None
+) -> Axes:
+    """Draw on axes in mm of paper from the origin of the first view.
+
+    step : index of the last step that is drawn, which is in colour; by default all are
+
+    Raises
+    ------
+    DesignError : there is no such step, or nothing is drawn
+    """
+    match drawn:
+        case Construction():
+            board = board_of(drawn)
+        case Step():
+            board = StepBoard((), (drawn,))
+        case _:
+            board = StepBoard((), tuple(step for construction in drawn.values() for step in construction.steps()))
+    count = len(board.steps)
+    if not board.views:
+        raise DesignError("drawing", "empty", "marks in a view", "see the captions of the steps, and the readings")
+    if step is not None and not 0 <= step < count:
+        raise DesignError("step", step, f"an index of the steps, 0 to {count - 1}, or None for all of them")
+    page = board.page(step)
+    axes = axes_on(on, page.width / INCH + AROUND, page.height / INCH + AROUND)
+    draw_on(axes, page, board.origin, board.factor)
+    axes.set(xlabel="mm of paper", ylabel="mm of paper")
+    if len(board.views) == 1:
+        axes.set_title(str(*(view.title for view in board.views.values())), fontsize="medium")
+    return axes

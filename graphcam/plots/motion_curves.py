@@ -1,0 +1,96 @@
+"""A motion over one turn of the cam: s, v, a and j one under the other."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import FULL_TURN
+from graphcam.plots.figures import axes_on
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+
+CURVES = (
+    *(("s, mm", BLACK),),
+    *(("v, mm/rad", CURRENT),),
+    *(("a, mm/rad²", ACCENT),),
+    *(("j, mm/rad³", GREY),),
+)
+"""What the axes say, and the colour of the curve, from the top."""
+ACROSS = "cam angle φ, degrees (of an arm: rad in place of mm)"
+SIZE = 7.0, 7.0
+"""Of a new figure [inches]."""
+POINTS = 61
+"""Of each curve between two breaks."""
+GAP = 0.03
+"""Between two diagrams, as a part of the axes."""
+BEFORE = -0.125
+"""Where the names of the axes stand, as a part of the diagram's width."""
+BESIDE, UPRIGHT = 28.0, 8.0
+"""A phase of at least so many degrees has room for its name, one of at least so many for its name turned."""
+
+
+class PhasedMotion(Protocol):
+    """What is drawn here: a motion of phases or of arcs."""
+
+    @property
+    def breaks(self) -> Floats:
+        """Cam angles [rad] where a derivative may jump."""
+        ...
+
+    @property
+    def timing(self) -> list[tuple[str, float, float]]:
+        """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
+        ...
+
+    def __call__(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
+        """(s, v, a, j) at cam angles [rad]."""
+        ...
+
+
+def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
+    """Draw s, v, a and j in four diagrams inside of axes; returns the axes, whose ``child_axes`` are the diagrams."""
+    axes = axes_on(on, *SIZE)
+    axes.set_axis_off()
+    phi, values = _curves(motion)
+    height = (1 + GAP) / len(CURVES)
+    diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - GAP)) for k in reversed(range(len(CURVES)))]
+    for diagram, (up, colour), value in zip(diagrams, CURVES, values, strict=True):
+        diagram.plot(np.degrees(phi), value, color=colour, linewidth=1.5)
+        if not np.any(value):
+            diagram.set_ylim(-1.0, 1.0)  # of no height there would be divisions of a hundredth
+        diagram.axhline(0.0, color=BLACK, linewidth=0.6)
+        for _, start, _ in motion.timing:
+            diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
+        diagram.set(xlim=(0, 360), xticks=range(0, 361, 30), ylabel=up)
+        diagram.tick_params(labelbottom=diagram is diagrams[-1])
+        # Their labels stand one under the other, however wide the numbers are.
+        diagram.yaxis.set_label_coords(BEFORE, 0.5)
+        diagram.spines[["top", "right"]].set_visible(False)
+    _name_phases(diagrams[0], motion)
+    diagrams[-1].set_xlabel(ACROSS)
+    return axes
+
+
+def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
+    """Cam angles [rad] over the turn, those of jumps twice, and (4, n) the values there, of both sides of a jump."""
+    ends = np.append(motion.breaks, FULL_TURN)
+    phi = np.linspace(ends[:-1], ends[1:], POINTS, axis=1)
+    right, left = np.array(motion(phi[:, :-1])), np.array(motion(phi[:, -1:], "left"))
+    return phi.ravel(), np.concatenate([right, left], axis=2).reshape(4, -1)
+
+
+def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
+    """The name of every phase over the diagram."""
+    for kind, start, end in motion.timing:
+        wide = np.degrees(end - start)
+        if wide >= UPRIGHT:
+            turned = 0 if wide >= BESIDE else 90
+            diagram.annotate(
+                kind, (np.degrees(start + end) / 2, 1.02), xycoords=("data", "axes fraction"), rotation=turned,
+                ha="center", va="bottom", fontsize="small",
+            )  # fmt: skip

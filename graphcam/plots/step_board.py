@@ -1,0 +1,136 @@
+"""Steps of constructions as a drawing: their views, with what stood in them before, and every letter in its place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphcam.drafting.ink import Construction, Step, View
+from graphcam.sheets.box import Box, around_all
+from graphcam.sheets.expand import Placement, expand
+from graphcam.sheets.formats import Lettering
+from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.model import Entity, Group, Page
+from graphcam.sheets.panels import Panel, panels, stand
+from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
+from graphcam.words import Tell
+
+LETTERS = Lettering(3.5, 3.0, 2.4)
+"""Heights of letters [mm], for a drawing that is read on a screen."""
+WIDEST, HIGHEST = 230.0, 175.0
+"""What a screen shows well [mm]: a larger view is shown reduced."""
+MARGIN = 5.0
+"""Free margin around a drawing, where its outermost labels find room [mm]."""
+GAP = 8.0
+"""Between views [mm]."""
+
+
+@dataclass(frozen=True, eq=False)
+class StepBoard:
+    """Views of constructions with all that is drawn in them, so that nothing moves from one step to the next.
+
+    former : steps that were drawn in the same views before, of the constructions that these start from
+    steps : the steps themselves
+    """
+
+    former: tuple[Step, ...]
+    steps: tuple[Step, ...]
+
+    @property
+    def views(self) -> dict[str, View]:
+        """The views that the steps draw in, by name."""
+        return {step.view.name: step.view for step in self.steps if step.marks}
+
+    @cached_property
+    def by_view(self) -> dict[str, StepBoard]:
+        """Every view on a board of its own."""
+        return {name: StepBoard(_in_view(self.former, name), _in_view(self.steps, name)) for name in self.views}
+
+    @cached_property
+    def factor(self) -> float:
+        """What all views are shown reduced by."""
+        sizes = [panel.content for panel in self._panels(1.0)]
+        return min(1.0, *(min(WIDEST / size.width, HIGHEST / size.height) for size in sizes))
+
+    @property
+    def origin(self) -> complex:
+        """Where the origin of the first view lies on the page [mm]."""
+        return -self._box.corner
+
+    def _panels(self, factor: float) -> list[Panel]:
+        shown = panels((step for step in (*self.former, *self.steps) if step.marks), LETTERS)
+        return [replace(panel, factor=factor, noted=False) for panel in shown]
+
+    @cached_property
+    def _placed(self) -> dict[str, tuple[Panel, complex]]:
+        """The views by name, each with its origin, that of the first one at 0."""
+        shown = self._panels(self.factor)
+        return {panel.view.name: (panel, at) for panel, at in zip(shown, stand(shown, GAP), strict=True)}
+
+    @cached_property
+    def _titled(self) -> bool:
+        return len(self._placed) > 1
+
+    @cached_property
+    def _box(self) -> Box:
+        boxes = ((panel.box if self._titled else panel.content).moved(at) for panel, at in self._placed.values())
+        return around_all(boxes).grown(MARGIN)
+
+    @cached_property
+    def _titles(self) -> tuple[Entity, ...]:
+        """Of several views; a single one is named beside the drawing."""
+        titles = (e for panel, at in self._placed.values() for e in panel.title(self.origin + at))
+        return tuple(titles) if self._titled else ()
+
+    @cached_property
+    def _drawn(self) -> list[list[Entity]]:
+        places = {name: Placement(self.origin + at, self.factor) for name, (_, at) in self._placed.items()}
+        # A step without marks may name a view in which nothing is drawn.
+        steps = (*self.former, *self.steps)
+        expanded = [expand(s.marks, places.get(s.view.name, Placement(0j)), LETTERS) for s in steps]
+        return lettered(expanded, self._titles, self._box.moved(self.origin))
+
+    def page(self, current: int | None = None) -> Page:
+        """The drawing up to the own step of that index, which is in colour; by default the finished drawing."""
+        count = len(self._drawn) if current is None else len(self.former) + current + 1
+        groups = [Group("titles", self._titles)] if self._titled else []
+        for k, entities in enumerate(shading_parted(self._drawn[:count])):
+            stage = CURRENT_STEP if k == count - 1 else FORMER_STEP
+            shown = entities if current is None else tuple(_in_progress(e, stage) for e in entities)
+            groups.append(Group(f"step-{k + 1:02d}", shown))
+        box = self._box.moved(self.origin)
+        return Page(box.width, box.height, box, tuple(groups))
+
+
+def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
+    return tuple(step for step in steps if step.view.name == name)
+
+
+def _in_progress(entity: Entity, stage: str) -> Entity:
+    return replace(entity, role=in_progress(entity.role, stage))
+
+
+def ancestors(construction: Construction) -> list[Construction]:
+    """The constructions that one starts from, directly or not, the first drawn first.
+
+    >>> import graphcam as gc
+    >>> [c.name for c in ancestors(gc.solve(gc.builtin_task()).drawn["minimum_radius"])]
+    ['acceleration', 'integration']
+    """
+    found: dict[str, Construction] = {}
+    for given in construction.givens.values():
+        if isinstance(given, Construction):
+            found |= {c.name: c for c in (*ancestors(given), given)}
+    return list(found.values())
+
+
+def board_of(construction: Construction, tell: Tell = str, on: Construction | None = None) -> StepBoard:
+    """The views that a construction draws in, each with what stood in it before.
+
+    on : a construction that it does not start from, but is drawn over
+    """
+    board = StepBoard((), tuple(step.told(tell) for step in construction.steps()))
+    before = (*ancestors(construction), *([on] if on else ()))
+    former = (step.told(tell) for c in before for step in c.steps() if step.view.name in board.views)
+    return replace(board, former=tuple(former))

@@ -1,0 +1,69 @@
+"""Values that show themselves: in few lines of text, and as a drawing made in a room above the value's own.
+
+Imports go down only, and importing graphcam loads no renderer: a motion stands in one of the lowest rooms, what draws
+it in one of the highest.  So a value names the function that shows it, which is looked up when somebody wants to see
+it.  This is the only place where that is done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphcam.errors import DesignError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Axes
+    from matplotlib.figure import Figure as Figure
+
+LINES, WIDTH = 8, 100
+"""Of a value's text at most: lines, and letters of a line that may be cut."""
+
+
+def from_above(function: str) -> Callable[..., Any]:
+    """The function of a room above, such as "report.output_folder.write".
+
+    >>> from_above("plots.cam_outline.plot").__name__
+    'plot'
+    """
+    module, _, name = function.rpartition(".")
+    return getattr(import_module(f"graphcam.{module}"), name)
+
+
+def in_lines(first: str, rows: Iterable[str], last: str) -> str:
+    """The text of a value: what it is, its sizes as far as there is room, and how to go on.
+
+    >>> in_lines("Cam", ["radius 20 mm"], ".plot()")
+    'Cam\\n  radius 20 mm\\n.plot()'
+    """
+    rows, room = list(rows), LINES - 2
+    if len(rows) > room:
+        rows = [*rows[: room - 1], f"and {len(rows) - room + 1} more"]
+    return "\n".join([first, *(f"  {row}" for row in rows), last])
+
+
+class Shown:
+    """A value that is drawn by ``plot`` of the module ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
+
+    _drawn_in: ClassVar[str]
+
+    def plot(self, axes: Axes | Figure | None = None) -> Axes:
+        """Draw it on the given axes, on new ones in the given figure, or in a new figure; returns the axes.
+
+        Raises
+        ------
+        DesignError : there is nothing to draw
+
+        >>> import graphcam as gc
+        >>> motion = gc.builtin_task().motion()
+        >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
+        ['s, mm', 'v, mm/rad', 'a, mm/rad²', 'j, mm/rad³']
+        """
+        return from_above(f"plots.{self._drawn_in}.plot")(self, axes)
+
+    def _repr_svg_(self) -> str | None:
+        try:
+            return from_above("plots.figures.svg_of")(self)
+        except DesignError:
+            return None

@@ -1,0 +1,165 @@
+"""Plots on axes: the curves are those of the values, and the user's figures stay as they were."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.figure import Figure
+
+import graphcam as gc
+
+
+@pytest.fixture(scope="module")
+def solution():
+    return gc.solve(gc.builtin_task())
+
+
+@pytest.fixture(autouse=True)
+def without_a_display():
+    pyplot.switch_backend("agg")
+    pyplot.close("all")
+    yield
+    pyplot.close("all")
+
+
+def line(axes, label):
+    return next(line for line in axes.lines if line.get_label() == label).get_xydata()
+
+
+def things(solution):
+    arcs = gc.solve(gc.builtin_arcs_task())
+    drawn = solution.drawn["minimum_radius"]
+    return [solution, solution.chain, solution.cam, solution.cam.motion, drawn, drawn.steps()[0], arcs.cam, arcs.motion]
+
+
+def test_given_axes_are_drawn_on_and_returned(solution):
+    for thing in things(solution):
+        axes = Figure().add_subplot()
+        assert thing.plot(axes=axes) is axes
+        axes.figure.canvas.draw()
+    # No figure was made for it.
+    assert pyplot.get_fignums() == []
+
+
+def test_without_axes_a_new_figure_is_shown(solution):
+    backend, settings = mpl.get_backend(), dict(mpl.rcParams)
+    for number, thing in enumerate(things(solution), 1):
+        axes = thing.plot()
+        assert pyplot.gcf() is axes.figure
+        assert len(pyplot.get_fignums()) == number
+    assert mpl.get_backend() == backend
+    assert dict(mpl.rcParams) == settings
+
+
+def test_a_drawing_of_a_notebook_leaves_pyplot_alone(solution):
+    for thing in things(solution):
+        assert thing._repr_svg_() is not None
+    assert pyplot.get_fignums() == []
+
+
+def test_it_works_without_a_display():
+    code = "import graphcam as gc; print(gc.solve(gc.builtin_task()).cam.plot().get_title())"
+    assert "clockwise" in subprocess.check_output([sys.executable, "-c", code], text=True, env={"PATH": ""})
+
+
+@pytest.mark.parametrize("task", ["coursework", "flat", "measured"])
+def test_the_curves_of_a_motion_are_its_values(task):
+    motion = gc.builtin_task(task).motion()
+    diagrams = motion.plot().child_axes
+    for diagram, k in zip(diagrams, range(4), strict=True):
+        phi, drawn = diagram.lines[0].get_xydata().T
+        right, left = (motion(np.radians(phi), side)[k] for side in ("right", "left"))
+        off = np.minimum(np.abs(drawn - right), np.abs(drawn - left))
+        assert off.max() <= 1e-9 * max(1.0, np.abs(drawn).max())
+        assert phi[0] == 0
+        assert phi[-1] == pytest.approx(360)
+        # Where a phase begins there is a line across.
+        across = [line.get_xdata()[0] for line in diagram.lines if line.get_linestyle() == "--"]
+        assert across == pytest.approx(np.degrees(motion.starts).tolist())
+
+
+def test_both_sides_of_a_jump_are_drawn():
+    motion = gc.builtin_task().motion()
+    phi, a = motion.plot().child_axes[2].lines[0].get_xydata().T
+    for jump in motion.breaks[1:]:
+        (there,) = np.nonzero(np.isclose(phi, np.degrees(jump)))
+        assert a[there] == pytest.approx([motion(jump, "left")[2], motion(jump)[2]])
+
+
+def test_the_curves_of_a_cam_are_its_own(solution):
+    cam = solution.cam
+    axes = cam.plot()
+    assert axes.get_aspect() == 1
+    phi = np.radians(np.arange(0, 360, 10.0))
+    for name, exact in (("pitch curve", cam.pitch_curve(phi)), ("working profile", cam.profile(phi))):
+        drawn = line(axes, name)
+        # Each place lies between two neighbouring points of the drawn curve.
+        assert max(np.hypot(*(drawn - place).T).min() for place in exact) < 1.0
+    assert np.hypot(*line(axes, "prime circle, 44 mm").T) == pytest.approx(44)
+    roller = line(axes, "roller, 17 mm") - cam.pitch_curve(0.0)
+    assert np.hypot(*roller.T) == pytest.approx(17)
+
+
+def test_a_flat_face_lies_on_its_cam():
+    cam = gc.solve(gc.builtin_task("flat")).cam
+    axes = cam.plot()
+    assert "pitch curve" not in [line.get_label() for line in axes.lines]
+    assert line(axes, "flat face")[:, 1] == pytest.approx(cam.profile(0.0)[1])
+
+
+def test_a_cam_of_arcs_passes_its_points():
+    cam = gc.solve(gc.builtin_arcs_task()).cam
+    profile = line(cam.plot(), "profile")
+    for point in (cam.A, cam.G, cam.F, cam.D):
+        assert np.hypot(*(profile - point).T).min() < 1e-6
+    with pytest.raises(gc.DesignError, match="not sound"):
+        gc.solve(gc.builtin_arcs_task()).roots[1].plot()
+
+
+def test_a_later_step_shows_more(solution):
+    for construction in solution.drawn.values():
+        if construction.name == "roller":
+            continue
+        counts = [len(construction.plot(k).artists) for k in range(len(construction.steps()))]
+        assert counts == sorted(set(counts)), construction.name
+        pyplot.close("all")
+
+
+def test_a_construction_is_drawn_in_millimetres_of_paper(solution):
+    """What a lecturer adds at a point of the construction stands on it: the views are not moved from step to step."""
+    integration = solution.drawn["integration"]
+    first, whole = integration.plot(0), integration.plot()
+    assert first.get_xlim() == whole.get_xlim()
+    assert first.get_ylim() == whole.get_ylim()
+    left, right = whole.get_xlim()
+    length = solution.drawn["acceleration"].readings["base"].paper
+    assert left < -float(integration.givens["poles"][0])
+    assert right > length
+    assert right - left < length + 100
+
+
+@pytest.mark.parametrize("step", [-1, 7])
+def test_a_step_that_is_not_there_is_refused(solution, step):
+    with pytest.raises(gc.DesignError, match=f"step is {step}, but must be an index of the steps, 0 to 6"):
+        solution.drawn["integration"].plot(step)
+
+
+def test_words_alone_cannot_be_plotted(solution):
+    with pytest.raises(gc.DesignError, match="see the captions of the steps"):
+        solution.drawn["roller"].plot()
+
+
+def test_letters_and_lines_follow_the_axes(solution):
+    """A sheet on axes of half the size is half as bold: it is the same drawing, seen smaller."""
+    figure = Figure((8, 4))
+    large, small = figure.add_axes((0, 0, 1, 1)), figure.add_axes((0, 0, 0.5, 0.5))
+    for axes in (large, small):
+        solution.plot(axes)
+    figure.canvas.draw()
+    heights = [axes.transData.transform([(0, 0), (0, 1)])[1, 1] for axes in (large, small)]
+    assert heights[0] == pytest.approx(2 * heights[1])

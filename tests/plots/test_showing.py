@@ -1,0 +1,126 @@
+"""Values that show themselves: few lines in a terminal, a drawing in a notebook."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import graphcam as gc
+from graphcam.showing import LINES, Shown, from_above, in_lines
+
+SVG = "{http://www.w3.org/2000/svg}"
+PACKAGE = Path(gc.__file__).parent
+TASKS = ("coursework", "arm", "flat", "measured", "arcs")
+
+
+@pytest.fixture(scope="module", params=TASKS)
+def solution(request):
+    return gc.solve(gc.builtin_arcs_task() if request.param == "arcs" else gc.builtin_task(request.param))
+
+
+def values(solution):
+    """Everything of a solution that shows itself, and its readings."""
+    constructions = list(solution.drawn.values())
+    motion = solution.motion if isinstance(solution, gc.ArcsSolution) else solution.cam.motion
+    readings = [reading for construction in constructions for reading in construction.readings.values()]
+    steps = [step for construction in constructions for step in construction.steps()]
+    return [solution, solution.chain, solution.cam, motion, *constructions, *steps, *readings]
+
+
+def test_few_lines_say_what_it_is(solution):
+    for value in values(solution):
+        lines = repr(value).splitlines()
+        assert 1 <= len(lines) <= LINES, repr(value)
+        assert max(map(len, lines)) <= 130, repr(value)
+        assert lines[0].startswith((type(value).__name__, "Cam")), lines[0]
+
+
+@pytest.mark.parametrize("samples", [1, 50])
+def test_few_lines_of_a_hand_that_draws_many_times(samples):
+    pencil = gc.Pencil(line=0.2, dividers=0.2, samples=samples)
+    drawn = gc.solve(gc.builtin_task(), pencil).drawn
+    for construction in drawn.values():
+        assert len(repr(construction).splitlines()) <= LINES
+        assert f"samples: {samples}" in repr(construction)
+
+
+def test_a_construction_tells_its_readings_as_millimetres_times_a_scale():
+    drawn = gc.solve(gc.builtin_task()).drawn
+    assert "prime_radius: 72.133 mm × 0.6 mm/mm = 43.28 mm" in repr(drawn["minimum_radius"])
+    assert "v: [-66.667 ... 50] mm × 0.85944 (mm/rad)/mm = [-57.296 ... 42.972] mm/rad" in repr(drawn["integration"])
+    # A length that stands for itself, and an angle, have no scale.
+    assert "greatest: [50 ... 88.889] mm of paper" in repr(drawn["acceleration"])
+    assert repr(drawn["pressure_angle"].readings["alpha"]) == "Reading [-0.86075 ... 0.51804] rad"
+
+
+def test_what_cannot_be_read_is_told_as_such():
+    nothing = gc.Reading(np.full(3, np.nan), 0.5, "mm")
+    assert repr(nothing) == "Reading [nan] mm × 0.5 mm/mm = [nan] mm"
+
+
+def test_a_solution_is_told_without_drawing_it():
+    solution = gc.solve(gc.builtin_task())
+    repr(solution), repr(solution.chain)
+    assert "working_profile" not in solution.chain.__dict__
+    assert "comparison" not in solution.__dict__
+
+
+def test_many_rows_are_cut_short():
+    lines = in_lines("many", map(str, range(20)), "go on").splitlines()
+    assert len(lines) == LINES
+    assert lines[-2:] == ["  and 15 more", "go on"]
+
+
+def shown(value):
+    """What a notebook shows of a value, read as XML: the texts and the number of paths."""
+    root = ElementTree.fromstring(value._repr_svg_())
+    assert root.tag == f"{SVG}svg"
+    return ["".join(text.itertext()) for text in root.iter(f"{SVG}text")], len(list(root.iter(f"{SVG}path")))
+
+
+def test_a_notebook_shows_what_is_drawn(solution):
+    for construction in solution.drawn.values():
+        if construction.name == "roller":  # it is all in words
+            assert construction._repr_svg_() is None
+            continue
+        texts, paths = shown(construction)
+        views = {str(step.view.title).partition(",")[0].split()[0] for step in construction.steps() if step.marks}
+        assert all(any(view in text for text in texts) for view in views), construction.name
+        assert paths > 3
+    finished, paths = shown(solution)
+    assert solution.task.title.name.split()[0] in " ".join(finished)
+    assert paths > 50
+
+
+def test_a_notebook_shows_cams_motions_and_steps():
+    solution = gc.solve(gc.builtin_task())
+    texts, _ = shown(solution.cam)
+    assert {"pitch curve", "working profile", "prime circle, 44 mm", "roller, 17 mm", "cam centre"} <= set(texts)
+    texts, _ = shown(solution.cam.motion)
+    assert {"s, mm", "v, mm/rad", "a, mm/rad²", "j, mm/rad³"} <= set(texts)
+    assert [text for text in texts if text in ("rise", "dwell", "return")] == ["rise", "dwell", "return", "dwell"]
+    first, last = solution.drawn["minimum_radius"].steps()[::4]
+    assert shown(first) != shown(last)
+    assert {"Acceleration", "Velocity", "Displacement"} <= set(shown(solution.chain)[0])
+    sound, other = gc.solve(gc.builtin_arcs_task()).roots
+    assert {"A", "G", "F", "D", "C1", "C3"} <= set(shown(sound)[0])
+    assert other._repr_svg_() is None
+
+
+def test_functions_of_rooms_above_are_there():
+    """They are named in words, which no type checker reads."""
+    named: set[str] = set()
+    for path in PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "from_above":
+                named |= {node.args[0].value} if isinstance(node.args[0], ast.Constant) else set()
+    assert {"report.output_folder.write", "plots.figures.svg_of"} <= named
+    kinds = [getattr(gc, name) for name in dir(gc)]
+    drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Shown)}
+    assert drawn == {"cam_outline", "arcs_outline", "construction_drawing", "motion_curves", "sheet_page"}
+    for function in named | {f"plots.{module}.plot" for module in drawn}:
+        assert callable(from_above(function))
