@@ -20,7 +20,8 @@ class DesignError(GraphcamError, ValueError):
     limit : what is allowed ("greater than 0 mm")
     remedy : what to do about it; may be empty
 
-    >>> print(DesignError("lift", -3, "greater than 0 mm", "give the height of the rise"))
+    >>> import graphcam as gc
+    >>> print(gc.DesignError("lift", -3, "greater than 0 mm", "give the height of the rise"))
     lift is -3, but must be greater than 0 mm; give the height of the rise
     """
 
@@ -38,7 +39,8 @@ class DesignError(GraphcamError, ValueError):
 class TaskError(GraphcamError):
     """A task file that cannot be used: the file, the field, its value, what was expected, the remedy.
 
-    >>> print(TaskError("cam.toml", "motion.phases[0].lift", 0, "greater than 0", "give the lift in mm"))
+    >>> import graphcam as gc
+    >>> print(gc.TaskError("cam.toml", "motion.phases[0].lift", 0, "greater than 0", "give the lift in mm"))
     cam.toml: motion.phases[0].lift is 0, but must be greater than 0; give the lift in mm
     """
 

@@ -34,9 +34,9 @@ def at_speed(motion: Motion, speed_rpm: float, unit: str = "mm") -> list[PhaseAt
     m/s, 6.17 and 24.67 m/s^2.
 
     >>> from math import radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(50, radians(120), "cosine"), Dwell(radians(30)), Return(50, radians(60), "cosine"),
-    ...                  Dwell(radians(150))])
+    >>> import graphcam as gc
+    >>> rise, back = gc.Rise(50, radians(120), "cosine"), gc.Return(50, radians(60), "cosine")
+    >>> motion = gc.Motion([rise, gc.Dwell(radians(30)), back, gc.Dwell(radians(150))])
     >>> [round(phase.max_acceleration, 2) for phase in at_speed(motion, 100)]
     [6.17, 0.0, 24.67, 0.0]
     """

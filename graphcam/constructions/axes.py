@@ -42,9 +42,9 @@ def station_names(stations: Stations) -> list[str]:
     """The stations' names: 0, 1, 2 ... in the first moving phase, 0′, 1′ ... in the second, and so on.
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Rise, Return
+    >>> import graphcam as gc
     >>> from graphcam.given.stations import divide
-    >>> station_names(divide(Motion([Rise(30, pi), Return(30, pi)]), 2))
+    >>> station_names(divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 2))
     ['0', '1', '2', '0′', '1′', '2′']
     """
     return [f"{k}" + "′" * phase for phase, span in enumerate(stations.phases) for k in range(span.stop - span.start)]
@@ -78,8 +78,9 @@ class PhaseNumber:
 def phase_symbol(motion: Motion, k: int) -> Caption:
     """The symbol of the angle of phase ``k``; schools name it by its number or by its kind.
 
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> str(phase_symbol(Motion([Rise(30, 2.0), Dwell(1.0), Return(30, 2.0), Dwell(FULL_TURN - 5.0)]), 3))
+    >>> import graphcam as gc
+    >>> str(phase_symbol(gc.Motion([gc.Rise(30, 2.0), gc.Dwell(1.0), gc.Return(30, 2.0),
+    ...     gc.Dwell(FULL_TURN - 5.0)]), 3))
     'φ₄'
     """
     kinds = [_kind(motion, i) for i in range(len(motion.phases))]
@@ -162,9 +163,9 @@ def numbered(points: Points, stations: Stations) -> list[int]:
     room beside their points.
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Rise, Return
+    >>> import graphcam as gc
     >>> from graphcam.given.stations import divide
-    >>> halves = divide(Motion([Rise(30, pi), Return(30, pi)]), 5)
+    >>> halves = divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 5)
     >>> numbered(np.arange(12) + 0j, halves), numbered(10.0 * np.arange(12) + 0j, halves)[:6]
     ([0, 5, 6, 11], [0, 1, 2, 3, 4, 5])
     """

@@ -82,8 +82,9 @@ def differentiation(
     ------
     DesignError : there are fewer than four stations, they do not grow, or pass the end of the turn
 
+    >>> import graphcam as gc
     >>> x = np.arange(0.0, 60.0, 10.0)
-    >>> drawn = differentiation(x, x**2 / 100, Scale(0.02, "rad"), Scale(0.5, "mm"), (50.0, 50.0), Pencil())
+    >>> drawn = differentiation(x, x**2 / 100, gc.Scale(0.02, "rad"), gc.Scale(0.5, "mm"), (50.0, 50.0), gc.Pencil())
     >>> drawn.readings["v"].paper.round(9).tolist(), drawn.readings["v"].scale
     ([5.0, 15.0, 25.0, 35.0, 45.0], 0.5)
     >>> drawn.readings["v_at"].paper.tolist()

@@ -27,8 +27,8 @@ LAW_TITLES: Mapping[str, Caption] = {
 def law_name(law: Law) -> Words:
     """The name of a law.
 
-    >>> from graphcam.given.laws import law
-    >>> str(law_name(law("cosine"))), str(law_name(law("3-4-5")))
+    >>> import graphcam as gc
+    >>> str(law_name(gc.law("cosine"))), str(law_name(gc.law("3-4-5")))
     ('cosine', '3-4-5')
     """
     return LAW_TITLES.get(law.name, law.name)

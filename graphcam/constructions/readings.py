@@ -112,9 +112,8 @@ class ReadingRow:
 def rows(construction: Construction, step: Step) -> list[ReadingRow]:
     """The readings that a step of a construction takes; one that could not be read anywhere is left out.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> region = solve(builtin_task()).drawn["minimum_radius"]
+    >>> import graphcam as gc
+    >>> region = gc.solve(gc.builtin_task()).drawn["minimum_radius"]
     >>> for row in rows(region, region.steps()[-1]):
     ...     print(row.title, "=", row.said())
     prime radius r₀ = 72.13 mm × 0.6 mm/mm = 43.28 mm

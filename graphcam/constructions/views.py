@@ -23,7 +23,8 @@ FORCES = View("forces", say("Force plan"), across="forces", up="forces")
 def at_scale(view: View, scale: Scale) -> View:
     """A view whose title says its drawing scale.
 
-    >>> str(at_scale(PLAN, Scale(2.0, "mm")).title)
+    >>> import graphcam as gc
+    >>> str(at_scale(PLAN, gc.Scale(2.0, "mm")).title)
     'Velocity plan, 1:2'
     """
     return replace(view, title=say("{title}, {ratio}", title=view.title, ratio=ratio_text(scale.per_mm)))

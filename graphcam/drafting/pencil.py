@@ -30,7 +30,8 @@ class Pencil:
     samples : how many hands draw at once; None for one, without a sample axis
     seed : of the random numbers; each construction has its own stream of them
 
-    >>> Pencil(line=0.2, samples=3).hand("integration").line(2).shape
+    >>> import graphcam as gc
+    >>> gc.Pencil(line=0.2, samples=3).hand("integration").line(2).shape
     (3, 2)
     """
 
@@ -59,7 +60,8 @@ class Pencil:
     def sheets(self, paper: ArrayLike) -> NDArray[Any]:
         """The same lengths or points on every sample's sheet: shaped ([samples,] ...).
 
-        >>> Pencil(samples=3).sheets([1.0, 2.0]).shape
+        >>> import graphcam as gc
+        >>> gc.Pencil(samples=3).sheets([1.0, 2.0]).shape
         (3, 2)
         """
         paper = np.asarray(paper)
@@ -105,7 +107,8 @@ class Hand:
     def readings(self, scale: float | NDArray[np.float64], unit: str, **paper: Floats) -> dict[str, Reading]:
         """Lengths as they are read off a scale, by their names.
 
-        >>> read = Pencil(division=0.5).hand("minimum_radius").readings(0.2, "mm", radius=np.array(40.2))
+        >>> import graphcam as gc
+        >>> read = gc.Pencil(division=0.5).hand("minimum_radius").readings(0.2, "mm", radius=np.array(40.2))
         >>> read["radius"].paper.item(), read["radius"].value.item()
         (40.0, 8.0)
         """

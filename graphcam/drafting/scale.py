@@ -19,7 +19,8 @@ STANDARD_RATIOS = (
 class Scale:
     """mu = ``per_mm`` machine units of ``unit`` for one millimetre of paper.
 
-    >>> Scale(0.6, "mm").value(50), Scale(0.6, "mm").paper(30)
+    >>> import graphcam as gc
+    >>> gc.Scale(0.6, "mm").value(50), gc.Scale(0.6, "mm").paper(30)
     (30.0, 50.0)
     """
 

@@ -20,7 +20,8 @@ class Guide:
     ------
     DesignError : a value is negative or not finite, or the bearings are not apart
 
-    >>> Guide(friction=0.1, overhang=40, length=80)
+    >>> import graphcam as gc
+    >>> gc.Guide(friction=0.1, overhang=40, length=80)
     Guide(friction=0.1, overhang=40, length=80)
     """
 

@@ -35,8 +35,8 @@ def velocity_jumps(motion: Motion) -> list[Jump]:
     """The rigid impacts: where v jumps [mm/rad].
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Return, Rise
-    >>> velocity_jumps(Motion([Rise(30, pi, "rectangular"), Return(30, pi, "2-3")]))
+    >>> import graphcam as gc
+    >>> velocity_jumps(gc.Motion([gc.Rise(30, pi, "rectangular"), gc.Return(30, pi, "2-3")]))
     []
     """
     return _jumps(motion, derivative=1)
@@ -46,8 +46,8 @@ def acceleration_jumps(motion: Motion) -> list[Jump]:
     """The soft impacts: where a jumps [mm/rad^2].
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Return, Rise
-    >>> jumps = acceleration_jumps(Motion([Rise(30, 2, "cosine"), Return(30, 2 * pi - 2, "3-4-5")]))
+    >>> import graphcam as gc
+    >>> jumps = acceleration_jumps(gc.Motion([gc.Rise(30, 2, "cosine"), gc.Return(30, 2 * pi - 2, "3-4-5")]))
     >>> [(jump.phi, round(jump.size, 3)) for jump in jumps]
     [(0.0, 37.011), (2.0, 37.011)]
     """

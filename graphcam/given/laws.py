@@ -229,12 +229,13 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     ------
     DesignError : the name is unknown, the ratio is not positive, or the law has no ratio
 
-    >>> law("cycloidal").peak_velocity
+    >>> import graphcam as gc
+    >>> gc.law("cycloidal").peak_velocity
     2.0
-    >>> f, df, ddf, dddf = law("rectangular", ratio=2.0)(1 / 3)
+    >>> f, df, ddf, dddf = gc.law("rectangular", ratio=2.0)(1 / 3)
     >>> round(float(f), 12), float(df), float(ddf)
     (0.333333333333, 2.0, -3.0)
-    >>> law("trapezoidal").corners, law("modified-trapezoidal").corners
+    >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """
     own = isinstance(name, Law)

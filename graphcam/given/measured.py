@@ -105,8 +105,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     DesignError : the rows are too few, not numbers, not in order, leave a part of the turn open or do not close; the
         displacement does not move by more than the tolerance; or no spline keeps to the tolerance
 
+    >>> import graphcam as gc
     >>> phi = np.radians(np.arange(0, 360, 5))
-    >>> motion = measured_motion(phi, 10 - 10 * np.cos(phi))
+    >>> motion = gc.measured_motion(phi, 10 - 10 * np.cos(phi))
     >>> [phase.kind for phase in motion.phases], round(motion.lift, 2)
     (['rise', 'return'], 20.0)
     >>> motion.greatest_residual <= motion.tolerance
@@ -135,8 +136,9 @@ def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_T
     ------
     DesignError : as :func:`measured_motion`
 
+    >>> import graphcam as gc
     >>> phi = np.radians(np.arange(0, 360, 5))
-    >>> motion = integrated_motion(phi, 10 * np.cos(phi) + 0.5)
+    >>> motion = gc.integrated_motion(phi, 10 * np.cos(phi) + 0.5)
     >>> round(motion.lift, 1), round(motion.closing, 3)
     (20.0, 0.5)
     """

@@ -47,7 +47,8 @@ def cam_angle(angle: ArrayLike, turn: float = 360.0) -> Floats:
 
     It is reduced before it becomes radians: a thousand million turns in radians are known to a millionth of a degree.
 
-    >>> (cam_angle(37.5 + 360e9) == cam_angle(37.5)).item(), cam_angle(-0.25, turn=1.0).item() / math.pi
+    >>> import graphcam as gc
+    >>> (gc.cam_angle(37.5 + 360e9) == gc.cam_angle(37.5)).item(), gc.cam_angle(-0.25, turn=1.0).item() / math.pi
     (True, 1.5)
     """
     with np.errstate(invalid="ignore"):
@@ -248,7 +249,8 @@ class Motion(Shown):
 
         phase : index of the phase, one or as many as there are u
 
-        >>> motion = Motion([Rise(30, 1.0, "rectangular"), Return(30, FULL_TURN - 1, "rectangular")])
+        >>> import graphcam as gc
+        >>> motion = gc.Motion([gc.Rise(30, 1.0, "rectangular"), gc.Return(30, FULL_TURN - 1, "rectangular")])
         >>> motion.at([0, 1], [1.0, 0.0])[2].round(3).tolist()
         [-120.0, -4.299]
         """
@@ -268,7 +270,8 @@ class Motion(Shown):
     def angle_at(self, phase: ArrayLike, u: ArrayLike) -> Floats:
         """The cam angle [rad] at the fraction u of a phase.
 
-        >>> motion = Motion([Rise(30, 1.0), Return(30, FULL_TURN - 1)])
+        >>> import graphcam as gc
+        >>> motion = gc.Motion([gc.Rise(30, 1.0), gc.Return(30, FULL_TURN - 1)])
         >>> motion.angle_at(0, [0.5, 1.0]).tolist()
         [0.5, 1.0]
         """

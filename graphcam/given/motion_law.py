@@ -54,12 +54,13 @@ class Law:
     DesignError : the law does not lead from rest to rest, falls, has a velocity that jumps, or something that it gives
         of itself is wrong: a derivative, a peak, a tangent
 
+    >>> import graphcam as gc
     >>> def formula(u):
     ...     return u**2 * (3 - 2 * u), 6 * u * (1 - u), 6 - 12 * u, 0 * u - 12
-    >>> law = Law("my own", formula)
+    >>> law = gc.Law("my own", formula)
     >>> [float(x) for x in law(0.5)], law.peak_velocity
     ([0.5, 1.5, 0.0, -12.0], 1.5)
-    >>> Law("constant acceleration", lambda u: (2 * u**2, 4 * u, 4, 0), mirrored=True).jumps
+    >>> gc.Law("constant acceleration", lambda u: (2 * u**2, 4 * u, 4, 0), mirrored=True).jumps
     (0.5,)
     """
 
@@ -151,8 +152,8 @@ class Law:
     def reversed(self) -> Law:
         """The law that runs backwards: 1 - f(1 - u).
 
-        >>> from graphcam.given.laws import law
-        >>> law("rectangular", ratio=4.0).reversed.ratio
+        >>> import graphcam as gc
+        >>> gc.law("rectangular", ratio=4.0).reversed.ratio
         0.25
         """
         formulas, edges = [piece.formula for piece in self.pieces], tuple(1 - u for u in reversed(self.edges))

@@ -77,8 +77,9 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     ------
     DesignError : the samples are fewer than three, not numbers, or not in order; or the spline through them is no law
 
+    >>> import graphcam as gc
     >>> u = np.linspace(0, 1, 21)
-    >>> law = sampled_law("half a turn", u, (1 - np.cos(np.pi * u)) / 2, accelerations=(np.pi**2 / 2, -np.pi**2 / 2))
+    >>> law = gc.sampled_law("half a turn", u, (1 - np.cos(np.pi * u)) / 2, accelerations=(np.pi**2 / 2, -np.pi**2 / 2))
     >>> round(law.peak_velocity, 6)
     1.570796
     """

@@ -33,7 +33,8 @@ class SpringLoad:
     DesignError : a value is negative where it cannot be, or not finite
 
     >>> import numpy as np
-    >>> load = SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=80)
+    >>> import graphcam as gc
+    >>> load = gc.SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=80)
     >>> rest = np.zeros(1)
     >>> load.force((rest, rest, rest, rest)).tolist()
     [80.0]

@@ -67,14 +67,14 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     DesignError : divisions is less than 1
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Rise, Return
-    >>> motion = Motion([Rise(30, pi, "rectangular", ratio=3.0), Return(30, pi, "cosine")])
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "rectangular", ratio=3.0), gc.Return(30, pi, "cosine")])
     >>> stations = divide(motion, 4)
     >>> stations.u.tolist()
     [0.0, 0.25, 0.5, 0.75, 1.0, 0.0, 0.25, 0.5, 0.75, 1.0]
     >>> stations.pieces
     (slice(0, 2, None), slice(1, 5, None), slice(5, 10, None))
-    >>> triangular = Motion([Rise(30, pi, "triangular"), Return(30, pi, "cosine")])
+    >>> triangular = gc.Motion([gc.Rise(30, pi, "triangular"), gc.Return(30, pi, "cosine")])
     >>> divide(triangular, 6, at_corners=True).u[:7].round(3).tolist()
     [0.0, 0.125, 0.25, 0.417, 0.583, 0.75, 1.0]
     """

@@ -55,10 +55,11 @@ def spring_preload(
         only (:meth:`Contact.least_force` names the side), and of equal places the first is named
 
     >>> from math import degrees, radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> import graphcam as gc
     >>> angle = radians(45)
-    >>> motion = Motion([Rise(30, angle, "cosine"), Dwell(angle), Return(30, angle, "cosine"), Dwell(5 * angle)])
-    >>> preload, phi = spring_preload(motion, mass=0.2, speed_rpm=550, stiffness=3)
+    >>> motion = gc.Motion([gc.Rise(30, angle, "cosine"), gc.Dwell(angle), gc.Return(30, angle, "cosine"),
+    ...     gc.Dwell(5 * angle)])
+    >>> preload, phi = gc.spring_preload(motion, mass=0.2, speed_rpm=550, stiffness=3)
     >>> round(preload, 4), degrees(phi)
     (69.2296, 45.0)
     """
@@ -72,10 +73,11 @@ class Contact:
     """A translating follower that a load presses on its cam.
 
     >>> from math import degrees, radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> import graphcam as gc
     >>> angle = radians(45)
-    >>> motion = Motion([Rise(30, angle, "cosine"), Dwell(angle), Return(30, angle, "cosine"), Dwell(5 * angle)])
-    >>> contact = Contact(motion, SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=60))
+    >>> motion = gc.Motion([gc.Rise(30, angle, "cosine"), gc.Dwell(angle), gc.Return(30, angle, "cosine"),
+    ...     gc.Dwell(5 * angle)])
+    >>> contact = gc.Contact(motion, gc.SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=60))
     >>> [round(x, 4) for x in contact.least_force()[:2]], contact.least_force().side
     ([-9.2296, 0.7854], 'left')
     >>> [[round(degrees(phi), 2) for phi in interval] for interval in contact.lost()]

@@ -108,9 +108,9 @@ def face_width(motion: Motion, rotation: Rotation = "ccw") -> FaceWidth:
     """The least half-widths of a flat face: the contact wanders by sigma v from the follower's axis.
 
     >>> from math import pi, radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(30, radians(120)), Return(30, radians(90)), Dwell(radians(150))])
-    >>> width = face_width(motion, "ccw")
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, radians(120)), gc.Return(30, radians(90)), gc.Dwell(radians(150))])
+    >>> width = gc.face_width(motion, "ccw")
     >>> round(width.left, 4), round(width.right, 4)
     (35.8099, 26.8574)
     """
@@ -134,9 +134,9 @@ def flat_minimum_radius(
     """The least prime radius at which rho = r0 + s + a is nowhere less than the permitted ``curvature`` radius [mm].
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(30, pi / 2, "cosine"), Return(30, pi / 2, "cosine"), Dwell(pi)])
-    >>> round(flat_minimum_radius(motion, FlatFaced(), +1, Limits(), curvature=8.0).prime_radius, 9)
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi / 2, "cosine"), gc.Return(30, pi / 2, "cosine"), gc.Dwell(pi)])
+    >>> round(flat_minimum_radius(motion, gc.FlatFaced(), +1, Limits(), curvature=8.0).prime_radius, 9)
     38.0
     """
     least = curvature or 0.0

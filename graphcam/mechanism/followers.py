@@ -44,7 +44,8 @@ def kinematics(follower: Follower, prime_radius: float, sigma: int, lift: float)
     ------
     DesignError : the follower does not fit the prime radius or the lift, or an arm's centre distance is open
 
-    >>> kinematics(Translating(offset=30), prime_radius=50, sigma=+1, lift=20)
+    >>> import graphcam as gc
+    >>> kinematics(gc.Translating(offset=30), prime_radius=50, sigma=+1, lift=20)
     TranslatingKinematics(sigma=1, prime_radius=50, offset=30)
     """
     found = EXACT[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)

@@ -49,7 +49,8 @@ def transmission_angle(pressure_angle: ArrayLike) -> Floats:
 def grip(guide: Guide, s: Floats | float = 0.0) -> Floats:
     """g = mu (1 + 2 b/l), the friction in the guide over the side force, with the follower s mm up: b = overhang - s.
 
-    >>> float(grip(Guide(friction=0.1, overhang=40, length=80)))
+    >>> import graphcam as gc
+    >>> float(grip(gc.Guide(friction=0.1, overhang=40, length=80)))
     0.2
     """
     return np.asarray(guide.friction * (1 + 2 * (guide.overhang - s) / guide.length))
@@ -58,7 +59,8 @@ def grip(guide: Guide, s: Floats | float = 0.0) -> Floats:
 def jamming_angle(guide: Guide, s: Floats | float = 0.0) -> Floats:
     """The pressure angle [rad] at which the guide jams on a rise: tan alpha = l/(mu (2 b + l)); pi/2 without friction.
 
-    >>> round(math.degrees(jamming_angle(Guide(friction=0.1, overhang=40, length=80))), 4)
+    >>> import graphcam as gc
+    >>> round(math.degrees(jamming_angle(gc.Guide(friction=0.1, overhang=40, length=80))), 4)
     78.6901
     """
     return np.arctan2(1.0, grip(guide, s))
@@ -98,11 +100,11 @@ class CamForces:
     DesignError : the follower is not a translating one, or it rises beyond the nearer bearing
 
     >>> from math import degrees, radians
-    >>> from graphcam.given.follower import Translating
-    >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
-    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
-    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
-    >>> forces = CamForces(cam, SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, radians(120)), gc.Dwell(radians(60)), gc.Return(30, radians(120)),
+    ...     gc.Dwell(radians(60))])
+    >>> cam = gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> forces = gc.CamForces(cam, gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
     >>> at = forces.at(phase=0, u=0.5)
     >>> float(at.load.round(3)), float(at.normal.round(3)), float(at.side.round(3))
     (160.0, 165.459, 42.15)

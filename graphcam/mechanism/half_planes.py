@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations_with_replacement
-from typing import Literal, get_args
+from itertools import combinations
+from typing import Literal, NamedTuple, get_args
 
 Line = Literal["rise", "return", "rest"]
+NAMES: tuple[Line, ...] = get_args(Line)
 
 
-@dataclass(frozen=True)
-class HalfPlane:
+class HalfPlane(NamedTuple):
     """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name."""
 
     name: Line | None
@@ -29,8 +28,11 @@ Kept = tuple[complex, tuple[HalfPlane, ...]]
 
 def nearest(lines: Sequence[HalfPlane]) -> Kept:
     """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off."""
-    # Two half-planes at most fix the nearest point of a plane region (Helly).
-    return max((_nearest_of_two(a, b) for a, b in combinations_with_replacement(lines, 2)), key=lambda p: abs(p[0]))
+    # Two half-planes at most fix the nearest point of a plane region (Helly), and the other lines can only push it
+    # farther out: so it is the farthest of the points that are nearest for two lines alone.
+    if len(lines) < 3:
+        return _nearest_of_two(lines[0], lines[-1])
+    return max((_nearest_of_two(a, b) for a, b in combinations(lines, 2)), key=lambda found: abs(found[0]))
 
 
 def _nearest_of_two(a: HalfPlane, b: HalfPlane) -> Kept:
@@ -43,4 +45,5 @@ def _nearest_of_two(a: HalfPlane, b: HalfPlane) -> Kept:
 
 def names_of(lines: Sequence[HalfPlane]) -> tuple[Line, ...]:
     """The names of lines, each once."""
-    return tuple(name for name in get_args(Line) if any(line.name == name for line in lines))
+    found = {line.name for line in lines}
+    return tuple(name for name in NAMES if name in found)

@@ -34,7 +34,8 @@ class RollerContact:
     ------
     DesignError : a value cannot be
 
-    >>> round(RollerContact(width=15).modulus, 3)
+    >>> import graphcam as gc
+    >>> round(gc.RollerContact(width=15).modulus, 3)
     113186.813
     """
 
@@ -85,10 +86,11 @@ def hertz_line_contact(
     ------
     DesignError : a value cannot be, or a hollow is no wider than what lies in it: they touch in no single line
 
-    >>> pressure, half_width = hertz_line_contact(1000, 20, 30, 15)
+    >>> import graphcam as gc
+    >>> pressure, half_width = gc.hertz_line_contact(1000, 20, 30, 15)
     >>> round(pressure, 6), round(half_width, 9)
     (424.431865, 0.074996698)
-    >>> round(hertz_line_contact(1000, 20, radius1=-20, radius2=15).peak_pressure, 6)
+    >>> round(gc.hertz_line_contact(1000, 20, radius1=-20, radius2=15).peak_pressure, 6)
     173.273583
     """
     if not (math.isfinite(force) and force >= 0):
@@ -143,14 +145,12 @@ class ContactStress:
     DesignError : the follower has no roller
 
     >>> from math import degrees, radians
-    >>> from graphcam.given.follower import Translating
-    >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
-    >>> from graphcam.given.spring_load import SpringLoad
-    >>> from graphcam.mechanism.cam import Cam
-    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
-    >>> cam = Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50)
-    >>> forces = CamForces(cam, SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
-    >>> stress, phi, _ = ContactStress(forces, RollerContact(width=15)).greatest()
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, radians(120)), gc.Dwell(radians(60)), gc.Return(30, radians(120)),
+    ...     gc.Dwell(radians(60))])
+    >>> cam = gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> forces = gc.CamForces(cam, gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100))
+    >>> stress, phi, _ = gc.ContactStress(forces, gc.RollerContact(width=15)).greatest()
     >>> round(stress, 3), round(degrees(phi), 3)
     (228.67, 189.467)
     """

@@ -92,12 +92,13 @@ def minimum_radius(
         radius, or for the given distance), a length is not finite, or an offset or a curvature is given for a follower
         that has none
 
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(30, math.pi / 2, "cosine"), Return(30, math.pi / 2, "cosine"), Dwell(math.pi)])
-    >>> least = minimum_radius(motion, Translating())
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, math.pi / 2, "cosine"), gc.Return(30, math.pi / 2, "cosine"),
+    ...     gc.Dwell(math.pi)])
+    >>> least = gc.minimum_radius(motion, gc.Translating())
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
     (22.5647, 11.2824, ('rise', 'rest'))
-    >>> round(minimum_radius(motion, FlatFaced(), curvature=8.0).prime_radius, 9)
+    >>> round(gc.minimum_radius(motion, gc.FlatFaced(), curvature=8.0).prime_radius, 9)
     38.0
     """
     sigma, exact = sense(rotation), EXACT[type(follower)]

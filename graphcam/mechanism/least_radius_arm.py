@@ -68,10 +68,10 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     DesignError : the lift is too large for the limits, or they cannot be kept at the given distance
 
     >>> from math import pi, radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
+    >>> import graphcam as gc
     >>> swing = radians(20)
-    >>> motion = Motion([Rise(swing, 2.0), Return(swing, 2.0, "cosine"), Dwell(2 * pi - 4)])
-    >>> least = arm_minimum_radius(motion, Oscillating(arm=80), +1, Limits(rise=radians(45)))
+    >>> motion = gc.Motion([gc.Rise(swing, 2.0), gc.Return(swing, 2.0, "cosine"), gc.Dwell(2 * pi - 4)])
+    >>> least = arm_minimum_radius(motion, gc.Oscillating(arm=80), +1, Limits(rise=radians(45)))
     >>> round(least.prime_radius, 4), round(least.distance, 4), least.active
     (11.2226, 88.2929, ('rise', 'rest'))
     """

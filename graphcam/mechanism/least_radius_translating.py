@@ -48,9 +48,10 @@ def translating_minimum_radius(
 ) -> MinimumRadius:
     """The least prime radius for permitted pressure angles, at an offset [mm] if it is given; not the follower's own.
 
-    >>> from graphcam.given.motion import Return, Rise
-    >>> motion = Motion([Rise(30, math.pi / 2, "cosine"), Return(30, math.pi / 2, "cosine"), Dwell(math.pi)])
-    >>> least = translating_minimum_radius(motion, Translating(), +1, Limits())
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, math.pi / 2, "cosine"), gc.Return(30, math.pi / 2, "cosine"),
+    ...     gc.Dwell(math.pi)])
+    >>> least = translating_minimum_radius(motion, gc.Translating(), +1, Limits())
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
     (22.5647, 11.2824, ('rise', 'rest'))
     """
@@ -101,10 +102,10 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
 
     There the tangent at the angle A touches the s - v diagram, and it meets the axis of v at that height.
 
-    >>> from graphcam.given.laws import law
-    >>> u, height = steepest_tangent(law("cosine"), 1.5)
+    >>> import graphcam as gc
+    >>> u, height = steepest_tangent(gc.law("cosine"), 1.5)
     >>> round(u, 12), round(height, 12)
-    (0.433452128665, 1.272441311934)
+    (0.433439924624, 1.272441311934)
     """
     if closed_form := law.tangents[0]:
         return closed_form(k)

@@ -33,8 +33,8 @@ def greatest(
     size : of the terms that the quantity is a sum of, if they are larger than itself; NaN values are left out
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Return, Rise
-    >>> motion = Motion([Rise(30, pi, "rectangular"), Return(30, pi, "rectangular")])
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "rectangular"), gc.Return(30, pi, "rectangular")])
     >>> value, phi, side = greatest(motion, lambda values: values[3], lambda places: places.values[2])
     >>> round(value, 3), phi, side  # the acceleration just after the start, and on to the middle
     (12.159, 0.0, 'right')

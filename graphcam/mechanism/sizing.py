@@ -150,9 +150,10 @@ def size_cam(
         limit that is exceeded most is named
 
     >>> from math import radians
-    >>> from graphcam.given.motion import Dwell, Return, Rise
-    >>> motion = Motion([Rise(12, radians(60)), Dwell(radians(60)), Return(12, radians(60)), Dwell(radians(180))])
-    >>> sized = size_cam(motion, SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=(0, 0),
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)),
+    ...     gc.Dwell(radians(180))])
+    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=(0, 0),
     ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
     >>> sized.cam.prime_radius, round(sized.cam.roller_radius, 6), round(sized.face_width, 3)
     (60.0, 15.0, 10.694)

@@ -80,10 +80,10 @@ def profile_spline(cam: Cam, deviation: float = DEVIATION) -> ProfileSpline:
     DesignError : the deviation is smaller than can be told from rounding, or as for :meth:`Cam.undercuts`
 
     >>> from math import radians
-    >>> from graphcam.given.follower import Translating
-    >>> from graphcam.given.motion import Dwell, Motion, Return, Rise
-    >>> motion = Motion([Rise(30, radians(120)), Dwell(radians(60)), Return(30, radians(120)), Dwell(radians(60))])
-    >>> spline = profile_spline(Cam(motion, Translating(offset=10, roller_radius=12), prime_radius=50))
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, radians(120)), gc.Dwell(radians(60)), gc.Return(30, radians(120)),
+    ...     gc.Dwell(radians(60))])
+    >>> spline = gc.profile_spline(gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50))
     >>> len(spline.control), spline.deviation < 0.001, spline(0).round(4).tolist()
     (43, True, [7.6, 37.2322])
     """

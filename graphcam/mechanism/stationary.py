@@ -44,8 +44,8 @@ def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Plac
     slope : the derivative of the quantity by phi, or anything of its sign, as a function of (s, v, a, j)
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Return, Rise
-    >>> motion = Motion([Rise(30, pi, "cosine"), Return(30, pi, "cosine")])
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "cosine"), gc.Return(30, pi, "cosine")])
     >>> stationary_places(motion, slope=lambda values: values[2]).u.round(12).tolist()  # where v is greatest
     [0.0, 0.0, 1.0, 1.0, 0.5, 0.5]
     """

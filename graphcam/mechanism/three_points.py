@@ -23,9 +23,10 @@ def circumradius(before: ArrayLike, middle: ArrayLike, after: ArrayLike) -> Floa
 
     Which way three floats turn is told exactly, however nearly they lie on a line.
 
-    >>> circumradius([4, 0], [0, 0], [0, 3]).item()
+    >>> import graphcam as gc
+    >>> gc.circumradius([4, 0], [0, 0], [0, 3]).item()
     -2.5
-    >>> bool(circumradius([0.5, 0.5 + 2**-53], [12, 12], [24, 24]) > 0)
+    >>> bool(gc.circumradius([0.5, 0.5 + 2**-53], [12, 12], [24, 24]) > 0)
     True
     """
     points = np.broadcast_arrays(*(np.asarray(point, dtype=np.float64) for point in (before, middle, after)))

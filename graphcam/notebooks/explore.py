@@ -10,7 +10,7 @@ from typing import Any, Protocol
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
-class Shown(Protocol):
+class ShownPosition(Protocol):
     """What a notebook shows of a position: a picture, or several things under one another."""
 
     @property
@@ -39,7 +39,7 @@ class Slider:
 class Exploration:
     """What :func:`explore` shows: sliders in a running notebook, still pictures on a page."""
 
-    draw: Callable[..., Shown]
+    draw: Callable[..., ShownPosition]
     sliders: dict[str, Slider]
 
     @property
@@ -86,7 +86,7 @@ def _view(widget: Any) -> dict[str, Any]:
     return {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
 
 
-def explore(draw: Callable[..., Shown], **sliders: Slider) -> Exploration:
+def explore(draw: Callable[..., ShownPosition], **sliders: Slider) -> Exploration:
     """Move quantities and see the drawing change.
 
     draw : makes what is shown of the sliders' values, by their names

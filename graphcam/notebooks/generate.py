@@ -35,8 +35,8 @@ explore(with_parts, parts=Slider("{parts}", {values}, {start}, {shown}))"""
 def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     """The notebook of a task, to be executed beside its :func:`task_files`.
 
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> notebook = write_notebook(builtin_task("flat"))
+    >>> import graphcam as gc
+    >>> notebook = write_notebook(gc.builtin_task("flat"))
     >>> [cell.source.splitlines()[0] for cell in notebook.cells if cell.source.startswith("## ")][:3]
     ['## The task', '## Acceleration diagram', '## Velocity, displacement and the scales']
 

@@ -20,9 +20,8 @@ HEIGHT = 720
 def player(solution: AnySolution) -> HTML:
     """The step player of a solution as a frame that holds the whole page: nothing is fetched.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> player(solve(builtin_task())).data.startswith('<div class="player"><iframe')
+    >>> import graphcam as gc
+    >>> player(gc.solve(gc.builtin_task())).data.startswith('<div class="player"><iframe')
     True
     """
     from IPython.display import HTML

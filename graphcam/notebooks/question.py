@@ -77,9 +77,8 @@ class Question:
     def about(cls, quantity: Quantity, tell: Tell = str) -> Question:
         """The question for a quantity of a solution, to be answered as a careful hand draws; ``tell`` says its texts.
 
-        >>> from graphcam.solving.solve import solve
-        >>> from graphcam.tasks.task_file import builtin_task
-        >>> greatest = solve(builtin_task()).comparison.quantities["max_v"]
+        >>> import graphcam as gc
+        >>> greatest = gc.solve(gc.builtin_task()).comparison.quantities["max_v"]
         >>> print(Question.about(greatest).check(-57.3).text)
         Not yet: the size is right, the sign is not. Look again at greatest v.
         """

@@ -35,9 +35,8 @@ def _cell(cell: object, digits: int) -> str:
 def compared(solution: AnySolution, *names: str) -> Markdown:
     """Drawn against exact, by the names of ``solution.json``; without a name all quantities that there are.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> print(compared(solve(builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
+    >>> import graphcam as gc
+    >>> print(compared(gc.solve(gc.builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
     [' greatest v, mm/rad ', ' 57.296 ', ' 57.296 ']
     """
     from IPython.display import Markdown

@@ -89,9 +89,8 @@ def stages(construction: Construction, tell: Tell = str, on: Construction | None
 def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:
     """The finished drawing of a construction in one of its views, by default the first; ``tell`` says all texts.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> drawing(solve(builtin_task()).drawn["minimum_radius"]).caption
+    >>> import graphcam as gc
+    >>> drawing(gc.solve(gc.builtin_task()).drawn["minimum_radius"]).caption
     'Displacement and velocity: the least radius'
 
     Raises

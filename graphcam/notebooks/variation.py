@@ -14,8 +14,8 @@ AnyTask = TypeVar("AnyTask")
 def changed(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
     """The task with other values, named as in its file: "drawing.divisions", "follower.offset", "rotation".
 
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> changed(builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
+    >>> import graphcam as gc
+    >>> changed(gc.builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
     12.0
 
     Raises

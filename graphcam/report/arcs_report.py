@@ -107,9 +107,8 @@ def _at_speed(solution: ArcsSolution) -> list[Row]:
 def arcs_note(solution: ArcsSolution) -> str:
     """The note in Markdown.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_arcs_task
-    >>> "C1, F, C3 instead of F, C1, C3" in arcs_note(solve(builtin_arcs_task()))
+    >>> import graphcam as gc
+    >>> "C1, F, C3 instead of F, C1, C3" in arcs_note(gc.solve(gc.builtin_arcs_task()))
     True
     """
     case, tell = solution.task.arcs().design_case, solution.tell

@@ -25,9 +25,8 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     ------
     DesignError : there is no such step or construction
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> blank, finished = sheet_of(solve(builtin_task()), 0), sheet_of(solve(builtin_task()))
+    >>> import graphcam as gc
+    >>> blank, finished = sheet_of(gc.solve(gc.builtin_task()), 0), sheet_of(gc.solve(gc.builtin_task()))
     >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
     (True, True)
     """

@@ -69,9 +69,8 @@ class MechanismScene:
 def cam_scene(solution: Solution) -> MechanismScene:
     """The mechanism of a solution.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> found = cam_scene(solve(builtin_task()))
+    >>> import graphcam as gc
+    >>> found = cam_scene(gc.solve(gc.builtin_task()))
     >>> found.kind, found.trace[0].round(4).item(), found.phi.size
     ('stem', (-10+42.8486j), 721)
     """

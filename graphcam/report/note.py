@@ -50,9 +50,8 @@ TITLES = {
 def note(solution: Solution) -> str:
     """The note in Markdown, with formulas in LaTeX.
 
-    >>> from graphcam.solving.solve import solve
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> "the prime radius is adopted as $r_0 = 44$ mm" in note(solve(builtin_task()))
+    >>> import graphcam as gc
+    >>> "the prime radius is adopted as $r_0 = 44$ mm" in note(gc.solve(gc.builtin_task()))
     True
     """
     written = OF_FOLLOWERS[solution.task.follower.kind]

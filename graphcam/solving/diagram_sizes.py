@@ -72,12 +72,12 @@ def chosen_ordinate(motion: Motion, room: DiagramRoom) -> float:
     """The largest ordinate of the first rise [mm of paper] at which the acceleration keeps to its room.
 
     >>> from math import pi
-    >>> from graphcam.given.motion import Return, Rise
-    >>> slow, steep = Return(30, 4 * pi / 3, "3-4-5"), Return(30, pi / 4, "3-4-5")
+    >>> import graphcam as gc
+    >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
     >>> a3 = ROOMS["A3", "landscape"]
-    >>> chosen_ordinate(Motion([Rise(30, 2 * pi / 3, "3-4-5"), slow]), a3)
+    >>> chosen_ordinate(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), a3)
     40.0
-    >>> chosen_ordinate(Motion([Rise(30, 7 * pi / 4, "3-4-5"), steep]), a3)
+    >>> chosen_ordinate(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), a3)
     5.0
     """
     _, _, a = _values(motion)

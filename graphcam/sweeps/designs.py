@@ -48,7 +48,8 @@ class Designs:
         have, or arm or distance is left out.  A number that no cam can have is no error here: that cam's extremes are
         NaN
 
-    >>> designs = Designs(lift=30, rise_angle=2.0, return_angle=1.5, prime_radius=[40, 50, 60], rise_law="cycloidal")
+    >>> import graphcam as gc
+    >>> designs = gc.Designs(lift=30, rise_angle=2.0, return_angle=1.5, prime_radius=[40, 50, 60], rise_law="cycloidal")
     >>> len(designs), designs.cam(1).prime_radius
     (3, 50.0)
     """
@@ -100,7 +101,8 @@ class Designs:
     def part(self, which: Part) -> Designs:
         """Some of the cams, by a slice, by their numbers or by a mask.
 
-        >>> len(Designs(30, 2.0, 1.5, prime_radius=np.arange(40, 60)).part(slice(0, 5)))
+        >>> import graphcam as gc
+        >>> len(gc.Designs(30, 2.0, 1.5, prime_radius=np.arange(40, 60)).part(slice(0, 5)))
         5
         """
         some = copy(self)  # what was checked need not be checked again

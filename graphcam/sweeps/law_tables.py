@@ -56,8 +56,8 @@ class LawTable:
 def law_table(law: Law) -> LawTable:
     """The table of a law.
 
-    >>> from graphcam.given.laws import law
-    >>> table = law_table(law("rectangular"))
+    >>> import graphcam as gc
+    >>> table = law_table(gc.law("rectangular"))
     >>> first, last = table.seams
     >>> table.w[first].tolist(), table.w[last].tolist(), table.values[2, first].tolist()
     ([0.0, 0.5], [0.5, 1.0], [4.0, -4.0])

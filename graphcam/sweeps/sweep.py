@@ -67,9 +67,10 @@ def sweep(
     DesignError : an unknown quantity, or a chunk of none
 
     >>> import numpy as np
-    >>> designs = Designs(lift=30, rise_angle=np.radians(120), return_angle=np.radians(90), prime_radius=[9, 50, 60],
+    >>> import graphcam as gc
+    >>> designs = gc.Designs(lift=30, rise_angle=np.radians(120), return_angle=np.radians(90), prime_radius=[9, 50, 60],
     ...                   offset=10, roller_radius=12)
-    >>> found = sweep(designs, ["max_pressure_angle_rise", "feasible"])
+    >>> found = gc.sweep(designs, ["max_pressure_angle_rise", "feasible"])
     >>> np.degrees(found["max_pressure_angle_rise"]).round(3).tolist(), found["feasible"].tolist()
     ([nan, 14.978, 12.949], [False, True, True])
     """

@@ -79,7 +79,8 @@ class ArcsTask:
     ------
     DesignError : a value that cannot be, alone or together with another
 
-    >>> ArcsTask(ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))).arcs().design_case
+    >>> import graphcam as gc
+    >>> gc.ArcsTask(ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))).arcs().design_case
     4
     """
 
@@ -98,8 +99,9 @@ class ArcsTask:
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
 
+        >>> import graphcam as gc
         >>> table = ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))
-        >>> ArcsTask(table).to_dict()["arcs"]["A"]
+        >>> gc.ArcsTask(table).to_dict()["arcs"]["A"]
         [0, 40]
         """
         return plain(self)

@@ -247,9 +247,10 @@ class Task:
     ------
     DesignError : a value that cannot be, alone or together with another
 
+    >>> import graphcam as gc
     >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable
     >>> phases = (RiseTable(120, 30, "3-4-5"), ReturnTable(240, 30, "cosine"))
-    >>> task = Task("ccw", MotionTable(phases), TranslatingTable(offset=10))
+    >>> task = gc.Task("ccw", MotionTable(phases), TranslatingTable(offset=10))
     >>> task.motion().lift, task.follower().offset, round(task.limits().rise, 6)
     (30.0, 10, 0.523599)
     """
@@ -306,9 +307,10 @@ class Task:
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
 
+        >>> import graphcam as gc
         >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable
         >>> phases = (RiseTable(120, 30, "2-3"), ReturnTable(240, 30, "2-3"))
-        >>> Task("cw", MotionTable(phases), FlatFacedTable()).to_dict()["motion"]["phases"][0]
+        >>> gc.Task("cw", MotionTable(phases), FlatFacedTable()).to_dict()["motion"]["phases"][0]
         {'kind': 'rise', 'angle': 120, 'lift': 30, 'law': '2-3', 'ratio': 1.0}
         """
         said = plain(self)

@@ -144,7 +144,8 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
 def builtin_task(name: str = "coursework") -> Task:
     """A task that comes with graphcam, by its name in :data:`BUILT_IN`.
 
-    >>> builtin_task().follower().offset
+    >>> import graphcam as gc
+    >>> gc.builtin_task().follower().offset
     -10.0
     """
     if name not in BUILT_IN:
@@ -157,7 +158,8 @@ def builtin_task(name: str = "coursework") -> Task:
 def builtin_arcs_task() -> ArcsTask:
     """The task of a cam of three circular arcs that comes with graphcam.
 
-    >>> builtin_arcs_task().arcs.rho1
+    >>> import graphcam as gc
+    >>> gc.builtin_arcs_task().arcs.rho1
     17.0
     """
     task = _parse("arcs.toml", builtin_text("arcs").encode(), _built_in_folder())

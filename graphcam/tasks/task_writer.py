@@ -17,8 +17,8 @@ TASK_FILE = "task.toml"
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
     """The files of a task by their names: TOML, and the table of a measured motion.
 
-    >>> from graphcam.tasks.task_file import builtin_task
-    >>> list(task_files(builtin_task("measured")))
+    >>> import graphcam as gc
+    >>> list(task_files(gc.builtin_task("measured")))
     ['task.toml', 'measured.csv']
     """
     said = _filled(task.to_dict())
