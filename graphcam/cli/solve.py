@@ -12,6 +12,7 @@ from typer import Option
 
 import graphcam
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_lines
+from graphcam.language import languages
 
 if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
@@ -26,7 +27,7 @@ BLANK = "A blank sheet to draw on: axes, divisions, and what the task gives."
 HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME."
 BY_HAND = "Draw with a hand that errs by this standard deviation, in mm, in each line and each divider setting."
 KINDS = "plain: for every CAD program; cad: with true dimensions and attributes."
-OTHER_LANGUAGE = "Language of sheet and note, not the task's: en, ru."
+OTHER_LANGUAGE = f"Language of sheet and note, not the task's: {', '.join(languages())}."
 
 
 def solve(

@@ -14,6 +14,7 @@ from graphcam.exercises.definition.mistakes import CATALOGUE
 from graphcam.language import languages
 from graphcam.tasks.task_file import builtin_text
 
+KNOWN = ", ".join(languages())
 TITLE = 'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"'
 TOPICS = {
     "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
@@ -46,7 +47,7 @@ def test_the_text_names_every_parameter_of_the_task(name):
         (TITLE, "", "title is missing"),
         (TITLE, "title = 3", "title is 3, but must be text in quotes"),
         (TITLE, "title.en = 3", "title is 3, but must be text in quotes"),
-        ("title.en", "title.eng", "title is 'eng', but must be a language, one of en, ru; did you mean 'en'"),
+        ("title.en", "title.eng", f"title is 'eng', but must be a language, one of {KNOWN}; did you mean 'en'"),
         ('text.ru = "Наибольший', 'text.rus = "Наибольший', r"answers\[5\].text is 'rus'"),
         (TITLE, f'{TITLE}\nlanguage = "ru"', "language is an unknown key"),
         ('reading = "max_v"', 'reading = "vmax"', "reading is 'vmax', but must be one of"),

@@ -109,7 +109,7 @@ FAULTS = {
     "a negative pole": (("[40, 40]", "[40, -40]"), "drawing.poles[1]", "-40 greater than 0 mm"),
     "an unknown format": (('"A1"', '"A5"'), "drawing.format", "'A5' 'A1' 'A4'"),
     "an unknown frame": (('"gost"', '"din"'), "drawing.frame", "'din' 'gost' 'iso'"),
-    "an unknown language": (('language = "en"', 'language = "de"'), "drawing.language", "'de' en, ru"),
+    "an unknown language": (('language = "en"', 'language = "xx"'), "drawing.language", "'xx' en, "),
     "a rounding of zero": (("[drawing]", "[drawing]\nrounding = 0"), "drawing.rounding", "0 greater than 0 mm"),
     "not TOML": (("[limits]", "[limits"), "the text", "TOML line"),
 }  # fmt: skip
