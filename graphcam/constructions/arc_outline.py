@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, perpendicular_bisector, turned, unit
+from graphcam.drafting.euclid import UP, along_to_circle, meet, perpendicular_bisector, turned, unit
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Hand, Pencil
@@ -17,6 +17,7 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import Point, ThreeArcs
+from graphcam.plane import cross, dot
 from graphcam.words import sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y")

@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.arc_outline import mirrored, outline, run
-from graphcam.drafting.euclid import UP, along_to_circle, cross, dot, meet, turned, unit
+from graphcam.drafting.euclid import UP, along_to_circle, meet, turned, unit
 from graphcam.drafting.ink import Construction, Step, View, Words, reading, say
 from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
+from graphcam.plane import cross, dot
 from graphcam.words import joined
 
 ROLLER = View("roller", say("The roller on the arcs"), across="roller x", up="roller y")

@@ -16,7 +16,7 @@ from graphcam.constructions.axes import degrees, numbers, pieces_of
 from graphcam.constructions.region import ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.curve import faired
-from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, dot, turned, unit
+from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.pencil import Hand, Pencil
@@ -24,6 +24,7 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
+from graphcam.plane import dot
 
 
 @dataclass(frozen=True, eq=False)

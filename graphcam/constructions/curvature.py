@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
-from graphcam.drafting.euclid import UP, centre_of_circle, cross, crossing, dot, perpendicular_bisector, stepped_off
+from graphcam.drafting.euclid import UP, centre_of_circle, crossing, perpendicular_bisector, stepped_off
 from graphcam.drafting.ink import Caption, Construction, Step, reading, say
 from graphcam.drafting.marks import Arc, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
@@ -23,6 +23,7 @@ from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving
 from graphcam.given.stations import Stations
+from graphcam.plane import cross, dot
 from graphcam.words import sequence
 
 

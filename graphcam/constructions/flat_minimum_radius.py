@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import OVERHANG, station_names
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import at_greatest, faired, farthest
-from graphcam.drafting.euclid import RIGHT, UP, dot, meet
+from graphcam.drafting.euclid import RIGHT, UP, meet
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Dwell
+from graphcam.plane import dot
 
 DOWN_LEFT = -RIGHT - UP
 """Square to the lines of equal s + a, towards smaller ones."""

@@ -18,7 +18,7 @@ import numpy as np
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.euclid import UP, dot, meet, turned
+from graphcam.drafting.euclid import UP, meet, turned
 from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
@@ -27,6 +27,7 @@ from graphcam.given.follower import sense
 from graphcam.given.guide import Guide
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import SpringLoad
+from graphcam.plane import dot
 
 LOAD_LENGTH = 50.0
 """The load is drawn at the largest round scale at which its arrow is not longer [mm]."""

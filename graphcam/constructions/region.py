@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.curve import at_greatest
-from graphcam.drafting.euclid import NOWHERE, UP, crossing, dot, foot, meet
+from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot, meet
 from graphcam.drafting.marks import Points
 from graphcam.given.laws import Floats
+from graphcam.plane import dot
 
 ON_THE_LINE = 1e-9
 """A point of the paper this near to a boundary [mm] lies on it: rounding of the arithmetic."""

@@ -8,8 +8,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.euclid import UP, Floats, dot
+from graphcam.drafting.euclid import UP, Floats
 from graphcam.drafting.marks import Points
+from graphcam.plane import dot
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
+from graphcam.plane import cross, dot
 
 Floats = NDArray[np.floating[Any]]
 
@@ -22,24 +23,6 @@ NOWHERE = complex(math.nan, math.nan)
 """A place that cannot be found."""
 UP = 1j
 RIGHT = 1 + 0j
-
-
-def dot(a: Points | complex, b: Points | complex) -> Floats:
-    """The scalar product |a| |b| cos of the angle between.
-
-    >>> float(dot(np.array(3 + 0j), np.array(2 + 5j)))
-    6.0
-    """
-    return np.asarray(a.real * b.real + a.imag * b.imag)
-
-
-def cross(a: Points, b: Points) -> Floats:
-    """The vector product |a| |b| sin of the angle from a to b, counter-clockwise positive.
-
-    >>> float(cross(np.array(3 + 0j), np.array(2 + 5j)))
-    15.0
-    """
-    return a.real * b.imag - a.imag * b.real
 
 
 def unit(direction: Points) -> Points:

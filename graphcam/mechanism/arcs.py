@@ -23,6 +23,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.arc_motion import ArcMotion
+from graphcam.plane import dot
 from graphcam.showing import WIDTH, Shown, in_lines
 from graphcam.words import Caption, say, sequence
 
@@ -101,7 +102,7 @@ def second_centre(given: ThreeArcs) -> complex:
     assert given.A is not None  # or C2 would be given
     a, g = complex(*given.A), complex(*given.G)
     outward, chord = a / abs(a), a - g
-    below = _dot(outward, chord)  # how far G lies below the base circle's tangent at A
+    below = float(dot(outward, chord))  # how far G lies below the base circle's tangent at A
     if abs(below) <= ROUNDING * (abs(a) + abs(g)):
         remedy = "move G: an arc that is straight has no centre C2"
         raise DesignError("G", given.G, "off the tangent of the base circle at A", remedy)
@@ -115,7 +116,7 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
     n = (c2 - g) / rho2
     w = g - c1
     m = w + k * n  # from C1 to P
-    bend = _dot(m, n)  # zero where the bisector of C1 P is parallel to the line G C2
+    bend = float(dot(m, n))  # zero where the bisector of C1 P is parallel to the line G C2
     reach = abs(w) + abs(k)
     if abs(m) <= ROUNDING * reach:
         f, t = g, math.nan
@@ -140,7 +141,7 @@ def _base_point(c2: complex, rho2: float, g: complex) -> complex:
         return complex(math.nan, math.nan)  # it is itself a circle about the cam centre
     distance = abs(c2)
     # rho2 - |C2| without the difference of two large numbers that a flat arc would leave.
-    return -c2 / distance * _dot(g, g - 2 * c2) / (rho2 + distance)
+    return -c2 / distance * float(dot(g, g - 2 * c2)) / (rho2 + distance)
 
 
 def _outer_point(c1: complex, rho1: float) -> complex:
@@ -178,10 +179,6 @@ def _why(k: float, t: float, rho2: float) -> Caption:
 
 def _order(**places: float) -> str:
     return ", ".join(sorted(places, key=lambda name: places[name]))
-
-
-def _dot(a: complex, b: complex) -> float:
-    return a.real * b.real + a.imag * b.imag
 
 
 def _xy(z: complex) -> Floats:

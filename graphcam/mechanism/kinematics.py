@@ -202,19 +202,9 @@ class RollerKinematics(Kinematics):
         return np.divide(1.0, sharpness, out=np.full_like(sharpness, np.inf), where=~(sharpness <= 0))
 
 
-def cross(a: Complexes, b: Complexes) -> Floats:
-    """The z component of the vector product of two plane vectors."""
-    return a.real * b.imag - a.imag * b.real
-
-
 def pair_cross(a: Pair, b: Pair) -> Floats:
-    """The same of vectors in two parts, x and y."""
+    """The vector product of vectors in two parts, x and y."""
     return np.asarray(a[0] * b[1] - a[1] * b[0])
-
-
-def dot(a: Complexes, b: Complexes) -> Floats:
-    """The scalar product of two plane vectors."""
-    return a.real * b.real + a.imag * b.imag
 
 
 def _dot(a: Pair, b: Pair) -> Floats:

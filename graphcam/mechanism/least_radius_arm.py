@@ -31,8 +31,9 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, names_of, nearest
-from graphcam.mechanism.kinematics import Complexes, Values, cross, dot
+from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.mechanism.stationary import SAMPLES, smooth_pieces
+from graphcam.plane import cross, dot
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""

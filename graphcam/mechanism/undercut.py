@@ -28,6 +28,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
 from graphcam.mechanism.envelope import Backward, Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
+from graphcam.plane import cross
 
 NEWTON_STEPS = 40
 CLOSED = 1e-12
@@ -213,11 +214,11 @@ def _crossing(
         gap = envelope.way(phi1, phi2)
         v1 = complex(envelope.velocity(phi1, envelope.piece(phi1, "left")))
         v2 = complex(envelope.velocity(phi2, envelope.piece(phi2, "right")))
-        across = _cross(v1, v2)
+        across = float(cross(v1, v2))
         if across == 0:
             return None
-        new1 = _within(phi1, phi1 + _cross(gap, v2) / across, first)
-        new2 = _within(phi2, phi2 + _cross(gap, v1) / across, second)
+        new1 = _within(phi1, phi1 + float(cross(gap, v2)) / across, first)
+        new2 = _within(phi2, phi2 + float(cross(gap, v1)) / across, second)
         moved = abs(new1 - phi1) + abs(new2 - phi2)
         phi1, phi2 = new1, new2
         settled = moved <= SETTLED * (phi2 - phi1)
@@ -228,10 +229,6 @@ def _crossing(
         return None
     at = (envelope.point(phi1, envelope.piece(phi1, "left")) + envelope.point(phi2, envelope.piece(phi2))) / 2
     return Lost(phi1, phi2, complex(at))
-
-
-def _cross(a: complex, b: complex) -> float:
-    return a.real * b.imag - a.imag * b.real
 
 
 def _within(old: float, new: float, bounds: tuple[float, float]) -> float:

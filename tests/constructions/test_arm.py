@@ -15,13 +15,14 @@ import graphcam as gc
 from graphcam.constructions.arm_minimum_radius import arm_least_radius
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.region import nearest_of_many
-from graphcam.drafting.euclid import UP, dot, unit
+from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
+from graphcam.plane import dot
 
 PARTS = (12, 24, 48, 96)
 FINER = (12, 19, 26, 40, 54, 75, 96)

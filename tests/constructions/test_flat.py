@@ -16,13 +16,14 @@ import graphcam as gc
 from graphcam.comparison.bounds import Bounds
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
-from graphcam.drafting.euclid import UP, dot
+from graphcam.drafting.euclid import UP
 from graphcam.drafting.marks import AngleMark, Line, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
 from graphcam.mechanism.flat_faced import face_width
+from graphcam.plane import dot
 
 PARTS = (12, 24, 48, 96)
 EXACT = 1e-12

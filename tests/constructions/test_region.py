@@ -8,7 +8,8 @@ from hypothesis import assume, given, settings, strategies as st
 from scipy.optimize import minimize
 
 from graphcam.constructions.region import Boundary, binding, lowest_on, nearest, nearest_of_many, permitted_part
-from graphcam.drafting.euclid import UP, dot
+from graphcam.drafting.euclid import UP
+from graphcam.plane import dot
 
 same_every_time = settings(derandomize=True, deadline=None, max_examples=60)
 leanings = st.floats(np.radians(2), np.radians(80))

@@ -16,8 +16,6 @@ from graphcam.drafting.euclid import (
     along_to_circle,
     centre_of_circle,
     circles_meet,
-    cross,
-    dot,
     foot,
     meet,
     perpendicular_bisector,
@@ -25,6 +23,7 @@ from graphcam.drafting.euclid import (
     turned,
     unit,
 )
+from graphcam.plane import cross, dot
 
 BOARD = 100.0
 """Points lie within this distance of the origin, in x and in y [mm]."""

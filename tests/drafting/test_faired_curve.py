@@ -10,7 +10,8 @@ from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose
 
 from graphcam.drafting.curve import faired, farthest, farthest_of
-from graphcam.drafting.euclid import UP, dot, turned
+from graphcam.drafting.euclid import UP, turned
+from graphcam.plane import dot
 
 same_every_time = settings(derandomize=True, deadline=None, max_examples=150)
 
