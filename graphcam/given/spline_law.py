@@ -29,7 +29,7 @@ SAME_KNOT = 1e-9
 """Knots nearer to one another than this fraction of the phase are one."""
 
 
-def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int], name: str = MEASURED) -> tuple[float, Law]:
+def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> tuple[float, Law]:
     """The signed lift and the normalised law of the spline between two cam angles [rad] where its velocity is zero.
 
     contact : :data:`AT_REST` or :data:`TURNING`, at the start and at the end

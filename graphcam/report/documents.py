@@ -1,4 +1,4 @@
-"""The documents that a solution gets, whichever kind of task it solves: here alone the kind is asked for."""
+"""The documents that a solution gets, whichever kind of task it solves."""
 
 from __future__ import annotations
 

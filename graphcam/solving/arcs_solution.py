@@ -1,4 +1,4 @@
-"""The main job for a cam of three circular arcs: task to solution."""
+"""Task to solution, of a cam of three circular arcs."""
 
 from __future__ import annotations
 

@@ -64,6 +64,6 @@ def export(
             case LearningSystem.NBGRADER:
                 write_course(draft, exercise, answer_keys)
             case LearningSystem.GRADESCOPE:
-                write_autograder(draft, exercise, key)
+                write_autograder(draft, key)
         if secret is None:
             (draft / TEACHER / "secret").write_bytes(key)

@@ -57,7 +57,7 @@ def _test(exercise: Exercise, asked: Asked, answer: dict[str, Any], parameters: 
     }
 
 
-def write_autograder(folder: Path, exercise: Exercise, secret: bytes) -> None:
+def write_autograder(folder: Path, secret: bytes) -> None:
     """The files of an autograder; packed as a zip they are what Gradescope asks for."""
     for name, program in (("setup.sh", SETUP), ("run_autograder", RUN)):
         (folder / name).write_text(program, encoding="utf-8")
