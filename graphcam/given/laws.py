@@ -240,8 +240,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     """
     own = isinstance(name, Law)
     if not own and name not in LAWS:
-        limit = "a motion law that graphcam knows"
-        raise DesignError("law", name, limit, nearest(f"{name}", LAWS))
+        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", LAWS)
+        raise DesignError("law", name, "a motion law that graphcam knows", remedy)
     if not (math.isfinite(ratio) and ratio > 0):
         raise DesignError("ratio", ratio, "a finite number greater than 0", "leave it out for equal parts")
     if name != "rectangular" and ratio != 1:

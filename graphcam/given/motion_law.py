@@ -189,13 +189,10 @@ class Law:
 
         first, inside, last : f, f', f'', f''' where each part of a piece begins, at Gauss's places in it, at its end
         """
+        self._check_formulas()
         low, high = self._parts()
         u = low + (high - low) * (NODES[:, None] + 1) / 2
-        try:
-            first, inside, last = (np.array(x) for x in (self(low), self(u), self(high, side="left")))
-        except (TypeError, ValueError) as error:
-            limit = "one that takes an array of u and returns f, f', f'', f''' there"
-            raise self._wrong("formula", f"one with the error: {error}", limit, "use numpy's functions") from error
+        first, inside, last = (np.array(x) for x in (self(low), self(u), self(high, side="left")))
         for order, name in enumerate(DERIVATIVES):
             if not np.isfinite(inside[order]).all():
                 raise self._wrong(name, "not finite", "a finite number everywhere")
@@ -216,6 +213,22 @@ class Law:
             remedy = "what falls on its way is a motion of several phases"
             raise self._wrong(f"f' at u = {at:.3g}", inside[1].min(), "0 or more", remedy)
         self._check_closed_forms(inside)
+
+    def _check_formulas(self) -> None:
+        limit, remedy = "one that takes an array of u and returns f, f', f'', f''' there", "use numpy's functions"
+        for piece in self.pieces:
+            try:
+                values = piece.formula(np.full(2, abs(piece.start - piece.origin)))
+                count = len(values)
+                np.broadcast_arrays(np.empty(2), *values)
+            except (TypeError, ValueError) as error:
+                raise self._wrong("formula", f"one with the error: {error}", limit, remedy) from error
+            if count != len(DERIVATIVES):
+                raise self._wrong("formula", f"one that returns {count} values", limit)
+        if self.peaks is not None and len(self.peaks) != 2:
+            raise self._wrong("peaks", self.peaks, "two numbers, max f' and max |f''|", "leave them out to be found")
+        if not self.ratio > 0:
+            raise self._wrong("ratio", self.ratio, "greater than 0")
 
     def _check_derivatives(self, low: Floats, high: Floats, change: Floats, inside: Floats) -> None:
         """Over every part of a piece each derivative integrates to what the one before changes by."""

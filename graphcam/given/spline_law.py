@@ -92,7 +92,9 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     for symbol, values in (("u", u), ("f", f)):
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
         if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
-            raise DesignError(f"samples {symbol} of the law '{name}'", f"{values}", "numbers that grow from 0 to 1")
+            found = f"{len(values)} numbers from {values[0]:g} to {values[-1]:g}, the least step {least:g}"
+            remedy = "divide by the last one; where the lift falls, begin another phase"
+            raise DesignError(f"samples {symbol} of the law '{name}'", found, "growing from 0 to 1", remedy)
     ends = tuple([(1, 0.0), (2, acceleration)] for acceleration in accelerations)
     spline = make_interp_spline(u, f, k=DEGREE, bc_type=ends)
     # These coefficients are the ends' f, f' and f''; without their rounding what is small near an end keeps its digits.

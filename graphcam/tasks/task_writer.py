@@ -8,6 +8,8 @@ from typing import Any
 
 import tomli_w
 
+from graphcam.errors import DesignError
+from graphcam.given.motion_law import Law
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
@@ -17,10 +19,19 @@ TASK_FILE = "task.toml"
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
     """The files of a task by their names: TOML, and the table of a measured motion.
 
+    Raises
+    ------
+    DesignError : a phase follows a law of one's own, which no file can name
+
     >>> import graphcam as gc
     >>> list(task_files(gc.builtin_task("measured")))
     ['task.toml', 'measured.csv']
     """
+    if isinstance(task, Task):
+        for k, phase in enumerate(task.motion.phases or ()):
+            if isinstance(own := getattr(phase, "law", ""), Law):
+                remedy = "a law of one's own stands in Python only"
+                raise DesignError(f"motion.phases[{k}].law", own.name, "a built-in law in a file", remedy)
     said = _filled(task.to_dict())
     table = task.motion.table if isinstance(task, Task) else None
     tables: dict[str, str] = {}

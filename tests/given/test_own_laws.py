@@ -20,6 +20,7 @@ from graphcam.mechanism.peaks import max_acceleration, max_velocity
 from graphcam.report.documents import note_of, sheet_of
 from graphcam.report.output_folder import write
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.task_writer import task_files
 
 PI = math.pi
 AS_SAMPLED = 1e-8
@@ -378,7 +379,7 @@ WRONG = {
     r"given max f' of the law 'x' is 2.4, but must be 2.4609375": lambda: gc.Law("x", smooth, peaks=(2.4, 9.4)),
     r"tangent for k = 0.05 of the law 'x'": lambda: gc.Law("x", smooth, tangents=(lambda k: (0.3, 1.0), None)),
     r"shapes of the samples of the law 'x' is '\(3,\) and \(2,\)'": lambda: gc.sampled_law("x", [0, 0.5, 1], [0, 1]),
-    r"samples u of the law 'x' is .*, but must be numbers that grow from 0 to 1": lambda: gc.sampled_law(
+    r"samples u of the law 'x' is .*, but must be growing from 0 to 1; divide by the last": lambda: gc.sampled_law(
         "x", [0, 0.5, 0.5, 1], [0, 0.3, 0.5, 1]
     ),
     r"samples f of the law 'x' is .* grow": lambda: gc.sampled_law("x", [0, 0.5, 1], [0, np.nan, 1]),
@@ -392,3 +393,34 @@ WRONG = {
 def test_what_is_no_law_is_refused(message):
     with pytest.raises(gc.DesignError, match=message):
         WRONG[message]()
+
+
+@pytest.mark.parametrize(
+    ("choices", "message"),
+    [
+        ({"formulas": lambda u: (u, u)}, r"one that returns 2 values', but must be one that takes an array of u"),
+        ({"peaks": (1.5,)}, r"peaks of the law 'mine' is \(1.5,\), but must be two numbers"),
+        ({"ratio": -1.0}, "ratio of the law 'mine' is -1.0, but must be greater than 0"),
+    ],
+)
+def test_what_goes_with_a_law_is_checked(choices, message):
+    def formula(u):
+        return u * u * (3 - 2 * u), 6 * u * (1 - u), 6 - 12 * u, -12 + 0 * u
+
+    with pytest.raises(gc.DesignError, match=message):
+        gc.Law("mine", **{"formulas": formula} | choices)
+
+
+def test_a_function_in_place_of_a_law_is_told_what_makes_it_one():
+    with pytest.raises(gc.DesignError, match=r"gc.Law\(name, formula\)"):
+        gc.Rise(30, 2.0, lambda u: u)
+
+
+def test_no_file_names_a_law_of_ones_own():
+    """Not even one that is called like a built-in law: it would be read as that."""
+    built_in = gc.law("3-4-5")
+    own = gc.Law("cosine", lambda u: built_in(u))
+    task = gc.builtin_task()
+    phases = tuple(replace(phase, law=own) if phase.kind == "rise" else phase for phase in task.motion.phases)
+    with pytest.raises(gc.DesignError, match=r"motion.phases\[0\].law is 'cosine'"):
+        task_files(replace(task, motion=replace(task.motion, phases=phases)))
