@@ -58,7 +58,7 @@ class Shown:
         >>> import graphcam as gc
         >>> motion = gc.builtin_task().motion()
         >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
-        ['s, mm', 'v, mm/rad', 'a, mm/rad²', 'j, mm/rad³']
+        ['lift s', 'v = ds/dφ', 'a = dv/dφ', 'j = da/dφ']
         """
         return from_above(f"plots.{self._drawn_in}.plot")(self, axes)
 

@@ -88,6 +88,9 @@ def test_a_notebook_shows_what_is_drawn(solution):
             assert construction._repr_svg_() is None
             continue
         texts, paths = shown(construction)
+        if construction.name == "pressure_angle":  # its rays over the least radius are not shown without that drawing
+            assert not any("Displacement" in text for text in texts)
+            continue
         views = {str(step.view.title).partition(",")[0].split()[0] for step in construction.steps() if step.marks}
         assert all(any(view in text for text in texts) for view in views), construction.name
         assert paths > 3
@@ -101,7 +104,7 @@ def test_a_notebook_shows_cams_motions_and_steps():
     texts, _ = shown(solution.cam)
     assert {"pitch curve", "working profile", "prime circle, 44 mm", "roller, 17 mm", "cam centre"} <= set(texts)
     texts, _ = shown(solution.cam.motion)
-    assert {"s, mm", "v, mm/rad", "a, mm/rad²", "j, mm/rad³"} <= set(texts)
+    assert {"lift s", "v = ds/dφ", "a = dv/dφ", "j = da/dφ"} <= set(texts)
     assert [text for text in texts if text in ("rise", "dwell", "return")] == ["rise", "dwell", "return", "dwell"]
     first, last = solution.drawn["minimum_radius"].steps()[::4]
     assert shown(first) != shown(last)
