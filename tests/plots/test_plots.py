@@ -174,7 +174,7 @@ def test_letters_and_lines_follow_the_axes(solution):
     """A sheet on axes of half the size is half as bold: it is the same drawing, seen smaller."""
     sizes = []
     for part in (1.0, 0.5):
-        figure = Figure((8, 4))
+        figure = Figure((16, 8))  # letters of less than a point are none to matplotlib
         axes = solution.plot(figure.add_axes((0, 0, part, part)))
         drawn = Drawn(figure)
         for artist in axes.artists:
