@@ -8,7 +8,9 @@ it.  This is the only place where that is done.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import fields
 from importlib import import_module
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphcam.errors import DesignError
@@ -41,6 +43,20 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
     if len(rows) > room:
         rows = [*rows[: room - 1], f"and {len(rows) - room + 1} more"]
     return "\n".join([first, *(f"  {row}" for row in rows), last])
+
+
+def by_parts(self: Any) -> str:
+    """The text of a dataclass of such values: the first line of each.
+
+    >>> import graphcam as gc
+    >>> gc.Contact(gc.builtin_task().motion(), gc.SpringLoad(0.2, 550, 3))
+    Contact
+      motion: Motion with a lift of 30 mm (of an arm: rad)
+      load: SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=0.0, acceleration=0.0, friction=0.0)
+    """
+    parts = {part.name: repr(getattr(self, part.name)).partition("\n")[0] for part in fields(self)}
+    rows = (f"  {name}: {shorten(text, WIDTH, placeholder=' ...')}" for name, text in parts.items())
+    return "\n".join([type(self).__name__, *rows])
 
 
 class Shown:

@@ -14,12 +14,7 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
-CURVES = (
-    *(("lift s", BLACK),),
-    *(("v = ds/dφ", CURRENT),),
-    *(("a = dv/dφ", ACCENT),),
-    *(("j = da/dφ", GREY),),
-)
+CURVES = (("lift s", BLACK), ("v = ds/dφ", CURRENT), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
 """What the axes say, and the colour of the curve, from the top."""
 ACROSS = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
 SIZE = 7.0, 7.0
