@@ -12,7 +12,7 @@ import pytest
 from boards import SIZES, arm_board, arm_motion, coursework, flat_board, flat_motion, limits
 from numpy.testing import assert_array_equal
 
-from graphcam.constructions import chain as chain_module, drawn_translating as translating
+from graphcam.constructions import board as board_module, chain as chain_module, drawn_translating as translating
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
@@ -69,7 +69,7 @@ def drawn(monkeypatch) -> list[str]:
     calls: list[str] = []
     for name in NAMES:
         function = FUNCTIONS.get(name, name)
-        module = chain_module if hasattr(chain_module, function) else translating
+        module = next(m for m in (chain_module, board_module, translating) if hasattr(m, function))
         monkeypatch.setattr(module, function, counted(calls, function, getattr(module, function)))
     return calls
 
