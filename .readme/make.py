@@ -5,6 +5,7 @@ from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from matplotlib.figure import Figure
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
@@ -47,6 +48,15 @@ for name, width in WIDTHS.items():
             player = player_picture(Path(folder, str(files["player"])))
             player.quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "player.png", optimize=True)
     picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(HERE / f"{name}.png", optimize=True)
+
+cam = gc.solve(gc.builtin_task()).cam
+plots, picture = Figure((12, 5.6), layout="tight"), BytesIO()
+left, right = plots.subplots(1, 2)
+cam.motion.plot(left)
+cam.plot(right)
+plots.savefig(picture, dpi=100)
+plotted = Image.open(picture).convert("RGB")
+plotted.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(HERE / "plots.png", optimize=True)
 
 with TemporaryDirectory() as folder:
     bench(QUICK, folder)

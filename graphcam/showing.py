@@ -8,7 +8,9 @@ it.  This is the only place where that is done.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import fields
 from importlib import import_module
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphcam.errors import DesignError
@@ -43,6 +45,20 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
     return "\n".join([first, *(f"  {row}" for row in rows), last])
 
 
+def by_parts(self: Any) -> str:
+    """The text of a dataclass of such values: the first line of each.
+
+    >>> import graphcam as gc
+    >>> gc.Contact(gc.builtin_task().motion(), gc.SpringLoad(0.2, 550, 3))
+    Contact
+      motion: Motion with a lift of 30 mm (of an arm: rad)
+      load: SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=0.0, acceleration=0.0, friction=0.0)
+    """
+    parts = {part.name: repr(getattr(self, part.name)).partition("\n")[0] for part in fields(self)}
+    rows = (f"  {name}: {shorten(text, WIDTH, placeholder=' ...')}" for name, text in parts.items())
+    return "\n".join([type(self).__name__, *rows])
+
+
 class Shown:
     """A value that is drawn by ``plot`` of the module ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
 
@@ -58,7 +74,7 @@ class Shown:
         >>> import graphcam as gc
         >>> motion = gc.builtin_task().motion()
         >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
-        ['s, mm', 'v, mm/rad', 'a, mm/rad²', 'j, mm/rad³']
+        ['lift s', 'v = ds/dφ', 'a = dv/dφ', 'j = da/dφ']
         """
         return from_above(f"plots.{self._drawn_in}.plot")(self, axes)
 

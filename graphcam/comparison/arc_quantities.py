@@ -17,6 +17,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Values
+from graphcam.showing import by_parts
 from graphcam.words import say, sequence
 
 POINTS = ("C1", "C2", "C3", "F")
@@ -31,6 +32,7 @@ class ArcsComparison:
     drawn: ArcChain
     cam: ThreeArcCam
     motion: ArcMotion
+    __repr__ = by_parts
 
     @cached_property
     def bounds(self) -> Bounds:

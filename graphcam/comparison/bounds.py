@@ -21,6 +21,7 @@ import numpy as np
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
+from graphcam.showing import by_parts
 
 FINER = (2, 3, 5)
 """Into how many parts every part is divided for the redrawings."""
@@ -61,6 +62,7 @@ class Bounds:
     """The bounds of the readings of one drawing, with its own pencil, at the sizes that were adopted."""
 
     drawn: Redrawable
+    __repr__ = by_parts
 
     @cached_property
     def perfect(self) -> Redrawable:

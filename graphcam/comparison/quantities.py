@@ -20,6 +20,7 @@ from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.peaks import max_acceleration, max_velocity
+from graphcam.showing import by_parts
 from graphcam.words import Caption, say
 
 
@@ -62,6 +63,7 @@ class Comparison:
 
     drawn: Chain
     cam: Cam
+    __repr__ = by_parts
 
     @cached_property
     def least(self) -> tuple[float, float]:

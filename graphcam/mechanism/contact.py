@@ -20,6 +20,7 @@ from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.one_sided import ROUNDING, ValueAt, greatest
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
+from graphcam.showing import by_parts
 
 
 class SpringPreload(NamedTuple):
@@ -86,6 +87,7 @@ class Contact:
 
     motion: Motion
     load: SpringLoad
+    __repr__ = by_parts
 
     def least_force(self) -> ValueAt:
         """The least xi over the turn [N], both sides of every jump included; of equal ones the first."""

@@ -32,6 +32,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Values, pair_cross
 from graphcam.mechanism.one_sided import ValueAt, greatest
 from graphcam.mechanism.stationary import Places
+from graphcam.showing import by_parts
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
 """A guide without friction."""
@@ -116,6 +117,7 @@ class CamForces:
     cam: Cam
     load: SpringLoad
     guide: Guide = field(default=NO_GUIDE)
+    __repr__ = by_parts
 
     def __post_init__(self) -> None:
         if not self.cam.kinematics.has_forces:

@@ -21,6 +21,7 @@ from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.one_sided import ValueAt, greatest
 from graphcam.mechanism.stationary import Places
+from graphcam.showing import by_parts
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
@@ -157,6 +158,7 @@ class ContactStress:
 
     forces: CamForces
     contact: RollerContact
+    __repr__ = by_parts
 
     def __post_init__(self) -> None:
         if not self.forces.cam.roller_radius > 0:

@@ -16,7 +16,7 @@ SIZE = 6.0, 6.5
 """Of a new figure [inches]."""
 POINTS = 181
 """Of each curve between two breaks."""
-BELOW = 0.3
+BELOW = 0.22
 """Room for the legend, as a part of the cam's height."""
 FACE = 0.5
 """Half of the drawn face, as a part of the prime radius."""

@@ -24,7 +24,7 @@ def axes_on(on: Axes | FigureBase | None, width: float, height: float) -> Axes:
     if on is None:
         from matplotlib import pyplot
 
-        on = pyplot.figure()
+        on = pyplot.figure(layout="tight")
     if isinstance(on, Figure):
         times = min(1.0, WIDEST / width, WIDEST / height)
         on.set_size_inches(times * width, times * height)
@@ -38,7 +38,7 @@ def svg_of(shown: Shown) -> str:
     >>> svg_of(gc.builtin_task().motion()).startswith("<?xml")
     True
     """
-    figure = Figure()
+    figure = Figure(layout="tight")
     shown.plot(axes=figure)
     return figure_svg(figure)
 

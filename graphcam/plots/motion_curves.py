@@ -14,14 +14,9 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
-CURVES = (
-    *(("s, mm", BLACK),),
-    *(("v, mm/rad", CURRENT),),
-    *(("a, mm/rad²", ACCENT),),
-    *(("j, mm/rad³", GREY),),
-)
+CURVES = (("lift s", BLACK), ("v = ds/dφ", CURRENT), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
 """What the axes say, and the colour of the curve, from the top."""
-ACROSS = "cam angle φ, degrees (of an arm: rad in place of mm)"
+ACROSS = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
 SIZE = 7.0, 7.0
 """Of a new figure [inches]."""
 POINTS = 61
@@ -62,7 +57,7 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
     for diagram, (up, colour), value in zip(diagrams, CURVES, values, strict=True):
         diagram.plot(np.degrees(phi), value, color=colour, linewidth=1.5)
         if not np.any(value):
-            diagram.set_ylim(-1.0, 1.0)  # of no height there would be divisions of a hundredth
+            diagram.set(ylim=(-1.0, 1.0), yticks=[0.0])  # of no height there would be divisions of a hundredth
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         for _, start, _ in motion.timing:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphcam.drafting.ink import Construction, Step, View
+from graphcam.drafting.marks import Label
 from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.model import Entity, Group, Page
-from graphcam.sheets.panels import Panel, panels, stand
+from graphcam.sheets.panels import Panel, clusters, panels, stand
 from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
 from graphcam.words import Tell
 
@@ -24,6 +26,8 @@ MARGIN = 5.0
 """Free margin around a drawing, where its outermost labels find room [mm]."""
 GAP = 8.0
 """Between views [mm]."""
+LYING = 1.1
+"""Views that share no axis are laid out in columns, so that all are at most about so many times as wide as high."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +69,7 @@ class StepBoard:
     @cached_property
     def _placed(self) -> dict[str, tuple[Panel, complex]]:
         """The views by name, each with its origin, that of the first one at 0."""
-        shown = self._panels(self.factor)
-        return {panel.view.name: (panel, at) for panel, at in zip(shown, stand(shown, GAP), strict=True)}
+        return _arranged(self._panels(self.factor))
 
     @cached_property
     def _titled(self) -> bool:
@@ -111,6 +114,24 @@ def _in_progress(entity: Entity, stage: str) -> Entity:
     return replace(entity, role=in_progress(entity.role, stage))
 
 
+def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
+    """Views by name with their origins, the first one's 0: those that share an axis as it asks, others in columns."""
+    # In the order of their first views.
+    groups = [(group, stand(group, GAP)) for group in sorted(clusters(views), key=lambda group: views.index(group[0]))]
+    boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
+    room = max(*(box.height for box in boxes), math.sqrt(sum(box.width * box.height for box in boxes) / LYING))
+    placed: dict[str, tuple[Panel, complex]] = {}
+    left = right = down = 0.0
+    for (group, origins), box in zip(groups, boxes, strict=True):
+        if down > 0 and down + box.height > room:
+            left, down = right + GAP, 0.0
+        by = complex(left, -down) - complex(box.left, box.top)
+        placed |= {panel.view.name: (panel, at + by) for panel, at in zip(group, origins, strict=True)}
+        right, down = max(right, left + box.width), down + box.height + GAP
+    _, first = placed[views[0].view.name]
+    return {panel.view.name: (panel, placed[panel.view.name][1] - first) for panel in views}
+
+
 def ancestors(construction: Construction) -> list[Construction]:
     """The constructions that one starts from, directly or not, the first drawn first.
 
@@ -132,5 +153,8 @@ def board_of(construction: Construction, tell: Tell = str, on: Construction | No
     """
     board = StepBoard((), tuple(step.told(tell) for step in construction.steps()))
     before = (*ancestors(construction), *([on] if on else ()))
-    former = (step.told(tell) for c in before for step in c.steps() if step.view.name in board.views)
-    return replace(board, former=tuple(former))
+    former = tuple(step.told(tell) for c in before for step in c.steps() if step.view.name in board.views)
+    # Where no point is named, lines were drawn over what is not here: alone they say nothing.
+    named = {s.view.name for s in (*former, *board.steps) if any(isinstance(mark, Label) for mark in s.marks)}
+    steps = (step if step.view.name in named else replace(step, marks=()) for step in board.steps)
+    return StepBoard(former, tuple(steps))

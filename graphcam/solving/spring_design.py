@@ -23,6 +23,7 @@ from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.one_sided import ValueAt
 from graphcam.sheets.tables import Table
+from graphcam.showing import by_parts
 from graphcam.words import sequence
 
 CONTACT = View("contact", say("Contact force ξ"), across="contact phi", up="contact force")
@@ -45,6 +46,7 @@ class SpringDesign:
     cam: Cam
     given: SpringLoad
     open_preload: bool
+    __repr__ = by_parts
 
     @cached_property
     def least(self) -> SpringPreload:

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Literal
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.three_arcs import ThreeArcs
+from graphcam.showing import by_parts
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain, positive
 
 MOST_PARTS = 200
@@ -89,6 +90,7 @@ class ArcsTask:
     speed_rpm: float | None = None
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
+    __repr__ = by_parts
 
     # As for every task: no text for numbers, nothing unknown, nothing infinite.
     __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}

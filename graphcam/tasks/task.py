@@ -11,6 +11,7 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
@@ -18,6 +19,7 @@ from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translatin
 from graphcam.given.limits import Limits
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
+from graphcam.showing import WIDTH, in_lines
 from graphcam.tasks.motion_tables import ByKind, MotionTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain, positive
 
@@ -267,6 +269,13 @@ class Task:
 
     # How pydantic reads a file: no text for numbers, nothing unknown, nothing infinite; it holds for the tables too.
     __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
+
+    def __repr__(self) -> str:
+        measured = f"measured, {self.motion.table.file}" if self.motion.table else ""
+        phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
+        turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
+        rows = f"{turns}, {self.follower.kind} follower", shorten(measured or phases, WIDTH, placeholder=" ...")
+        return in_lines(f"Task {self.title.name!r}", rows, "gc.solve(task) designs the cam; .to_dict() tells all")
 
     def __post_init__(self) -> None:
         sense(self.rotation)

@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib import pyplot
+from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.figure import Figure
 
 import graphcam as gc
@@ -154,12 +155,44 @@ def test_words_alone_cannot_be_plotted(solution):
         solution.drawn["roller"].plot()
 
 
+class Drawn(RendererAgg):
+    """A renderer that notes the sizes of letters and the widths of lines [points]."""
+
+    def __init__(self, figure):
+        super().__init__(*figure.bbox.size, figure.dpi)
+        self.sizes = []
+
+    def draw_path(self, gc, path, transform, rgbFace=None):
+        self.sizes.append(gc.get_linewidth())
+
+    def draw_text(self, gc, x, y, s, prop, angle, ismath=False, mtext=None):
+        self.sizes.append(prop.get_size_in_points())
+
+
 def test_letters_and_lines_follow_the_axes(solution):
     """A sheet on axes of half the size is half as bold: it is the same drawing, seen smaller."""
-    figure = Figure((8, 4))
-    large, small = figure.add_axes((0, 0, 1, 1)), figure.add_axes((0, 0, 0.5, 0.5))
-    for axes in (large, small):
-        solution.plot(axes)
-    figure.canvas.draw()
-    heights = [axes.transData.transform([(0, 0), (0, 1)])[1, 1] for axes in (large, small)]
-    assert heights[0] == pytest.approx(2 * heights[1])
+    sizes = []
+    for part in (1.0, 0.5):
+        figure = Figure((16, 8))  # letters of less than a point are none to matplotlib
+        axes = solution.plot(figure.add_axes((0, 0, part, part)))
+        drawn = Drawn(figure)
+        for artist in axes.artists:
+            artist.draw(drawn)
+        sizes.append(np.array(drawn.sizes))
+    large, small = sizes
+    assert large.size > 300
+    assert np.unique(large).size > 5
+    assert small == pytest.approx(large / 2)
+
+
+def test_the_drawing_of_a_cam_is_laid_out_for_a_screen(solution):
+    """Views that have nothing to do with each other fill columns: a band of them would be shown in tiny letters."""
+    figure = Figure()
+    axes = solution.chain.plot(figure)
+    width, height = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+    assert 1.0 < width / height < 2.0
+    assert width < 1100
+
+
+def test_the_rays_of_the_pressure_angle_need_what_they_are_drawn_over(solution):
+    assert solution.drawn["pressure_angle"].plot().get_title() == "Velocity plan, 1:1"
