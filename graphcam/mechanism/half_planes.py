@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations_with_replacement
-from typing import Literal, get_args
+from itertools import combinations
+from typing import Literal, NamedTuple
 
 Line = Literal["rise", "return", "rest"]
 
 
-@dataclass(frozen=True)
-class HalfPlane:
+class HalfPlane(NamedTuple):
     """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name."""
 
     name: Line | None
@@ -29,18 +27,16 @@ Kept = tuple[complex, tuple[HalfPlane, ...]]
 
 def nearest(lines: Sequence[HalfPlane]) -> Kept:
     """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off."""
+    if len(lines) < 3:
+        return _nearest_of_two(lines[0], lines[-1])
     # Two half-planes at most fix the nearest point of a plane region (Helly).
-    return max((_nearest_of_two(a, b) for a, b in combinations_with_replacement(lines, 2)), key=lambda p: abs(p[0]))
+    return max([_nearest_of_two(a, b) for a, b in combinations(lines, 2)], key=lambda kept: abs(kept[0]))
 
 
 def _nearest_of_two(a: HalfPlane, b: HalfPlane) -> Kept:
+    between = a.normal.conjugate() * b.normal  # cosine and sine of the angle between the normals
     for line, other in ((a, b), (b, a)):
-        foot = max(line.height, 0.0) * line.normal
-        if line is other or other.excess(foot) <= 0:
-            return foot, (line,)
-    return 1j * (b.height * a.normal - a.height * b.normal) / (a.normal.conjugate() * b.normal).imag, (a, b)
-
-
-def names_of(lines: Sequence[HalfPlane]) -> tuple[Line, ...]:
-    """The names of lines, each once."""
-    return tuple(name for name in get_args(Line) if any(line.name == name for line in lines))
+        distance = line.height if line.height > 0 else 0.0
+        if line is other or other.height <= distance * between.real:
+            return distance * line.normal, (line,)
+    return 1j * (b.height * a.normal - a.height * b.normal) / between.imag, (a, b)
