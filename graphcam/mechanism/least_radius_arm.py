@@ -90,8 +90,8 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
             limit = "one at which the pressure angle can keep its limits over the whole swing"
             remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
             raise DesignError("centre distance", distance, limit, remedy)
-    names = {line.name for line in lines}
-    return ArmMinimumRadius(abs(point), distance, tuple(name for name in get_args(Line) if name in names))
+    active = tuple(name for name in get_args(Line) if any(line.name == name for line in lines))
+    return ArmMinimumRadius(abs(point), distance, active)
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:

@@ -63,8 +63,9 @@ def translating_minimum_radius(
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
     heights = [(height - normal.real * sigma * offset) / normal.imag for _, normal, height in lines]
     s0 = max(0.0, *heights)
-    names = [line.name for line, height in zip(lines, heights, strict=True) if line.name and height == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(names))
+    lowest = zip(lines, heights, strict=True)
+    active: list[Line] = [line.name for line, height in lowest if line.name and height == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
 
 
 def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
