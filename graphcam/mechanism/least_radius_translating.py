@@ -61,7 +61,8 @@ def translating_minimum_radius(
         return MinimumRadius(abs(point), sigma * point.real, tuple([line.name for line in binding if line.name]))
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
-    heights = [(height - normal.real * sigma * offset) / normal.imag for _, normal, height in lines]
+    place = sigma * offset
+    heights = [(height - normal.real * place) / normal.imag for _, normal, height in lines]
     s0 = max(0.0, *heights)
     lowest = zip(lines, heights, strict=True)
     active: list[Line] = [line.name for line, height in lowest if line.name and height == s0 > 0]
