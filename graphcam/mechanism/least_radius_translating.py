@@ -64,8 +64,8 @@ def translating_minimum_radius(
     place = sigma * offset
     heights = [(height - normal.real * place) / normal.imag for _, normal, height in lines]
     s0 = max(0.0, *heights)
-    lowest = zip(lines, heights, strict=True)
-    active: list[Line] = [line.name for line, height in lowest if line.name and height == s0 > 0]
+    lowest = zip(heights, lines, strict=True)
+    active: list[Line] = [line.name for height, line in lowest if height == s0 > 0 and line.name]
     return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
 
 
