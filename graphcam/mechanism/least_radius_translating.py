@@ -105,7 +105,7 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
     >>> from graphcam.given.laws import law
     >>> u, height = steepest_tangent(law("cosine"), 1.5)
     >>> round(u, 12), round(height, 12)
-    (0.433452128665, 1.272441311934)
+    (0.433439924624, 1.272441311934)
     """
     if closed_form := law.tangents[0]:
         return closed_form(k)
