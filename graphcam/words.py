@@ -7,7 +7,7 @@ Templates are written in English, and literally where they are used, so that the
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 
@@ -40,7 +40,7 @@ class Caption:
         >>> str(say("The ray is {length:.1f} mm long.").where(length=3.14))
         'The ray is 3.1 mm long.'
         """
-        return replace(self, values={**self.values, **values})
+        return Caption(self.template, {**self.values, **values}, self.context, self.plural, self.count)
 
 
 Words = str | Caption

@@ -116,7 +116,7 @@ def phase_ends(motion: Motion, mu_phi: Scale) -> Floats:
 
 def reach(heights: Floats) -> tuple[float, float]:
     """The lowest and the highest of heights [mm of paper] and of the axis."""
-    return min(0.0, float(np.nanmin(heights))), max(0.0, float(np.nanmax(heights)))
+    return float(np.fmin.reduce(heights, initial=0.0)), float(np.fmax.reduce(heights, initial=0.0))
 
 
 def axes_over_phi(end: float, heights: Floats, symbol: str) -> tuple[Mark, ...]:
@@ -187,8 +187,8 @@ def numbers(
     points: Points, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
 ) -> tuple[Mark, ...]:
     """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""
-    names, ways = station_names(stations), np.broadcast_to(towards, points.shape)
-    named = [k for k in numbered(points, stations) if np.broadcast_to(shown, points.shape)[k]]
+    names, (ways, kept) = station_names(stations), (np.broadcast_to(each, points.shape) for each in (towards, shown))
+    named = [k for k in numbered(points, stations) if kept[k]]
     return tuple(Label(complex(points[k]), names[k], complex(ways[k]), small=True) for k in named)
 
 

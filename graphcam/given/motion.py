@@ -94,7 +94,7 @@ class Moving:
         _check_positive("angle", self.angle, "rad")
         _ = self.normalised  # says at once if there is no such law
 
-    @property
+    @cached_property
     def normalised(self) -> Law:
         """The phase's law on [0, 1]: the one of that name, or the given one."""
         return law(self.law, self.ratio)

@@ -18,12 +18,6 @@ from graphcam.mechanism.followers import EXACT, LeastRadius
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius
 from graphcam.mechanism.least_radius_translating import MinimumRadius
 
-ONLY = {
-    "curvature": "only a flat face limits the radius by the curvature",
-    "offset": "only a translating follower has an offset",
-}
-"""Why a condition is left out for the other followers."""
-
 
 @overload
 def minimum_radius(
@@ -102,10 +96,12 @@ def minimum_radius(
     38.0
     """
     sigma, exact = sense(rotation), EXACT[type(follower)]
-    asked = {"curvature": curvature, "offset": offset}
-    for name, value in asked.items():
-        if value is not None and name != exact.condition:
-            raise DesignError(name, value, "left out", ONLY[name])
+    if curvature is not None and exact.condition != "curvature":
+        raise DesignError("curvature", curvature, "left out", "only a flat face limits the radius by the curvature")
+    if offset is not None and exact.condition != "offset":
+        raise DesignError("offset", offset, "left out", "only a translating follower has an offset")
     limits = Limits(math.radians(follower.usual_limit_deg) if rise is None else rise, return_, rest)
-    own = [asked[exact.condition]] if exact.condition else []
-    return exact.least_radius(motion, follower, sigma, limits, *own)
+    condition = offset if curvature is None else curvature
+    if condition is None:
+        return exact.least_radius(motion, follower, sigma, limits)
+    return exact.least_radius(motion, follower, sigma, limits, condition)

@@ -21,6 +21,7 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,7 @@ from graphcam.given.follower import Oscillating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
-from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, names_of, nearest
+from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, nearest
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.mechanism.stationary import SAMPLES, smooth_pieces
 from graphcam.plane import cross, dot
@@ -90,7 +91,8 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
             limit = "one at which the pressure angle can keep its limits over the whole swing"
             remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
             raise DesignError("centre distance", distance, limit, remedy)
-    return ArmMinimumRadius(abs(point), distance, names_of(lines))
+    active = tuple(name for name in get_args(Line) if any(line.name == name for line in lines))
+    return ArmMinimumRadius(abs(point), distance, active)
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:

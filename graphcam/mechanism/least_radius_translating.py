@@ -13,6 +13,7 @@ Source: the shaded region of the textbooks on the theory of machines, written as
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 
@@ -22,9 +23,9 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion import Motion, Return, Rise
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.half_planes import HalfPlane, Line, names_of, nearest
+from graphcam.mechanism.half_planes import HalfPlane, Line, nearest
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
@@ -58,42 +59,42 @@ def translating_minimum_radius(
     lines = _region(motion, limits)
     if offset is None:
         point, binding = nearest(lines)
-        return MinimumRadius(abs(point), sigma * point.real, names_of(binding))
+        return MinimumRadius(abs(point), sigma * point.real, tuple([line.name for line in binding if line.name]))
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
-    heights = [(line.height - line.normal.real * sigma * offset) / line.normal.imag for line in lines]
+    place = sigma * offset
+    heights = [(height - normal.real * place) / normal.imag for _, normal, height in lines]
     s0 = max(0.0, *heights)
-    binding = [line for line, height in zip(lines, heights, strict=True) if height == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, names_of(binding))
+    lowest = zip(heights, lines, strict=True)
+    active: list[Line] = [line.name for height, line in lowest if height == s0 > 0 and line.name]
+    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
 
 
 def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
     """The lines for the point e' + i s0, each multiplied by the cosine of its angle."""
-    lines = [_line("rise", +1, limits.rise, _steepest_line(motion, +1, math.tan(limits.rise)))]
+    normal = cmath.rect(1.0, limits.rise)
+    lines = [HalfPlane("rise", normal, normal.real * _steepest_line(motion, Rise, math.tan(limits.rise)))]
     if limits.return_ is not None:
-        lines.append(_line("return", -1, limits.return_, _steepest_line(motion, -1, math.tan(limits.return_))))
-    return [*lines, _line("rest", -1, limits.rise, 0.0)] if limits.rest else lines
-
-
-def _line(name: Line, side: int, angle: float, height: float) -> HalfPlane:
-    cosine = math.cos(angle)
-    return HalfPlane(name, complex(side * cosine, math.sin(angle)), height * cosine)
+        back = cmath.rect(1.0, limits.return_)
+        height = back.real * _steepest_line(motion, Return, math.tan(limits.return_))
+        lines.append(HalfPlane("return", -back.conjugate(), height))
+    if limits.rest:
+        lines.append(HalfPlane("rest", -normal.conjugate(), 0.0))
+    return lines
 
 
 # --- the tangent to the s - v diagram --------------------------------------------------------------------------------
 
 
-def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
-    """M or M': the greatest |v| - s * slope over all rises (+1) or all returns (-1) [mm/rad]."""
+def _steepest_line(motion: Motion, kind: type[Rise | Return], slope: float) -> float:
+    """M or M': the greatest |v| - s * slope over all rises or all returns [mm/rad]."""
     heights: list[float] = []
     for k, phase in enumerate(motion.phases):
-        if isinstance(phase, Dwell) or phase.direction != direction:
-            continue
-        # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
-        law = phase.normalised if direction > 0 else phase.normalised.reversed
-        height = phase.lift / phase.angle * steepest_tangent(law, 1 / (slope * phase.angle))[1]
-        base = motion.levels[k] if direction > 0 else motion.levels[k + 1]
-        heights.append(height - slope * float(base))
+        if isinstance(phase, kind):
+            # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
+            law, low = (phase.normalised, k) if kind is Rise else (phase.normalised.reversed, k + 1)
+            _, height = steepest_tangent(law, 1 / (slope * phase.angle))
+            heights.append(phase.lift / phase.angle * height - slope * float(motion.levels[low]))
     return max(heights)
 
 
