@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError
+from graphcam.given.follower import Translating
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Limits:
     True
     """
 
-    rise: float = math.radians(30)
+    rise: float = math.radians(Translating.usual_limit_deg)
     return_: float | None = None
     rest: bool = True
 

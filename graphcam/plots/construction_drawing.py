@@ -38,8 +38,9 @@ def plot(
     count = len(board.steps)
     if not board.views:
         raise DesignError("drawing", "empty", "marks in a view", "see the captions of the steps, and the readings")
-    if step is not None and not 0 <= step < count:
-        raise DesignError("step", step, f"an index of the steps, 0 to {count - 1}, or None for all of them")
+    if step is not None and step not in range(count):
+        limit = f"an index of the steps, 0 to {count - 1}, or None for all of them"
+        raise DesignError("step", step, limit, "axes to draw on are given as axes=...")
     page = board.page(step)
     axes = axes_on(on, page.width / INCH + AROUND, page.height / INCH + AROUND)
     draw_on(axes, page, board.origin, board.factor)

@@ -84,8 +84,6 @@ def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
     for kind, start, end in motion.timing:
         wide = np.degrees(end - start)
         if wide >= UPRIGHT:
-            turned = 0 if wide >= BESIDE else 90
-            diagram.annotate(
-                kind, (np.degrees(start + end) / 2, 1.02), xycoords=("data", "axes fraction"), rotation=turned,
-                ha="center", va="bottom", fontsize="small",
-            )  # fmt: skip
+            middle, turned = float(np.degrees(start + end) / 2), 0 if wide >= BESIDE else 90
+            above = diagram.get_xaxis_transform()
+            diagram.text(middle, 1.02, kind, transform=above, rotation=turned, ha="center", va="bottom", size="small")

@@ -43,7 +43,9 @@ def check_choices(
     if upto is not None:
         last_step(contents_of(solution), upto)
     # A text is a collection of letters, none of which is meant.
-    unknown = [files] if isinstance(files, str) else [kind for kind in files or () if kind not in FILES]
+    if isinstance(files, str):
+        raise DesignError("files", files, "a list of kinds", f"for this one alone write ['{files}']")
+    unknown = [kind for kind in files or () if kind not in FILES]
     if unknown:
         raise DesignError("files", unknown[0], f"a list of kinds among {', '.join(FILES)}", nearest(unknown[0], FILES))
 

@@ -196,3 +196,9 @@ def test_the_drawing_of_a_cam_is_laid_out_for_a_screen(solution):
 
 def test_the_rays_of_the_pressure_angle_need_what_they_are_drawn_over(solution):
     assert solution.drawn["pressure_angle"].plot().get_title() == "Velocity plan, 1:1"
+
+
+def test_axes_in_the_place_of_a_step_are_told_their_name():
+    drawn = gc.solve(gc.builtin_task()).drawn["integration"]
+    with pytest.raises(gc.DesignError, match=r"step is .*, but must be an index of the steps, 0 to .*axes=\.\.\."):
+        drawn.plot(Figure().add_subplot())

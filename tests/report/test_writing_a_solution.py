@@ -46,7 +46,13 @@ def test_a_part_is_the_same_as_in_the_whole(tmp_path):
         assert (tmp_path / kind / files[kind]).read_bytes() == (tmp_path / "all" / files[kind]).read_bytes()
 
 
-@pytest.mark.parametrize("files", ["pdf", ["pdf", "pfd"], ["json"]])
+def test_one_kind_alone_is_told_how_it_is_written(solution, tmp_path):
+    with pytest.raises(gc.DesignError, match=r"files is 'pdf', but must be a list of kinds; .* write \['pdf'\]"):
+        solution.write(tmp_path / "out", "pdf")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("files", [["pdf", "pfd"], ["json"]])
 def test_an_unknown_kind_is_refused_by_naming_all(solution, tmp_path, files):
     with pytest.raises(
         gc.DesignError, match=r"must be a list of kinds among pdf, svg, png, dxf, csv, md, note, player"
