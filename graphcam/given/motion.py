@@ -140,7 +140,7 @@ class Motion(Shown):
     >>> from math import pi
     >>> motion = gc.Motion([gc.Rise(30, pi / 2), gc.Dwell(pi / 2), gc.Return(30, pi, "cosine")])
     >>> motion
-    Motion with a lift of 30 mm (of an arm: rad)
+    Motion with a lift of 30 (mm; of an arm, rad)
       rise by 30 over 90°, 3-4-5
       dwell over 90°
       return by 30 over 180°, cosine
@@ -209,7 +209,7 @@ class Motion(Shown):
         return in_lines(f"{type(self).__name__} {self._said()}", map(_in_words, self.phases), last)
 
     def _said(self) -> str:
-        return f"with a lift of {self.lift:.6g} mm (of an arm: rad)"
+        return f"with a lift of {self.lift:.6g} (mm; of an arm, rad)"
 
     @property
     def piece_starts(self) -> Floats:
