@@ -14,6 +14,7 @@ from graphcam.bench.bench_tables import markdown, numbers
 from graphcam.bench.timing import Timer
 from graphcam.files import whole_folder
 from graphcam.report.documents import sheet_of
+from graphcam.report.output_folder import unheard
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
 
@@ -31,13 +32,10 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None]
     # matplotlib takes long to load, so it comes when there is something to draw.
     from graphcam.bench.bench_figures import error_against_parts, error_against_time, error_of_the_hand, save
 
-    def progress_line(line: str) -> None:
-        if progress:
-            progress(line)
-
+    progress = progress or unheard
     with whole_folder(directory) as folder:
-        report = measure(effort, _rendering, progress_line)
-        progress_line("drawing the figures")
+        report = measure(effort, _rendering, progress)
+        progress("drawing the figures")
         (folder / "bench.md").write_text(markdown(report), encoding="utf-8")
         with (folder / "bench.csv").open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(numbers(report))

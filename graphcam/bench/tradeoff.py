@@ -86,6 +86,7 @@ def _drawn(question: str, counts: Parts, where: TestScene, construction: str, er
     """By a construction, drawn anew with all that it starts from."""
 
     def work(n: int) -> object:
+        """The construction in n parts."""
         return where.chain(n)[construction]
 
     return Trial(question, "graphical", "graphical", counts, work, lambda n: error(where, where.chain(n)))
@@ -97,6 +98,7 @@ def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     for name, method in rivals.INTEGRATORS.items():
 
         def work(n: int, method: rivals.Integrator = method) -> object:
+            """Every phase integrated from n samples."""
             return [method(phi, a) for phi, a in rivals.samples(motion, n)]
 
         error = partial(rivals.integrated_error, motion, method=method)
@@ -113,6 +115,7 @@ def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     for name, solve, counts in solvers:
 
         def work(n: int, solve: rivals.Solver = solve) -> float:
+            """The least radius of n lines [mm]."""
             return solve(rivals.translating_lines(motion, LIMIT, n), INSIDE)
 
         yield Trial("least radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1))
@@ -123,9 +126,11 @@ def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     yield _drawn("profile", sizes.profile, where, "working_profile", convergence.profile_error)
 
     def work(n: int) -> Floats:
+        """The corners of the profile about n points of the pitch curve [mm]."""
         return rivals.buffered(cam.pitch_curve(turn(n)), where.sizes.roller_radius)
 
     def error(n: int) -> float:
+        """How far corners lie off the profile at most, as a part of the prime radius."""
         corners = convergence.as_complex(work(n))
         some = corners[:: max(1, corners.size // 2000)]
         off = convergence.distance_from_profile(cam, some, convergence.nearest_angles(cam, some))

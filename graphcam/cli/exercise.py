@@ -120,6 +120,7 @@ def make(
     progress = progress_lines(quiet=False)
 
     def step(done: int, total: int) -> None:
+        """Tell whose turn it is."""
         progress(f"student {done} of {total}")
 
     with one_message():

@@ -65,6 +65,7 @@ def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
     shown = -REFRESHED
 
     def step(done: int, total: int) -> None:
+        """Move the bar, and show it when it is due."""
         nonlocal shown
         now = time.monotonic()
         due = now - shown >= REFRESHED

@@ -255,7 +255,7 @@ def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
-        return Law(name, formulas, edges, mirrored=True, peaks=peaks, tangents=(tangent, tangent))
+        return Law(name, formulas, edges, True, peaks=peaks, tangents=(tangent, tangent), trusted=True)
     middle, back = 1 / (1 + ratio), 1 / ratio
     first = partial(_constant, height=2 * (1 + ratio))
     second = first if ratio == 1 else partial(_constant, height=2 * (1 + back))
@@ -264,4 +264,4 @@ def _built(name: str, ratio: float) -> Law:
         partial(_rectangular_tangent, ratio=back, middle=1 - middle),
     )
     peaks = 2.0, 2 * (1 + max(ratio, back))
-    return Law(name, (first, second), (middle,), middle=middle, ratio=ratio, peaks=peaks, tangents=tangents)
+    return Law(name, (first, second), (middle,), False, middle, ratio, peaks, tangents, trusted=True)

@@ -48,6 +48,7 @@ class Law:
     peaks : max f' and max |f''|; None has them found
     tangents : closed forms of the place u where f' - f/k is greatest, and of that value, for any k > 0; the second one
         is that of the law seen from its end.  None has the place found
+    trusted : it is known to be a law, so it is not checked, which takes some milliseconds
 
     Raises
     ------
@@ -72,10 +73,11 @@ class Law:
     ratio: float = 1.0
     peaks: tuple[float, float] | None = field(default=None, repr=False)
     tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
+    trusted: InitVar[bool] = False
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
     """the pieces between 0, the edges and 1"""
 
-    def __post_init__(self, mirrored: bool) -> None:
+    def __post_init__(self, mirrored: bool, trusted: bool) -> None:
         formulas = (self.formulas,) if callable(self.formulas) else tuple(self.formulas)
         starts, middle = (0.0, *map(float, self.edges)), self.middle
         if mirrored:
@@ -96,7 +98,8 @@ class Law:
         made = {"formulas": formulas, "edges": starts[1:], "middle": middle, "pieces": tuple(pieces)}
         for name, value in made.items():
             object.__setattr__(self, name, value)
-        self._check()
+        if not trusted:
+            self._check()
 
     def __call__(self, u: ArrayLike, derivatives: int = 3, side: Side = "right") -> tuple[Floats, ...]:
         """The lift f and its first ``derivatives`` derivatives at u, each shaped like u; NaN outside [0, 1].
@@ -160,7 +163,8 @@ class Law:
         if (formulas[::-1], edges, self.middle) == (formulas, self.edges, 0.5):
             return self
         ahead, back = self.tangents
-        return Law(self.name, formulas[::-1], edges, False, 1 - self.middle, 1 / self.ratio, self.peaks, (back, ahead))
+        turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
+        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), trusted=True)
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 

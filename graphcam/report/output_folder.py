@@ -62,7 +62,7 @@ def write(
 ) -> dict[str, str | None]:
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
     check_choices(solution, upto, dxf=dxf, files=files)
-    wanted, report = FILES if files is None else files, progress or _unheard
+    wanted, report = FILES if files is None else files, progress or unheard
     written: dict[str, str | None] = dict.fromkeys(FILES)
     with whole_folder(directory) as folder:
         sheets = [kind for kind in SHEETS if kind in wanted]
@@ -88,8 +88,8 @@ def write(
     return written
 
 
-def _unheard(line: str) -> None:
-    pass
+def unheard(_: str) -> None:
+    """What hears of the progress where nobody asks for it."""
 
 
 def _write_sheet(

@@ -172,11 +172,8 @@ class LimitsTable:
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
         rise, back = self.pressure_angle_rise, self.pressure_angle_return
-        return Limits(
-            rise=math.radians(Translating.usual_limit_deg if rise is None else rise),
-            return_=None if back is None else math.radians(back),
-            rest=self.rest,
-        )
+        given = {} if rise is None else {"rise": math.radians(rise)}
+        return Limits(return_=None if back is None else math.radians(back), rest=self.rest, **given)
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ _LONGEST = 60
 """Characters of a value that a message shows."""
 
 
-class _Words(str):
+class Unquoted(str):
     """Words about a value, shown without the quotes of a value."""
 
     __slots__ = ()
@@ -184,7 +184,7 @@ def _built_in_folder() -> Path:
 
 
 def _not_a_file(path: str | Path, what: str, remedy: str) -> TaskError:
-    return TaskError(str(path), "the task file", _Words(what), "a TOML file", remedy)
+    return TaskError(str(path), "the task file", Unquoted(what), "a TOML file", remedy)
 
 
 def _parse(path: str, content: bytes, folder: Path) -> Task | ArcsTask:
@@ -210,7 +210,7 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
         line = re.search(r"at line (\d+)", str(error))
         comma = line and _DECIMAL_COMMA.search(content.splitlines()[int(line[1]) - 1])
         remedy = f"numbers have a decimal point, {comma[1].decode()}.{comma[2].decode()}" if comma else EXAMPLE
-        raise TaskError(path, "the text", _Words(f"not TOML ({error})"), "a TOML file", remedy) from None
+        raise TaskError(path, "the text", Unquoted(f"not TOML ({error})"), "a TOML file", remedy) from None
     if not data:
         raise _not_a_file(path, "empty", EXAMPLE)
     return data
@@ -273,12 +273,12 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, detail: Error
     if isinstance(error := context.get("error"), DesignError):
         return _misfit(path, data, detail["loc"], error)
     if kind == "missing":
-        return TaskError(path, place, _Words("missing"), "given", EXAMPLE)
+        return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
     if kind == "unexpected_keyword_argument":
         return _unknown_key(path, place, value, classes, _table(detail["loc"][:-1]))
     if kind.startswith("union_tag"):
         tags = [table[-1] for table in classes if table[:-1] == _table(detail["loc"])]
-        found = value.get("kind", _Words("missing"))
+        found = value.get("kind", Unquoted("missing"))
         return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
     expected = context.get("expected") or _EXPECTED.get(kind) or detail["msg"]
     if kind == "too_long":
@@ -294,7 +294,7 @@ def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tup
     if kinds:
         left_out = f"left out where the kind is {table[-1]}"
         return TaskError(path, place, _shown(value), left_out, f"it is for {' and '.join(kinds)}")
-    return TaskError(path, place, _Words("an unknown key"), "one that is known", nearest(key, known))
+    return TaskError(path, place, Unquoted("an unknown key"), "one that is known", nearest(key, known))
 
 
 def _keys(table: type) -> list[str]:
@@ -307,7 +307,7 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     key = _KEYS.get(error.quantity, error.quantity)
     field, value = _look_up(data, (*place, *key.split(".")))
     if not isinstance(value, int | float | str):
-        value = _Words(error.value) if isinstance(error.value, str) else error.value
+        value = Unquoted(error.value) if isinstance(error.value, str) else error.value
     return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
 
 
@@ -333,8 +333,8 @@ def _table(place: Place) -> tuple[str, ...]:
 def _shown(value: Any) -> Any:
     """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
     if isinstance(value, bool):
-        return _Words(str(value).lower())
+        return Unquoted(str(value).lower())
     if isinstance(value, dict | list):
-        return _Words("a table" if isinstance(value, dict) else f"a list of {len(value)}")
+        return Unquoted("a table" if isinstance(value, dict) else f"a list of {len(value)}")
     text = repr(value)
-    return _Words(text[:_LONGEST] + "...") if len(text) > _LONGEST else value
+    return Unquoted(text[:_LONGEST] + "...") if len(text) > _LONGEST else value

@@ -424,3 +424,13 @@ def test_no_file_names_a_law_of_ones_own():
     phases = tuple(replace(phase, law=own) if phase.kind == "rise" else phase for phase in task.motion.phases)
     with pytest.raises(gc.DesignError, match=r"motion.phases\[0\].law is 'cosine'"):
         task_files(replace(task, motion=replace(task.motion, phases=phases)))
+
+
+@pytest.mark.parametrize("name", gc.LAWS)
+@pytest.mark.parametrize("ratio", [1.0, 2.5])
+def test_a_built_in_law_and_its_reverse_would_pass_the_check_that_they_are_spared(name, ratio):
+    law = gc.law(name, ratio=ratio if name == "rectangular" else 1.0)
+    for built in (law, law.reversed):
+        assert replace(built).pieces == built.pieces
+    with pytest.raises(gc.DesignError, match="given max f'"):
+        replace(law, peaks=(3.0, law.peak_acceleration))

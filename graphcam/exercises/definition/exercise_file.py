@@ -14,18 +14,11 @@ from graphcam.exercises.definition.misconceptions import misconception
 from graphcam.exercises.definition.template import fill_in
 from graphcam.exercises.definition.texts import in_language
 from graphcam.language import ENGLISH
-from graphcam.tasks.task_file import EXAMPLE, Classes, checked, parse_toml, read_content
+from graphcam.tasks.task_file import EXAMPLE, Classes, Unquoted, checked, parse_toml, read_content
 
 HOW_TO = "see exercises/README.md"
 NO_KEYS = {"name", "language"}
 """What an exercise has and its file does not say."""
-
-
-class _Word(str):
-    """Shown without the quotes of a value."""
-
-    __slots__ = ()
-    __repr__ = str.__str__
 
 
 def library() -> tuple[str, ...]:
@@ -61,7 +54,7 @@ def exercise_path(name: str) -> Path:
         return Path(name)
     if name not in library():
         known = "one that 'graphcam exercise list' names"
-        raise TaskError(name, "the exercise", _Word("not there"), known, nearest(name, library()))
+        raise TaskError(name, "the exercise", Unquoted("not there"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 
@@ -78,9 +71,9 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
         if "motion" in data and "task" not in data:
             remedy = "begin with a copy of one that 'graphcam exercise list' names"
             expected = "an exercise, which has the task in its table [task]"
-            raise TaskError(str(path), "the file", _Word("a task"), expected, remedy)
+            raise TaskError(str(path), "the file", Unquoted("a task"), expected, remedy)
         for key in NO_KEYS & data.keys():
-            raise TaskError(str(path), key, _Word("an unknown key"), "one that is known", HOW_TO)
+            raise TaskError(str(path), key, Unquoted("an unknown key"), "one that is known", HOW_TO)
         told = in_language(str(path), data, language)
         exercise = checked(Exercise, _classes(data), str(path), told, told)
     except TaskError as error:
