@@ -171,7 +171,7 @@ table(("greatest pressure, MPa", "at φ, °", "least width for 600 MPa, mm"), [(
 # %%
 plan = design.force_plan
 normal = plan.readings["normal"]
-station = plan.givens["station"]
+station = plan.givens.station
 u, phase = solution.chain.board.stations.u[station], solution.chain.board.stations.phase[station]
 exact = float(gc.CamForces(cam, design.load).at(phase, u).normal)
 table(("contact force", "drawn, N", "exact, N"), [("station " + str(station), float(normal.value), exact)])

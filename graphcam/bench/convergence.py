@@ -104,7 +104,7 @@ def least_radius_error(where: TestScene, chain: Chain) -> float:
 def profile_error(where: TestScene, chain: Chain) -> float:
     """The greatest distance of the touch points from the exact profile."""
     profile = chain["working_profile"]
-    touch = profile.points["touch"] * profile.givens["inverted"].givens["mu_l"].per_mm
+    touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm
     distance = distance_from_profile(where.cam, touch, chain.board.stations.phi)
     return float(distance.max()) / where.sizes.prime_radius
 

@@ -91,7 +91,7 @@ def _profile_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     """The greatest distance of every hand's touch points from the exact profile, relative to the prime radius."""
     chain = where.chain(parts, pencil)
     profile = chain["working_profile"]
-    touch = profile.points["touch"] * profile.givens["inverted"].givens["mu_l"].per_mm
+    touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm
     near = np.broadcast_to(chain.board.stations.phi, touch.shape)
     kept = np.isfinite(touch)  # a touch point that another circle covers is not drawn
     distance = np.zeros(touch.shape)

@@ -7,6 +7,7 @@ known only after two integrations, when the known lift fixes the scale.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -25,9 +26,23 @@ from graphcam.given.stations import Stations
 from graphcam.words import Caption, joined, sequence
 
 
+@dataclass(frozen=True, eq=False)
+class AccelerationGivens:
+    """What lies on the board; see :func:`acceleration_diagram`."""
+
+    motion: Motion
+    stations: Stations
+    ordinate: float
+    mu_phi: Scale
+    unit: str
+
+
+AccelerationDiagram = Construction[AccelerationGivens]
+
+
 def acceleration_diagram(
     motion: Motion, stations: Stations, ordinate: float, mu_phi: Scale, unit: str, pencil: Pencil
-) -> Construction:
+) -> AccelerationDiagram:
     """Lay off the cam angle, choose the ordinate of the first rise, compute the others, plot the middle ordinates.
 
     motion, stations : the phases and how they are divided
@@ -60,9 +75,9 @@ def acceleration_diagram(
     lengths |= {"before": ordinates(u, stations.phases, "left"), "middles": ordinates(middle, stations.parts)}
     readings = {name: reading(pencil.sheets(length), 1.0, "mm of paper") for name, length in lengths.items()}
     readings["base"] = reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad")
-    givens = {"motion": motion, "stations": stations, "ordinate": ordinate, "mu_phi": mu_phi, "unit": unit}
+    givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
     points = {"axis": pencil.sheets(axis + 0j)}
-    return Construction("acceleration", givens | {"pencil": pencil}, readings, points, _draw)
+    return Construction("acceleration", givens, pencil, readings, points, _draw)
 
 
 def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:
@@ -83,8 +98,8 @@ def _shape(phase: Moving, u: Floats, side: Side = "right") -> Floats:
     return phase.direction * phase.normalised(u, side=side)[2] / phase.normalised.peak_acceleration
 
 
-def _draw(diagram: Construction) -> list[Step]:
-    motion, stations = diagram.givens["motion"], diagram.givens["stations"]
+def _draw(diagram: AccelerationDiagram) -> list[Step]:
+    motion, stations = diagram.givens.motion, diagram.givens.stations
     phases, greatest = moving_phases(motion, stations), diagram.first("greatest")
     x = diagram.first("axis").real
     ends = [(x[span.start], x[span.stop - 1]) for span in stations.phases]
@@ -112,9 +127,9 @@ def _laws(motion: Motion, stations: Stations) -> Caption:
     return sequence([say("{phase} {law}", phase=phase_title(motion, k), law=law_name(p.normalised)) for k, p in phases])
 
 
-def _axis(diagram: Construction, heights: Floats) -> Step:
+def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     """The axes, for ordinates of these ``heights`` [mm]."""
-    motion, mu_phi = diagram.givens["motion"], diagram.givens["mu_phi"]
+    motion, mu_phi = diagram.givens.motion, diagram.givens.mu_phi
     ends = phase_ends(motion, mu_phi)
     axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
     told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
@@ -125,9 +140,9 @@ def _axis(diagram: Construction, heights: Floats) -> Step:
     return Step(say("Axis of the cam angle"), said, ACCELERATION, axes, ("base",), given=axes)
 
 
-def _middle_ordinates(diagram: Construction, x: Floats) -> Step:
+def _middle_ordinates(diagram: AccelerationDiagram, x: Floats) -> Step:
     """The ordinates between the stations, which stand at ``x`` [mm] on the axis."""
-    stations = diagram.givens["stations"]
+    stations = diagram.givens.stations
     middle_x, middle_y = (x[stations.left] + x[stations.left + 1]) / 2, diagram.first("middles")
     middles = (
         Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, phi_axes, pieces_of
+from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
 from graphcam.drafting.euclid import UP
@@ -16,7 +18,15 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 
 
-def angle_diagram(measured: Construction, mu_alpha: Scale, pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class AngleDiagramGivens:
+    """The measured angles, and the scale in which they are plotted [rad/mm]."""
+
+    measured: MeasuredAngles
+    mu_alpha: Scale
+
+
+def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> Construction[AngleDiagramGivens]:
     """Plot the pressure angles over the cam angle, fair the curve between breaks, and read off the greatest.
 
     measured : the follower's pressure angles, with a reading ``alpha``
@@ -26,8 +36,8 @@ def angle_diagram(measured: Construction, mu_alpha: Scale, pencil: Pencil) -> Co
     ``rise_candidates`` and ``return_candidates`` (..., 2) they were chosen from, highest and lowest.
     """
     hand = pencil.hand("angle_diagram")
-    integrated = measured.givens["integrated"]
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    integrated = measured.givens.integrated
+    motion, stations = integrated.givens.motion, integrated.givens.stations
     height = measured.readings["alpha"].paper / mu_alpha.per_mm + hand.line(stations.u.size)
     curve = integrated.points["s_curve"].real + UP * height
     rises, returns = (highest_and_lowest(curve, pieces_of(motion, stations, direction)) for direction in (1, -1))
@@ -36,17 +46,18 @@ def angle_diagram(measured: Construction, mu_alpha: Scale, pencil: Pencil) -> Co
     candidates = {"rise_candidates": rises.imag, "return_candidates": returns.imag}
     return Construction(
         "angle_diagram",
-        {"measured": measured, "mu_alpha": mu_alpha, "pencil": pencil},
+        AngleDiagramGivens(measured, mu_alpha),
+        pencil,
         hand.readings(mu_alpha.per_mm, "rad", max_rise=rise.imag, max_return=return_.imag, **candidates),
         {"curve": curve, "max_rise": rise, "max_return": return_},
         _draw,
     )
 
 
-def _draw(plotted: Construction) -> list[Step]:
-    measured = plotted.givens["measured"]
-    integrated = measured.givens["integrated"]
-    motion, stations, mu_phi = (integrated.givens[name] for name in ("motion", "stations", "mu_phi"))
+def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
+    measured = plotted.givens.measured
+    integrated = measured.givens.integrated
+    motion, stations, mu_phi = integrated.givens.motion, integrated.givens.stations, integrated.givens.mu_phi
     curve, ends = plotted.first("curve"), phase_ends(motion, mu_phi)
     tops = [complex(plotted.first(name)) for name in ("max_rise", "max_return")]
     greatest = [np.degrees(plotted.value(name)) for name in ("max_rise", "max_return")]
@@ -69,7 +80,7 @@ def _draw(plotted: Construction) -> list[Step]:
     said = say(
         "The angles are plotted at {scale:.4g}° a millimetre and the curve is faired between the jumps of the "
         "acceleration; in the dwells the angle stays."
-    ).where(scale=np.degrees(plotted.givens["mu_alpha"].per_mm))
+    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm))
     found = say(
         "The greatest angles are read off the faired curve: {rise:.2f} mm on the rise, which stands for {rise_deg:.2f}"
         "°, and {back:.2f} mm on the return, {back_deg:.2f}°."

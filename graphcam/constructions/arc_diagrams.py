@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.arc_roller import ArcStations
+from graphcam.constructions.arc_roller import ArcStations, RollerOnArcs
 from graphcam.constructions.axes import axes_over_phi, degree_ticks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
@@ -28,9 +29,18 @@ HEIGHTS = {"a": 100.0, "v": 80.0, "s": 60.0}
 """Each diagram takes the largest standard scale at which it is not higher [mm of paper]."""
 
 
+@dataclass(frozen=True, eq=False)
+class ArcDiagramsGivens:
+    """What lies on the board; see :func:`arc_diagrams`."""
+
+    rolled: RollerOnArcs
+    mu_phi: Scale
+    heights: Mapping[str, float]
+
+
 def arc_diagrams(
-    rolled: Construction, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
-) -> Construction:
+    rolled: RollerOnArcs, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
+) -> Construction[ArcDiagramsGivens]:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
     rolled : from :func:`~graphcam.constructions.arc_roller.arc_roller`
@@ -41,7 +51,7 @@ def arc_diagrams(
     ``a_candidates`` and ``alpha_candidates`` (..., 2), highest and lowest, which they were chosen from.
     Points: the plotted ``a``, ``v``, ``s`` and ``alpha`` of the rise, and ``a_tops`` ..., highest and lowest.
     """
-    hand, stations = pencil.hand("arc_diagrams"), rolled.givens["stations"]
+    hand, stations = pencil.hand("arc_diagrams"), rolled.givens.stations
     x = rolled.readings["phi"].paper / mu_phi.per_mm
     points: dict[str, Points] = {}
     readings: dict[str, Reading] = {}
@@ -57,11 +67,11 @@ def arc_diagrams(
         points[f"{name}_tops"] = tops
         readings[f"max_{name}"] = reading(np.max(greatest, axis=-1), scale, source.unit)
         readings[f"{name}_candidates"] = reading(greatest, scale, source.unit)
-    givens = {"rolled": rolled, "mu_phi": mu_phi, "heights": heights, "pencil": pencil}
-    return Construction("arc_diagrams", givens, readings, points, _draw)
+    givens = ArcDiagramsGivens(rolled, mu_phi, heights)
+    return Construction("arc_diagrams", givens, pencil, readings, points, _draw)
 
 
-def _scale(rolled: Construction, name: str, height: float) -> Scale:
+def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
     """The scale of a diagram that should not be higher, by what is read in the first sample."""
     values: Floats = np.nan_to_num(rolled.value(name))
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
@@ -106,8 +116,8 @@ CARRIED = {
 }
 
 
-def _draw(plotted: Construction) -> list[Step]:
-    rolled, mu_phi = plotted.givens["rolled"], plotted.givens["mu_phi"]
+def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
+    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi
     if np.isnan(rolled.first("phi")).any():
         said = say("Without a path of the roller there is nothing to plot.")
         return [Step(say("No diagrams"), said, DISPLACEMENT, ())]
@@ -115,20 +125,20 @@ def _draw(plotted: Construction) -> list[Step]:
     return [_diagram(plotted, name, edges) for name in VIEWS]
 
 
-def _edges(rolled: Construction, mu_phi: Scale) -> Floats:
+def _edges(rolled: RollerOnArcs, mu_phi: Scale) -> Floats:
     """Where the arcs, the dwell and the turn begin and end, on the paper."""
     rise: Floats = rolled.first("edges")
-    down = 2 * rise[-1] + rolled.givens["arcs"].givens["dwell"] - rise[::-1]
+    down = 2 * rise[-1] + rolled.givens.arcs.givens.dwell - rise[::-1]
     return np.concatenate([rise, down, [FULL_TURN]]) / mu_phi.per_mm
 
 
-def _diagram(plotted: Construction, name: str, edges: Floats) -> Step:
-    rolled, mu_phi = plotted.givens["rolled"], plotted.givens["mu_phi"]
+def _diagram(plotted: Construction[ArcDiagramsGivens], name: str, edges: Floats) -> Step:
+    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi
     curve = plotted.first(name)
     held = float(curve[-1].imag) if name == "s" else 0.0
-    line = _whole_turn(curve, rolled.givens["stations"], edges, MIRROR[name], held)
+    line = _whole_turn(curve, rolled.givens.stations, edges, MIRROR[name], held)
     low, high = float(np.nanmin(line.imag)), float(np.nanmax(line.imag))
-    heights = plotted.givens["heights"]
+    heights = plotted.givens.heights
     mu = np.degrees(mu_phi.per_mm) if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
     axes = axes_over_phi(edges[-1], line.imag, SYMBOLS[name])
     if name == "alpha":

@@ -7,6 +7,8 @@ Laid off the other way it gives the other root.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.drafting.euclid import UP, along_to_circle, meet, perpendicular_bisector, turned, unit
@@ -29,7 +31,19 @@ SAME_RADIUS = 1e-6
 """Lengths this near to one another [mm of paper] are the same: rounding."""
 
 
-def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class ThreeArcsGivens:
+    """What lies on the board; see :func:`three_arcs`."""
+
+    given: ThreeArcs
+    dwell: float
+    mu_l: Scale
+
+
+ArcOutline = Construction[ThreeArcsGivens]
+
+
+def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> ArcOutline:
     """Find the centres and the points of touching of both roots.
 
     dwell : angle [rad] for which the outer circle holds the follower up
@@ -69,8 +83,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> C
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
         lengths |= {f"{name}_x": points[name].real, f"{name}_y": points[name].imag}
     readings = hand.readings(mu_l.per_mm, "mm", **lengths)
-    givens = {"given": given, "dwell": dwell, "mu_l": mu_l, "pencil": pencil}
-    return Construction("three_arcs", givens, readings, points, _draw)
+    return Construction("three_arcs", ThreeArcsGivens(given, dwell, mu_l), pencil, readings, points, _draw)
 
 
 def _dividers(hand: Hand) -> Floats:
@@ -87,18 +100,18 @@ def _touching(c1: Points, rho1: float, c3: Points, g: Points) -> Points:
     return np.where(off[0] <= off[1], beyond, between)
 
 
-def run(arcs: Construction) -> int:
+def run(arcs: ArcOutline) -> int:
     """sigma of the first sample: +1 where the way from A to D is clockwise, so that the cam turns counter-clockwise."""
     return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
 
 
-def mirrored(arcs: Construction, points: Points) -> Points:
+def mirrored(arcs: ArcOutline, points: Points) -> Points:
     """Points of the rise's flank, of the first sample, on the return's: across the middle of the upper dwell."""
-    axis = turned(unit(arcs.first("D")), -run(arcs) * arcs.givens["dwell"] / 2)
+    axis = turned(unit(arcs.first("D")), -run(arcs) * arcs.givens.dwell / 2)
     return axis**2 * np.conj(points)
 
 
-def outline(arcs: Construction, grown: float, role: Role) -> list[Mark]:
+def outline(arcs: ArcOutline, grown: float, role: Role) -> list[Mark]:
     """The closed profile of the first sample, all arcs ``grown`` by a roller's radius [mm of paper]."""
     a, g, f, d = (complex(arcs.first(name)) for name in ("A", "G", "F", "D"))
     c1, c2, c3 = (complex(arcs.first(name)) for name in ("C1", "C2", "C3"))
@@ -108,7 +121,7 @@ def outline(arcs: Construction, grown: float, role: Role) -> list[Mark]:
             three: Points = np.array([centre, start, end])
             c, p, q = (mirrored(arcs, three) if flip else three).tolist()
             marks.append(_arc(c, p, q, grown, role))
-    sigma, dwell, rise = run(arcs), arcs.givens["dwell"], float(abs(np.angle(d / a)))
+    sigma, dwell, rise = run(arcs), arcs.givens.dwell, float(abs(np.angle(d / a)))
     for start, angle in ((d, dwell), (complex(mirrored(arcs, np.asarray(a))), FULL_TURN - 2 * rise - dwell)):
         if angle > 0:
             first = float(np.angle(start))
@@ -127,7 +140,7 @@ def _arc(centre: complex, start: complex, end: complex, grown: float, role: Role
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
-def _draw(arcs: Construction) -> list[Step]:
+def _draw(arcs: ArcOutline) -> list[Step]:
     drawn = {name: complex(arcs.first(name)) for name in arcs.points}
     steps = [_data(arcs, drawn), _first_centre(arcs, drawn), _second_centre(arcs, drawn)]
     if np.isnan(drawn["C2"]):
@@ -139,14 +152,14 @@ def _draw(arcs: Construction) -> list[Step]:
     return [*steps, _profile(arcs, drawn)]
 
 
-def _profile(arcs: Construction, drawn: dict[str, complex]) -> Step:
-    rho1, mu_l = arcs.givens["given"].rho1, arcs.givens["mu_l"].per_mm
+def _profile(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
+    rho1, mu_l = arcs.givens.given.rho1, arcs.givens.mu_l.per_mm
     radii = {name: float(arcs.value(name)) for name in ("rho2", "rho3", "base", "outer")}
     said = say(
         "The arcs AG about C2, GF about C3 and FD about C1 are drawn, with the radii ρ₂ = {rho2:.3f} mm, ρ₃ = "
         "{rho3:.3f} mm and ρ₁ = {rho1:g} mm; they touch the circles of {base:.3f} mm and {outer:.3f} mm about O. The "
         "return is the mirror image; the outer circle holds the follower up over {dwell:.6g}°."
-    ).where(rho1=rho1, dwell=np.degrees(arcs.givens["dwell"]), **radii)
+    ).where(rho1=rho1, dwell=np.degrees(arcs.givens.dwell), **radii)
     arms = (
         ("C1", "D", "ρ₁", rho1),
         ("C2", "G", "ρ₂", float(arcs.first("rho2")) * mu_l),
@@ -164,7 +177,7 @@ def _named(name: str, at: complex, away: complex = 0j) -> Label:
     return Label(at, name, towards=(at - away) / abs(at - away) if abs(at - away) > SAME_RADIUS else 1 + 1j)
 
 
-def _at(arcs: Construction, name: str) -> Caption:
+def _at(arcs: ArcOutline, name: str) -> Caption:
     """A point's coordinates as they are told."""
     x, y = (float(arcs.value(reading)) for reading in _xy(name))
     return say("({x:.3f}, {y:.3f}) mm", x=x, y=y)
@@ -179,8 +192,8 @@ def _told(point: Point) -> Caption:
     return say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
 
 
-def _data(arcs: Construction, drawn: dict[str, complex]) -> Step:
-    given, mu_l = arcs.givens["given"], arcs.givens["mu_l"]
+def _data(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
+    given, mu_l = arcs.givens.given, arcs.givens.mu_l
     names = [name for name in ("A", "D", "G") if getattr(given, name) is not None]
     outer = Circle(0j, abs(drawn["D"]), Role.CONSTRUCTION)
     reach = np.array([-1, 1]) * (outer.radius + OVERHANG)
@@ -195,8 +208,8 @@ def _data(arcs: Construction, drawn: dict[str, complex]) -> Step:
     return Step(say("The data"), said, ARCS, (outer, *plotted), given=plotted)
 
 
-def _first_centre(arcs: Construction, drawn: dict[str, complex]) -> Step:
-    given, c1, d = arcs.givens["given"], drawn["C1"], drawn["D"]
+def _first_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
+    given, c1, d = arcs.givens.given, drawn["C1"], drawn["D"]
     if given.C1 is None:
         said = say(
             "On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the first "
@@ -209,15 +222,15 @@ def _first_centre(arcs: Construction, drawn: dict[str, complex]) -> Step:
         ).where(rho1=given.rho1, at=_told(given.C1))
     marks = (
         Line(np.array([0j, d * (1 + OVERHANG / abs(d))]), Role.CONSTRUCTION),
-        Circle(c1, given.rho1 / arcs.givens["mu_l"].per_mm, Role.CONSTRUCTION),
+        Circle(c1, given.rho1 / arcs.givens.mu_l.per_mm, Role.CONSTRUCTION),
         Dots(np.array([c1])),
         _named("C1", c1, d),
     )
     return Step(say("The first centre"), said, ARCS, marks, reads=_xy("C1"))
 
 
-def _second_centre(arcs: Construction, drawn: dict[str, complex]) -> Step:
-    given, c2, g, a = arcs.givens["given"], drawn["C2"], drawn["G"], drawn["A"]
+def _second_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
+    given, c2, g, a = arcs.givens.given, drawn["C2"], drawn["G"], drawn["A"]
     if np.isnan(c2):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
         return Step(say("The second centre"), said, ARCS, ())
@@ -254,7 +267,7 @@ def _bisector(a: complex, b: complex, to: complex, role: Role = Role.CONSTRUCTIO
     return Line(np.array([a, b]), role), Line(np.array([start, to]), role)
 
 
-def _third_arc(arcs: Construction, drawn: dict[str, complex], name: str) -> list[Step]:
+def _third_arc(arcs: ArcOutline, drawn: dict[str, complex], name: str) -> list[Step]:
     """The centre of the third arc and F, of the one root or the ``other_``."""
     other = bool(name)
     p, c3, f, g, c1, c2 = (drawn[key] for key in (f"{name}P", f"{name}C3", f"{name}F", "G", "C1", "C2"))
@@ -267,7 +280,7 @@ def _third_arc(arcs: Construction, drawn: dict[str, complex], name: str) -> list
     if np.isnan(c3):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
-    rho3 = abs(c3 - g) * arcs.givens["mu_l"].per_mm
+    rho3 = abs(c3 - g) * arcs.givens.mu_l.per_mm
     found_centre = say(
         "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
         "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."

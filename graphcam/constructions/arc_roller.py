@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.arc_outline import mirrored, outline, run
+from graphcam.constructions.arc_outline import ArcOutline, mirrored, outline, run
 from graphcam.drafting.euclid import UP, along_to_circle, meet, turned, unit
 from graphcam.drafting.ink import Construction, Step, View, Words, reading, say
 from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Points, Role, Segments
@@ -65,7 +65,19 @@ def divide_arcs(parts: int) -> ArcStations:
     return ArcStations(np.repeat(np.arange(3), count), np.tile(np.arange(count) / parts, 3), spans)
 
 
-def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class ArcRollerGivens:
+    """The arcs, the roller on them [mm], and where it stands."""
+
+    arcs: ArcOutline
+    roller_radius: float
+    stations: ArcStations
+
+
+RollerOnArcs = Construction[ArcRollerGivens]
+
+
+def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pencil: Pencil) -> RollerOnArcs:
     """Put the roller on the arcs at every station of the rise, and find s, v and a there.
 
     arcs : from :func:`~graphcam.constructions.arc_outline.three_arcs`
@@ -80,7 +92,7 @@ def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, 
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
     hand, count = pencil.hand("arc_roller"), stations.u.size
-    mu_l = arcs.givens["mu_l"].per_mm
+    mu_l = arcs.givens.mu_l.per_mm
     touch, centres = _stacked(arcs, "AGFD"), _stacked(arcs, ("C2", "C2", "C3", "C1"))
     # The roller's centre lies on the line of centres through each joint.
     trace = touch + unit(touch - centres) * (roller_radius / mu_l + hand.dividers(4))
@@ -119,11 +131,11 @@ def arc_roller(arcs: Construction, roller_radius: float, stations: ArcStations, 
         **hand.readings(mu_l, "mm/rad²", **{name: a[..., stations.spans[of]][..., end] for name, of, end in JOINTS}),
     }
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace, "ray": ray}
-    givens = {"arcs": arcs, "roller_radius": roller_radius, "stations": stations, "pencil": pencil}
-    return Construction("arc_roller", givens, readings, points, _draw)
+    givens = ArcRollerGivens(arcs, roller_radius, stations)
+    return Construction("arc_roller", givens, pencil, readings, points, _draw)
 
 
-def _stacked(arcs: Construction, names: Iterable[str]) -> Points:
+def _stacked(arcs: ArcOutline, names: Iterable[str]) -> Points:
     """Points side by side, (..., k)."""
     return np.stack([arcs.points[name] for name in names], axis=-1)
 
@@ -138,14 +150,14 @@ BEYOND = 7.0
 """How far the rays run on beyond the roller's centre [mm]."""
 
 
-def _draw(rolled: Construction) -> list[Step]:
+def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
         said = say(
             "Without a readable centre of every arc, {missing}, the roller has no path.", missing=_missing(rolled)
         )
         return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
-    arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
-    mu_l, roller = arcs.givens["mu_l"], rolled.givens["roller_radius"]
+    arcs, stations = rolled.givens.arcs, rolled.givens.stations
+    mu_l, roller = arcs.givens.mu_l, rolled.givens.roller_radius
     b, ray, trace = (rolled.first(name) for name in ("B", "ray", "trace"))
     edges = np.degrees(rolled.first("edges"))
     reach = float(np.abs(trace[-1])) + BEYOND
@@ -177,7 +189,7 @@ def _draw(rolled: Construction) -> list[Step]:
     ]
 
 
-def _outlines(arcs: Construction, trace: Points, roller: float) -> tuple[Mark, ...]:
+def _outlines(arcs: ArcOutline, trace: Points, roller: float) -> tuple[Mark, ...]:
     """The cam and the path of the roller's centre, which passes through ``trace`` (4,); ``roller`` in mm of paper."""
     return (
         *outline(arcs, 0.0, Role.RESULT),
@@ -189,28 +201,28 @@ def _outlines(arcs: Construction, trace: Points, roller: float) -> tuple[Mark, .
     )
 
 
-def _rollers(rolled: Construction) -> list[Circle]:
+def _rollers(rolled: RollerOnArcs) -> list[Circle]:
     """The roller in the middle of every arc."""
-    roller, stations = rolled.givens["roller_radius"], rolled.givens["stations"]
+    roller, stations = rolled.givens.roller_radius, rolled.givens.stations
     if not roller:
         return []
     middle = [span.start + stations.u.size // 6 for span in stations.spans]
-    radius = roller / rolled.givens["arcs"].givens["mu_l"].per_mm
+    radius = roller / rolled.givens.arcs.givens.mu_l.per_mm
     return [Circle(complex(at), radius, Role.CONSTRUCTION) for at in rolled.first("B")[middle]]
 
 
-def _missing(rolled: Construction) -> Words:
-    arcs = rolled.givens["arcs"]
+def _missing(rolled: RollerOnArcs) -> Words:
+    arcs = rolled.givens.arcs
     return joined([name for name in ("C1", "C2", "C3") if np.isnan(arcs.first(name))])
 
 
-def _plan(rolled: Construction) -> list[Step]:
+def _plan(rolled: RollerOnArcs) -> list[Step]:
     """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
-    arcs, stations = rolled.givens["arcs"], rolled.givens["stations"]
+    arcs, stations = rolled.givens.arcs, rolled.givens.stations
     on, share = SHOWN
     at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
     station = stations.names[at]
-    mu_l, sigma = arcs.givens["mu_l"], run(arcs)
+    mu_l, sigma = arcs.givens.mu_l, run(arcs)
     upright = UP / rolled.first("ray")[at]
     names = ("B", "C", "K", "right", "beyond", "N", "M")
     points = {name: complex(rolled.first(name)[at] * upright) * mu_l.per_mm for name in names}

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.constructions import profile_view
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
 from graphcam.drafting.ink import Construction, Step, say
@@ -14,15 +17,23 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 
 
+@dataclass(frozen=True, eq=False)
+class ArmInversionGivens(profile_view.InvertedGivens):
+    """What lies on the board; see :func:`arm_inversion`."""
+
+    arm: float
+    distance: float
+
+
 def arm_inversion(
-    integrated: Construction,
+    integrated: Integrated,
     rotation: Rotation,
     prime_radius: float,
     arm: float,
     distance: float,
     mu_l: Scale,
     pencil: Pencil,
-) -> Construction:
+) -> Construction[ArmInversionGivens]:
     """Step the pivot off on its circle, swing the arm to the prime circle, and turn it by the displacement.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
@@ -31,26 +42,26 @@ def arm_inversion(
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
     hand = pencil.hand("inversion")
-    s, count = integrated.readings["s"], integrated.givens["stations"].u.size
+    s, count = integrated.readings["s"], integrated.givens.stations.u.size
     pivots = stepped_off(distance / mu_l.per_mm + 0j, 0j, profile_view.inverted_positions(integrated, rotation, hand))
     # To the left of the way from the cam centre to the pivot: above the line of centres.
     starts = circles_meet(np.asarray(0j), prime_radius / mu_l.per_mm, pivots, arm / mu_l.per_mm)
     pitch = stepped_off(starts, pivots, -(s.value + hand.protractor(count))) + hand.point(count)
-    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm}
     return Construction(
         "inversion",
-        givens | {"distance": distance, "mu_l": mu_l, "pencil": pencil},
+        ArmInversionGivens(integrated, rotation, prime_radius, mu_l, arm, distance),
+        pencil,
         profile_view.curve_readings(pitch, mu_l, hand),
         {"pivots": pivots, "starts": starts, "pitch": pitch, "motion": -UP * unit(pitch - pivots)},
         _draw,
     )
 
 
-def _draw(inverted: Construction) -> list[Step]:
-    integrated, mu_l = inverted.givens["integrated"], inverted.givens["mu_l"]
-    sigma, c, r0 = sense(inverted.givens["rotation"]), inverted.givens["distance"], inverted.givens["prime_radius"]
+def _draw(inverted: Construction[ArmInversionGivens]) -> list[Step]:
+    integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
+    sigma, c, r0 = sense(inverted.givens.rotation), inverted.givens.distance, inverted.givens.prime_radius
     pivots, starts, pitch = (inverted.first(name) for name in ("pivots", "starts", "pitch"))
-    phi = integrated.givens["stations"].phi
+    phi = integrated.givens.stations.phi
     start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
     circle = (Circle(0j, c / mu_l.per_mm, Role.CONSTRUCTION),)
     drawn = say(
@@ -64,7 +75,7 @@ def _draw(inverted: Construction) -> list[Step]:
     swung = say(
         "From every pivot the arc of the arm's length, {arm:.1f} mm, meets the prime circle; from there the arm is "
         "turned by the displacement, at most {most:.2f}°. Its ends are points of the pitch curve."
-    ).where(arm=inverted.givens["arm"] / mu_l.per_mm, most=np.degrees(integrated.value("s").max()))
+    ).where(arm=inverted.givens.arm / mu_l.per_mm, most=np.degrees(integrated.value("s").max()))
     first = complex(pivots[0])
     positions = (Dots(pivots, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
     arms = (Segments(pivots, pitch, Role.CONSTRUCTION), Label(first, "C", towards=first))

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import degrees, numbers, pieces_of
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.curve import faired
@@ -43,27 +44,42 @@ class ArmPositions:
         return self.ends + sigma * self.segments * unit(self.ends)
 
 
-def arm_positions(integrated: Construction, arm: float, mu_l: Scale, hand: Hand) -> ArmPositions:
+@dataclass(frozen=True, eq=False)
+class ArmLeastRadiusGivens:
+    """What lies on the board; see :func:`arm_least_radius`."""
+
+    integrated: Integrated
+    rotation: Rotation
+    limits: Limits
+    arm: float
+    distance: float | None
+    mu_l: Scale
+
+
+ArmRegion = Construction[ArmLeastRadiusGivens]
+
+
+def arm_positions(integrated: Integrated, arm: float, mu_l: Scale, hand: Hand) -> ArmPositions:
     """Lay the displacements off as angles of the arm, and the velocities as segments along it.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
     arm : length [mm]; mu_l : scale of the drawing [mm/mm]
     """
-    count, length = integrated.givens["stations"].u.size, arm / mu_l.per_mm
+    count, length = integrated.givens.stations.u.size, arm / mu_l.per_mm
     angles = integrated.readings["s"].value + hand.protractor(count)
     segments = integrated.readings["v"].value * length + hand.dividers(count)
     return ArmPositions(turned(-length + 0j, -angles) + hand.point(count), segments, angles)
 
 
 def arm_least_radius(
-    integrated: Construction,
+    integrated: Integrated,
     rotation: Rotation,
     limits: Limits,
     arm: float,
     distance: float | None,
     mu_l: Scale,
     pencil: Pencil,
-) -> Construction:
+) -> ArmRegion:
     """Find the cam centre that is nearest to the start of the lift.
 
     arm : length [mm]; distance : of the pivot from the cam centre [mm], or None to let it be found
@@ -81,10 +97,10 @@ def arm_least_radius(
         centre, _ = nearest_of_many(touches, inwards, start)
     else:
         centre = _nearest_on_arc(touches, inwards, distance / mu_l.per_mm)
-    givens = {"integrated": integrated, "rotation": rotation, "limits": limits, "arm": arm, "distance": distance}
     return Construction(
         "minimum_radius",
-        givens | {"mu_l": mu_l, "pencil": pencil},
+        ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l),
+        pencil,
         hand.readings(mu_l.per_mm, "mm", prime_radius=np.abs(centre - start), distance=np.abs(centre)),
         {"start": start, "ends": positions.ends, "tips": positions.tips(sense(rotation)), "centre": centre}
         | {f"touch of {line.name}": line.touch for line in lines}
@@ -94,14 +110,18 @@ def arm_least_radius(
 
 
 def boundaries(
-    positions: ArmPositions, integrated: Construction, rotation: Rotation, limits: Limits, start: Points
+    positions: ArmPositions,
+    integrated: Integrated,
+    rotation: Rotation,
+    limits: Limits,
+    start: Points,
 ) -> list[Boundary]:
     """The families of lines that bound the region, each (..., k): of the rises, of the returns, and at the rests.
 
     On a rise the velocity drives the angle to one side, on a return to the other.  The side away from it can bind only
     where the arm rests, so there both sides are drawn; without the rest condition the arm need only reach the cam.
     """
-    motion, stations, sigma = integrated.givens["motion"], integrated.givens["stations"], sense(rotation)
+    motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(rotation)
     tips, angles = positions.tips(sigma), positions.angles
 
     def leaning(limit: float, side: int, angle: Floats) -> Points:
@@ -147,12 +167,12 @@ def _nearest_on_arc(touches: Points, inwards: Points, radius: float) -> Points:
     return np.where(first <= last, turned(-radius + 0j, first), NOWHERE)
 
 
-def permitted_distances(region: Construction, prime_radius: float) -> Floats:
+def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
     """The stretches (k, 2) of centre distances [mm] at which a prime radius [mm] keeps the limits, on one drawing.
 
     region : from :func:`arm_least_radius`
     """
-    arm, mu = region.givens["arm"] / region.givens["mu_l"].per_mm, region.givens["mu_l"].per_mm
+    arm, mu = region.givens.arm / region.givens.mu_l.per_mm, region.givens.mu_l.per_mm
     start, radius = -arm + 0j, prime_radius / mu
     touches = np.concatenate([family.touch for family in _families(region)])
     inwards = np.concatenate([family.inward for family in _families(region)])
@@ -177,9 +197,9 @@ SHOWN_LINE = 0.35
 """Length of the thin line at the limit through each end, as a fraction of the arm."""
 
 
-def _draw(region: Construction) -> list[Step]:
-    integrated, limits, mu_l = region.givens["integrated"], region.givens["limits"], region.givens["mu_l"]
-    stations, shown = integrated.givens["stations"], at_scale(REGION, mu_l)
+def _draw(region: ArmRegion) -> list[Step]:
+    integrated, limits, mu_l = region.givens.integrated, region.givens.limits, region.givens.mu_l
+    stations, shown = integrated.givens.stations, at_scale(REGION, mu_l)
     ends, tips, centre = region.first("ends"), region.first("tips"), complex(region.first("centre"))
     start = complex(region.first("start"))
     pivot = (Dots(np.array([0j])), Label(0j, "C", towards=1 + 0j))
@@ -190,7 +210,7 @@ def _draw(region: Construction) -> list[Step]:
         *(Line(faired(tips[piece]), Role.RESULT) for piece in stations.pieces),
         *numbers(tips, stations, tips, shown=lengths > 1),
     )
-    side = say("outward") if sense(region.givens["rotation"]) > 0 else say("towards the pivot")
+    side = say("outward") if sense(region.givens.rotation) > 0 else say("towards the pivot")
     permitted = say("{rise} on the rise, while a spring drives the return", rise=degrees(limits.rise))
     if limits.return_:
         angles = {"rise": degrees(limits.rise), "back": degrees(limits.return_)}
@@ -228,13 +248,13 @@ def _draw(region: Construction) -> list[Step]:
     ]
 
 
-def _families(region: Construction) -> list[Boundary]:
+def _families(region: ArmRegion) -> list[Boundary]:
     """The families of lines of the first sample."""
     names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
     return [Boundary(n, region.first(f"touch of {n}"), region.first(f"inward of {n}")) for n in names]
 
 
-def _lines(region: Construction) -> tuple[Mark, ...]:
+def _lines(region: ArmRegion) -> tuple[Mark, ...]:
     """The lines at the stations, as far as they matter: from their ends down towards the region."""
     length = SHOWN_LINE * abs(complex(region.first("start")))
     marks: list[Mark] = []
@@ -246,7 +266,7 @@ def _lines(region: Construction) -> tuple[Mark, ...]:
     return tuple(marks)
 
 
-def _shown_region(region: Construction) -> Points:
+def _shown_region(region: ArmRegion) -> Points:
     """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
     centre, start = complex(region.first("centre")), complex(region.first("start"))
     bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
@@ -259,9 +279,9 @@ def _shown_region(region: Construction) -> Points:
     return permitted_part(lines, corners)
 
 
-def _result(region: Construction, start: complex, centre: complex) -> Step:
-    title, distance = say("The least prime radius"), region.givens["distance"]
-    shown = at_scale(REGION, region.givens["mu_l"])
+def _result(region: ArmRegion, start: complex, centre: complex) -> Step:
+    title, distance = say("The least prime radius"), region.givens.distance
+    shown = at_scale(REGION, region.givens.mu_l)
     if np.isnan(centre):
         said = say("No cam centre keeps all the limits.")
         if distance is not None:

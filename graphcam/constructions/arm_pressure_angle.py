@@ -8,11 +8,20 @@ angle.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.constructions.arm_minimum_radius import arm_positions
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.pressure_angle import angle_at, angle_readings, shown_station, velocity_plan
+from graphcam.constructions.integration import Integrated
+from graphcam.constructions.pressure_angle import (
+    MeasuredGivens,
+    angle_at,
+    angle_readings,
+    shown_station,
+    velocity_plan,
+)
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
 from graphcam.drafting.ink import Construction, Step, reading, say
@@ -22,15 +31,24 @@ from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
 
 
+@dataclass(frozen=True, eq=False)
+class ArmPressureAngleGivens(MeasuredGivens):
+    """What lies on the board; see :func:`arm_pressure_angle`."""
+
+    arm: float
+    distance: float
+    mu_l: Scale
+
+
 def arm_pressure_angle(
-    integrated: Construction,
+    integrated: Integrated,
     rotation: Rotation,
     prime_radius: float,
     arm: float,
     distance: float,
     mu_l: Scale,
     pencil: Pencil,
-) -> Construction:
+) -> Construction[ArmPressureAngleGivens]:
     """Measure the pressure angle at every station.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
@@ -40,7 +58,7 @@ def arm_pressure_angle(
     Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
     start of the lift [rad].
     """
-    hand, sigma, count = pencil.hand("pressure_angle"), sense(rotation), integrated.givens["stations"].u.size
+    hand, sigma, count = pencil.hand("pressure_angle"), sense(rotation), integrated.givens.stations.u.size
     positions = arm_positions(integrated, arm, mu_l, hand)
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
     start = np.asarray(-arm / mu_l.per_mm + 0j)
@@ -49,10 +67,10 @@ def arm_pressure_angle(
     seen = (centre - tips) / unit(positions.ends)  # along the arm outwards, and square to it
     alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
     psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
-    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "arm": arm}
     return Construction(
         "pressure_angle",
-        givens | {"distance": distance, "mu_l": mu_l, "pencil": pencil},
+        ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l),
+        pencil,
         {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},
         {"ends": positions.ends, "tips": tips, "centre": pencil.sheets(centre)},
         _draw,
@@ -65,14 +83,14 @@ PLAN_ARM = 70.0
 """The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
 
 
-def _draw(measured: Construction) -> list[Step]:
-    k, sigma, arm = shown_station(measured), sense(measured.givens["rotation"]), measured.givens["arm"]
+def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
+    k, sigma, arm = shown_station(measured), sense(measured.givens.rotation), measured.givens.arm
     scale = standard_scale(arm, PLAN_ARM)
     plan = at_scale(PLAN, scale)
-    shrink = measured.givens["mu_l"].per_mm / scale.per_mm
+    shrink = measured.givens.mu_l.per_mm / scale.per_mm
     alpha = float(measured.first("alpha")[k])
     shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
-    name = station_names(measured.givens["integrated"].givens["stations"])[k]
+    name = station_names(measured.givens.integrated.givens.stations)[k]
     # Turned so that the line of centres is level, with the cam centre at the origin.
     a = complex(measured.first("centre"))
     places = (measured.first("ends")[k], measured.first("tips")[k], 0j)

@@ -7,12 +7,14 @@ dwell the pitch curve is an arc about the cam centre; its ends and its middle ar
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import phase_symbol, station_names
+from graphcam.constructions.profile_view import Inverted
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.euclid import UP, centre_of_circle, crossing, perpendicular_bisector, stepped_off
 from graphcam.drafting.ink import Caption, Construction, Step, reading, say
@@ -27,7 +29,18 @@ from graphcam.plane import cross, dot
 from graphcam.words import sequence
 
 
-def curvature(inverted: Construction, pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class CurvatureGivens:
+    """The pitch curve, and in which samples it turns a corner."""
+
+    inverted: Inverted
+    corner: NDArray[np.bool_]
+
+
+Curved = Construction[CurvatureGivens]
+
+
+def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the rests.
 
     inverted : from :func:`~graphcam.constructions.inversion.inversion`
@@ -50,10 +63,11 @@ def curvature(inverted: Construction, pencil: Pencil) -> Construction:
     triple = np.take_along_axis(np.concatenate([moving[0], resting[0]], axis=-2), best, -2)[..., 0, :]
     turns = np.take_along_axis(np.concatenate([moving[1], resting[1]], axis=-2), best, -2)[..., 0, :]
     unread = np.isnan(rho)
-    lengths = hand.readings(inverted.givens["mu_l"].per_mm, "mm", rho=rho, rho_candidates=np.stack(candidates, axis=-1))
+    lengths = hand.readings(inverted.givens.mu_l.per_mm, "mm", rho=rho, rho_candidates=np.stack(candidates, axis=-1))
     return Construction(
         "curvature",
-        {"inverted": inverted, "corner": corner, "pencil": pencil},
+        CurvatureGivens(inverted, corner),
+        pencil,
         {**lengths, "phi": reading(np.where(unread[..., None], np.nan, turns), 1.0, "rad")},
         {
             "triple": np.where(unread[..., None], np.nan, triple),
@@ -73,13 +87,13 @@ def _none(pitch: Points) -> Triples:
     return unread + 0j, unread
 
 
-def _moving(inverted: Construction) -> Triples:
+def _moving(inverted: Inverted) -> Triples:
     """Every station with its neighbours, never across a jump of the acceleration.
 
     Where the bisectors cross at less than a degree the second neighbours are taken in place of the first, or the
     fourth, and so on: with very many parts the chords between neighbours hardly bend.
     """
-    stations, pitch = inverted.givens["integrated"].givens["stations"], inverted.points["pitch"]
+    stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
     places = [
         (k, min(k - piece.start, piece.stop - 1 - k))
         for piece in stations.pieces
@@ -104,14 +118,14 @@ NO_ACCELERATION = 1e-9
 """Part of the greatest acceleration that is none."""
 
 
-def _resting(inverted: Construction) -> Triples:
+def _resting(inverted: Inverted) -> Triples:
     """Three points of the arc about the cam centre on which the trace point rests, in each dwell.
 
     Where two moving phases meet and the acceleration of either vanishes, it rests for an instant on such an arc.
     """
-    integrated, pitch = inverted.givens["integrated"], inverted.points["pitch"]
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
-    sigma = sense(inverted.givens["rotation"])
+    integrated, pitch = inverted.givens.integrated, inverted.points["pitch"]
+    motion, stations = integrated.givens.motion, integrated.givens.stations
+    sigma = sense(inverted.givens.rotation)
     arcs: list[Points] = []
     phi: list[Floats] = []
     for k, last in zip(stations.phase[stations.last], stations.last, strict=True):
@@ -137,23 +151,23 @@ def _vanishes(phase: Moving, u: float) -> bool:
     return abs(float(law(u)[2])) <= NO_ACCELERATION * law.peak_acceleration
 
 
-def _centres(inverted: Construction, triples: Points) -> Points:
+def _centres(inverted: Inverted, triples: Points) -> Points:
     """The centres of the circles through three points (..., 3); NaN where the bisectors cross at less than a degree.
 
     In a drawing that is divided again to see what finer parts would change, every crossing counts.
     """
     a, b, c = np.moveaxis(triples, -1, 0)
-    if inverted.givens["integrated"].givens["stations"].refine > 1:
+    if inverted.givens.integrated.givens.stations.refine > 1:
         return crossing(*perpendicular_bisector(a, b), *perpendicular_bisector(b, c))
     return centre_of_circle(a, b, c)
 
 
-def _convex_radii(inverted: Construction, triples: Triples) -> Floats:
+def _convex_radii(inverted: Inverted, triples: Triples) -> Floats:
     """(..., k) the radii of the circles on paper, infinite where they are not convex, NaN where they are not read."""
     a, b, c = np.moveaxis(triples[0], -1, 0)
     centres = _centres(inverted, triples[0])
     # Numbered against the rotation, a convex curve turns the other way than the cam.
-    convex = sense(inverted.givens["rotation"]) * cross(b - a, c - b) < 0
+    convex = sense(inverted.givens.rotation) * cross(b - a, c - b) < 0
     return np.where(np.isnan(centres), np.nan, np.where(convex, np.abs(centres - b), np.inf))
 
 
@@ -166,16 +180,16 @@ CORNER = math.radians(45)
 """A curve that turns by so much more than the follower does between a rest and the next point has a corner there."""
 
 
-def _turns_a_corner(inverted: Construction) -> NDArray[np.bool_]:
+def _turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
     """Whether the pitch curve turns inwards by more than can be read between the end of a phase and the next point.
 
     Where the follower rests the curve runs square to the ray from the cam centre.
     """
-    stations, pitch = inverted.givens["integrated"].givens["stations"], inverted.points["pitch"]
+    stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
     ends = np.array([[span.start, span.stop - 1] for span in stations.phases]).ravel()
     onwards = np.tile([1, -1], len(stations.phases))
     end, following = pitch[..., ends], pitch[..., ends + onwards]
-    chord, along = following - end, -sense(inverted.givens["rotation"]) * onwards * UP * end
+    chord, along = following - end, -sense(inverted.givens.rotation) * onwards * UP * end
     # The chord of an arc about the cam centre leaves it by half of what the cam has turned.
     by_turning = np.abs(np.angle(following / end)) / 2
     return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord / along)) > by_turning + CORNER), axis=-1)
@@ -196,14 +210,14 @@ ONLY_RESTS = say(
 """What is said where the radius of the moving phases is not known."""
 
 
-def _draw(curved: Construction) -> list[Step]:
-    inverted = curved.givens["inverted"]
-    stations, mu_l = inverted.givens["integrated"].givens["stations"], inverted.givens["mu_l"]
+def _draw(curved: Curved) -> list[Step]:
+    inverted = curved.givens.inverted
+    stations, mu_l = inverted.givens.integrated.givens.stations, inverted.givens.mu_l
     triple, centre = curved.first("triple"), complex(curved.first("centre"))
     if np.isnan(centre):
         return [Step(say("Curvature at the sharpest place"), _unreadable(curved), PROFILE, ())]
     phi = curved.first("phi")
-    place, names = _named(inverted.givens["integrated"].givens["motion"], stations, phi)
+    place, names = _named(inverted.givens.integrated.givens.motion, stations, phi)
     rho = float(curved.value("rho"))
     scale = standard_scale(rho, DETAIL)
     curvature = at_scale(CURVATURE, scale)
@@ -236,7 +250,7 @@ def _draw(curved: Construction) -> list[Step]:
     ]
 
 
-def _spread(curved: Construction) -> Caption:
+def _spread(curved: Curved) -> Caption:
     """What step of the cam angle the chords span, and what that is worth."""
     phi = curved.first("phi")
     said = [say("They span {step:.3g}° of the cam angle.", step=np.degrees(phi[2] - phi[0]))]
@@ -247,9 +261,9 @@ def _spread(curved: Construction) -> Caption:
     return sequence(said, " ")
 
 
-def _unreadable(curved: Construction) -> Caption:
+def _unreadable(curved: Curved) -> Caption:
     """Why there is no radius."""
-    if np.ravel(curved.givens["corner"])[0]:
+    if np.ravel(curved.givens.corner)[0]:
         return say(
             "No bend is readable: beside a rest the curve turns by more than 45° within one part, so its sharpest "
             "place lies between the points."

@@ -42,9 +42,21 @@ VIEWS = {
 """The drawings, by what they show."""
 
 
+@dataclass(frozen=True, eq=False)
+class DifferentiationGivens:
+    """What lies on the board; see :func:`differentiation`."""
+
+    x: Floats
+    mu_phi: Scale
+    mu_s: Scale
+    poles: tuple[float, float]
+    turn: float | None
+    by: By
+
+
 def measured_differentiation(
     motion: Motion, parts: int, mu_phi: Scale, mu_s: Scale, poles: tuple[float, float], pencil: Pencil
-) -> Construction:
+) -> Construction[DifferentiationGivens]:
     """Differentiate the drawn curve of a measured motion over its turn, in equal parts, by chords.
 
     parts : of the turn;  the others as in :func:`differentiation`
@@ -65,7 +77,7 @@ def differentiation(
     *,
     turn: float | None = None,
     by: By = "chords",
-) -> Construction:
+) -> Construction[DifferentiationGivens]:
     """Differentiate a drawn displacement twice.
 
     x, s : (n,) stations on the axis of the cam angle, growing, and ordinates there [mm of paper]
@@ -110,8 +122,8 @@ def differentiation(
         **hand.readings(mu_a, f"{mu_s.unit}/rad²", max_a=_greatest(second, turn)),
     }
     points = {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y}
-    givens = {"x": x, "mu_phi": mu_phi, "mu_s": mu_s, "poles": poles, "turn": turn, "by": by, "unit": mu_s.unit}
-    return Construction("differentiation", givens | {"pencil": pencil}, readings, points, _draw)
+    givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by)
+    return Construction("differentiation", givens, pencil, readings, points, _draw)
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:
@@ -211,11 +223,11 @@ _RAYS: dict[By, Caption] = {
 }
 
 
-def _draw(c: Construction) -> list[Step]:
+def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
     return [_draw_source(c), *_draw_pass(c, "s", "v", 1), *_draw_pass(c, "v", "a", 2), _draw_scales(c)]
 
 
-def _draw_source(c: Construction) -> Step:
+def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     s = c.first("s")
     plotted = (*_axes(c, s, "s"), Dots(s), Segments(s.real + 0j, s, Role.CONSTRUCTION))
     said = say_many(
@@ -224,15 +236,15 @@ def _draw_source(c: Construction) -> Step:
     cyclic = say("After the last of them the revolution goes on with the first.")
     return Step(
         say("The displacement"),
-        sequence([said, cyclic], " ") if c.givens["turn"] else said,
+        sequence([said, cyclic], " ") if c.givens.turn else said,
         _view(c, "s"),
         (*plotted, Line(_curve(c, s), Role.RESULT)),
         given=plotted,
     )
 
 
-def _draw_pass(c: Construction, source: str, target: str, number: int) -> list[Step]:
-    derived, pole, by = c.first(target), c.givens["poles"][number - 1], c.givens["by"]
+def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str, number: int) -> list[Step]:
+    derived, pole, by = c.first(target), c.givens.poles[number - 1], c.givens.by
     index, heights = f"{number}".translate(SUBSCRIPTS), levels(derived.imag)
     title, traced = (said.where(source=source, count=derived.size) for said in _TRACED[by])
     traces = (_traces(c, c.first(source), derived, pole),)
@@ -254,43 +266,43 @@ def _draw_pass(c: Construction, source: str, target: str, number: int) -> list[S
     ]
 
 
-def _view(c: Construction, symbol: str) -> View:
+def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
     """The view, with its scale in the title."""
     view = VIEWS[symbol]
-    scale = c.givens["mu_s"].per_mm if symbol == "s" else c.readings[symbol].scale
-    per = unit(c.givens["unit"]) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
+    scale = c.givens.mu_s.per_mm if symbol == "s" else c.readings[symbol].scale
+    per = unit(c.givens.mu_s.unit) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
     values = {"title": view.title, "index": {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol], "mu": scale}
     return replace(view, title=say("{title}, μ{index} = {mu:.4g} {per}/{mm}", per=per, mm=unit("mm"), **values))
 
 
-def _traces(c: Construction, curve: Points, derived: Points, pole: float) -> Mark:
+def _traces(c: Construction[DifferentiationGivens], curve: Points, derived: Points, pole: float) -> Mark:
     """The chords, or short pieces of the tangents."""
-    turn = c.givens["turn"]
-    if c.givens["by"] == "chords":
+    turn = c.givens.turn
+    if c.givens.by == "chords":
         return Line(curve if turn is None else np.append(curve, curve[0] + turn), Role.LIMIT)
     direction = pole + UP * derived.imag
     along = TANGENT * direction / np.abs(direction)
     return Segments(curve - along, curve + along, Role.LIMIT)
 
 
-def _curve(c: Construction, points: Points) -> Points:
+def _curve(c: Construction[DifferentiationGivens], points: Points) -> Points:
     """The faired curve; of a cyclic diagram over the ends of the turn."""
-    turn = c.givens["turn"]
+    turn = c.givens.turn
     if turn is None:
         return faired(points)
     line = faired(np.concatenate([points[-2:] - turn, points, points[:2] + turn]))
     return line[(line.real >= 0) & (line.real <= turn)]
 
 
-def _axes(c: Construction, points: Points, symbol: str) -> tuple[Mark, ...]:
-    turn = c.givens["turn"]
-    return axes_over_phi(float(c.givens["x"][-1]) if turn is None else turn, points.imag, symbol)
+def _axes(c: Construction[DifferentiationGivens], points: Points, symbol: str) -> tuple[Mark, ...]:
+    turn = c.givens.turn
+    return axes_over_phi(float(c.givens.x[-1]) if turn is None else turn, points.imag, symbol)
 
 
-def _draw_scales(c: Construction) -> Step:
+def _draw_scales(c: Construction[DifferentiationGivens]) -> Step:
     greatest = {"v": float(c.value("max_v")), "a": float(c.value("max_a"))}
     said = say(
         "The poles give μᵥ = μₛ/(μᵩ·H₁) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = μᵥ/(μᵩ·H₂) = {mu_a:.5g} "
         "({unit}/rad²)/mm: the greatest velocity is {v:.5g} {unit}/rad, the greatest acceleration {a:.5g} {unit}/rad²."
-    ).where(mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens["unit"]), **greatest)
+    ).where(mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens.mu_s.unit), **greatest)
     return Step(say("The scales of the derivatives"), said, _view(c, "a"), (), ("max_v", "max_a", "v", "a"))

@@ -82,10 +82,10 @@ class DrawnOscillating(DrawnFollower):
 
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, arm and pivot."""
-        shrink = inverted.givens["mu_l"].per_mm / scale.per_mm
-        stations, motion = (inverted.givens["integrated"].givens[name] for name in ("stations", "motion"))
+        shrink = inverted.givens.mu_l.per_mm / scale.per_mm
+        stations, motion = inverted.givens.integrated.givens.stations, inverted.givens.integrated.givens.motion
         # Turned back by the station's cam angle, the first pivot lies on the line of centres.
-        back = np.exp(1j * sense(inverted.givens["rotation"]) * stations.phi[0])
+        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0])
         pivot, start = (complex(inverted.first(name)[0] * back) * shrink for name in ("pivots", "starts"))
         b = complex(stepped_off(start, pivot, np.asarray(-motion.levels[0])))
         ground = pivot + np.arange(-3, 3.1, 1.5) - 5j

@@ -59,7 +59,7 @@ class DrawnFlatFaced(DrawnFollower):
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
         """From the displacement over the acceleration."""
-        return flat_curvature(drawn["minimum_radius"], drawn["inversion"].givens["prime_radius"], pencil)
+        return flat_curvature(drawn["minimum_radius"], drawn["inversion"].givens.prime_radius, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The face is symmetrical about its stem."""
@@ -79,7 +79,7 @@ class DrawnFlatFaced(DrawnFollower):
 
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Face, stem and guide."""
-        motion = inverted.givens["integrated"].givens["motion"]
+        motion = inverted.givens.integrated.givens.motion
         width = max(float(inverted.value("face_left")), float(inverted.value("face_right"))) / scale.per_mm + 2
-        b = (inverted.givens["prime_radius"] + motion.levels[0]) / scale.per_mm * UP
+        b = (inverted.givens.prime_radius + motion.levels[0]) / scale.per_mm * UP
         return (Line(np.array([b - width, b + width]), Role.CURVE), *guided_stem(b, STEM, GUIDE))

@@ -78,12 +78,12 @@ class DrawnTranslating(DrawnFollower):
 
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, stem and guide."""
-        integrated, mu_l = inverted.givens["integrated"], inverted.givens["mu_l"]
-        stations, motion = integrated.givens["stations"], integrated.givens["motion"]
+        integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
+        stations, motion = integrated.givens.stations, integrated.givens.motion
         # Turned back by the station's cam angle, the foot of the first station lies level with the cam centre.
-        back = np.exp(1j * sense(inverted.givens["rotation"]) * stations.phi[0])
+        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0])
         foot = complex(inverted.first("feet")[0] * back) * mu_l.per_mm / scale.per_mm
-        radius, start = inverted.givens["prime_radius"] / scale.per_mm, motion.levels[0] / scale.per_mm
+        radius, start = inverted.givens.prime_radius / scale.per_mm, motion.levels[0] / scale.per_mm
         b = foot.real + UP * (np.sqrt(radius**2 - foot.real**2) + start)
         return (
             Circle(b, roller_radius / scale.per_mm, Role.CURVE),

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphcam.constructions import profile_view
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.curve import highest_and_lowest
 from graphcam.drafting.euclid import UP, turned
@@ -23,8 +24,8 @@ FACE_BEYOND = 6.0
 
 
 def flat_inversion(
-    integrated: Construction, rotation: Rotation, prime_radius: float, mu_l: Scale, pencil: Pencil
-) -> Construction:
+    integrated: Integrated, rotation: Rotation, prime_radius: float, mu_l: Scale, pencil: Pencil
+) -> profile_view.Inverted:
     """Lay off r0 + s on the rays, draw the faces, and mark where the profile touches them.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`
@@ -34,7 +35,7 @@ def flat_inversion(
     of the ray, and the face's least half-widths ``face_left`` and ``face_right`` [mm].
     """
     hand, sigma = pencil.hand("inversion"), sense(rotation)
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens["stations"]
+    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
     count = stations.u.size
     position = profile_view.inverted_positions(integrated, rotation, hand)
     along, across = turned(UP, position), turned(1 + 0j, position)
@@ -45,20 +46,20 @@ def flat_inversion(
     wander = integrated.points["v_curve"].real + UP * contact
     ends = highest_and_lowest(wander, stations.pieces).imag
     faces = {"face_left": -ends[..., 1], "face_right": ends[..., 0]}
-    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "mu_l": mu_l}
     return Construction(
         "inversion",
-        givens | {"pencil": pencil},
+        profile_view.InvertedGivens(integrated, rotation, prime_radius, mu_l),
+        pencil,
         profile_view.curve_readings(touch, mu_l, hand) | hand.readings(mu_l.per_mm, "mm", contact=contact, **faces),
         {"feet": feet, "pitch": touch, "motion": along},
         _draw,
     )
 
 
-def _draw(inverted: Construction) -> list[Step]:
+def _draw(inverted: profile_view.Inverted) -> list[Step]:
     feet, along = inverted.first("feet"), inverted.first("motion")
-    r0, contact = inverted.givens["prime_radius"], inverted.first("contact")
-    across, start = along / UP, complex(UP * r0 / inverted.givens["mu_l"].per_mm)
+    r0, contact = inverted.givens.prime_radius, inverted.first("contact")
+    across, start = along / UP, complex(UP * r0 / inverted.givens.mu_l.per_mm)
     rays = (Segments(np.zeros_like(feet), feet, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
     drawn = say(
         "About the cam centre the prime circle r₀ = {r0:g} mm is drawn, and the rays of the inverted positions, "

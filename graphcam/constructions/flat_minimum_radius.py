@@ -8,10 +8,13 @@ arctan(mu_a/mu_s) in place of 45 degrees.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import OVERHANG, station_names
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import at_greatest, faired, farthest
 from graphcam.drafting.euclid import RIGHT, UP, meet
@@ -25,7 +28,29 @@ DOWN_LEFT = -RIGHT - UP
 """Square to the lines of equal s + a, towards smaller ones."""
 
 
-def flat_least_radius(integrated: Construction, least_curvature: float, pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class FlatLeastRadiusGivens:
+    """The diagrams, and the least permitted radius of curvature of the profile [mm]."""
+
+    integrated: Integrated
+    least_curvature: float
+
+
+FlatRegion = Construction[FlatLeastRadiusGivens]
+
+
+@dataclass(frozen=True, eq=False)
+class FlatCurvatureGivens:
+    """The diagram of s over a, and the adopted prime radius [mm]."""
+
+    region: FlatRegion
+    prime_radius: float
+
+
+FlatCurved = Construction[FlatCurvatureGivens]
+
+
+def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pencil) -> FlatRegion:
     """Find the least prime radius at which the profile is nowhere sharper than permitted.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`
@@ -35,7 +60,7 @@ def flat_least_radius(integrated: Construction, least_curvature: float, pencil: 
     """
     hand = pencil.hand("minimum_radius")
     s, a, before = (integrated.readings[name] for name in ("s", "a", "a_before"))
-    stations = integrated.givens["stations"]
+    stations = integrated.givens.stations
     mu, count = np.asarray(s.scale), stations.u.size
     height = s.paper + hand.line(count)
     errors = hand.dividers(count)
@@ -54,21 +79,22 @@ def flat_least_radius(integrated: Construction, least_curvature: float, pencil: 
     prime_radius = np.maximum(least_curvature / mu - zero.imag, 0.0)
     return Construction(
         "minimum_radius",
-        {"integrated": integrated, "least_curvature": least_curvature, "pencil": pencil},
+        FlatLeastRadiusGivens(integrated, least_curvature),
+        pencil,
         hand.readings(mu, "mm", prime_radius=prime_radius, need=0.0 - zero.imag),
         {"curve": np.concatenate(pieces, axis=-1), "rests": rests, "touch": touch, "zero": zero},
         _draw,
     )
 
 
-def _rests(integrated: Construction) -> NDArray[np.intp]:
+def _rests(integrated: Integrated) -> NDArray[np.intp]:
     """The last stations of the moving phases that a dwell follows."""
-    motion, last = integrated.givens["motion"], integrated.givens["stations"].last
-    following = (integrated.givens["stations"].phase[last] + 1) % len(motion.phases)
+    motion, last = integrated.givens.motion, integrated.givens.stations.last
+    following = (integrated.givens.stations.phase[last] + 1) % len(motion.phases)
     return last[[isinstance(motion.phases[k], Dwell) for k in following]]
 
 
-def flat_curvature(region: Construction, prime_radius: float, pencil: Pencil) -> Construction:
+def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> FlatCurved:
     """Read the least radius of curvature of the profile off the same diagram, at the adopted prime radius [mm].
 
     region : from :func:`flat_least_radius`
@@ -80,26 +106,27 @@ def flat_curvature(region: Construction, prime_radius: float, pencil: Pencil) ->
     rho = prime_radius / np.asarray(need.scale) - need.paper
     return Construction(
         "curvature",
-        {"region": region, "prime_radius": prime_radius, "pencil": pencil},
+        FlatCurvatureGivens(region, prime_radius),
+        pencil,
         hand.readings(need.scale, "mm", rho=rho, rho_candidates=rho[..., None]),
         {"zero": region.points["zero"]},
         _draw_curvature,
     )
 
 
-def _draw_curvature(curved: Construction) -> list[Step]:
+def _draw_curvature(curved: FlatCurved) -> list[Step]:
     zero, rho = complex(curved.first("zero")), float(curved.value("rho"))
     centre = zero - float(curved.first("rho")) * UP
     said = say(
         "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent meets the "
         "axis is the least radius of curvature of the profile, {rho:.3f} mm."
-    ).where(r0=curved.givens["prime_radius"], rho=rho)
+    ).where(r0=curved.givens.prime_radius, rho=rho)
     radius = Dimension(centre, zero, say("ρ = {rho:.2f}", rho=rho), aside=-14.0)
     marks = (Dots(np.array([centre]), Role.RESULT), radius)
     return [Step(say("The least radius of curvature"), said, COMBINED, marks, reads=("rho",))]
 
 
-def _draw(region: Construction) -> list[Step]:
+def _draw(region: FlatRegion) -> list[Step]:
     curve = region.first("curve")
     touch, zero = complex(region.first("touch")), complex(region.first("zero"))
     r0, need = float(region.first("prime_radius")), float(region.first("need"))
@@ -122,7 +149,7 @@ def _draw(region: Construction) -> list[Step]:
     found = say(
         "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; it is laid "
         "off below the start of the lift to the cam centre A."
-    ).where(least=region.givens["least_curvature"], need=need * mu, r0=r0 * mu)
+    ).where(least=region.givens.least_curvature, need=need * mu, r0=r0 * mu)
     radius = (
         *(Dots(np.array([centre]), Role.RESULT), Label(centre, "A", towards=1 - 1j)),
         Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=r0 * mu), aside=-10.0),
@@ -145,9 +172,9 @@ def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
     )
 
 
-def _curve(region: Construction) -> tuple[Mark, ...]:
+def _curve(region: FlatRegion) -> tuple[Mark, ...]:
     """The accelerations, and the smooth curves through their ends, each with the name of its first station."""
-    stations, curve = region.givens["integrated"].givens["stations"], region.first("curve")
+    stations, curve = region.givens.integrated.givens.stations, region.first("curve")
     ends = np.cumsum([stretch.stop - stretch.start for stretch in stations.stretches])
     pieces = np.split(curve, ends[:-1])
     names = [station_names(stations)[stretch.start] for stretch in stations.stretches]

@@ -11,12 +11,12 @@ Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Desi
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.pressure_angle import angle_at, moving_up, shown_station
+from graphcam.constructions.pressure_angle import MeasuredAngles, angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import UP, meet, turned
 from graphcam.drafting.ink import Caption, Construction, Step, say
@@ -37,14 +37,25 @@ ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Round scales are these times a power of ten."""
 
 
+@dataclass(frozen=True, eq=False)
+class ForcePlanGivens:
+    """What lies on the board; see :func:`force_plan`."""
+
+    measured: MeasuredAngles
+    load: SpringLoad
+    guide: Guide | None
+    station: int
+    mu_force: Scale
+
+
 def force_plan(
-    measured: Construction,
+    measured: MeasuredAngles,
     load: SpringLoad,
     pencil: Pencil,
     guide: Guide | None = None,
     station: int | None = None,
     mu_force: Scale | None = None,
-) -> Construction:
+) -> Construction[ForcePlanGivens]:
     """Draw the force plan at a station.
 
     measured : from :func:`~graphcam.constructions.pressure_angle.pressure_angle`
@@ -57,10 +68,10 @@ def force_plan(
     """
     hand = pencil.hand("force_plan")
     k = plan_station(measured, load) if station is None else station
-    integrated, sigma = measured.givens["integrated"], sense(measured.givens["rotation"])
+    integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)
     s, v, a = (integrated.readings[name].value[..., k] for name in ("s", "v", "a"))
     alpha = measured.readings["alpha"].paper[..., k]
-    direction = float(integrated.givens["motion"].phases[integrated.givens["stations"].phase[k]].direction)
+    direction = float(integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction)
     force = load.force((s, v, a, np.zeros_like(s)), direction)
     mu = mu_force or round_scale(float(np.median(np.abs(force))))
     tilt = 0.0 if guide is None else direction * _incline(guide, s)
@@ -74,22 +85,22 @@ def force_plan(
     corner = np.asarray(np.where(pushes, corner, np.nan), dtype=np.complex128)
     contact = {"normal": np.abs(corner - foot), "along": (corner - foot).imag, "side": np.abs(corner.real)}
     bearing = {"friction": np.abs(corner.imag), "reaction": np.abs(corner)}
-    givens = {"measured": measured, "load": load, "guide": guide, "station": k, "mu_force": mu, "pencil": pencil}
     return Construction(
         "force_plan",
-        givens | {"direction": direction},
+        ForcePlanGivens(measured, load, guide, k, mu),
+        pencil,
         hand.readings(mu.per_mm, "N", load=-foot.imag, **contact, **bearing),
         {"foot": foot, "corner": corner, "contact_normal": normal, "across": across},
         _draw,
     )
 
 
-def plan_station(measured: Construction, load: SpringLoad) -> int:
+def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     """The station of the velocity plan, where the pressure angle on the rises is greatest.
 
     With the least preload hardly any load may be left just there: then the station on the rises where it is greatest.
     """
-    integrated = measured.givens["integrated"]
+    integrated = measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
     force = np.where(moving_up(measured), load.force((s, v, a, np.zeros_like(s)), 1.0), 0.0)
     k = shown_station(measured)
@@ -120,10 +131,10 @@ BEYOND = 8.0
 """How far a line runs on beyond its corner [mm]."""
 
 
-def _draw(plan: Construction) -> list[Step]:
-    k, guide, mu = plan.givens["station"], plan.givens["guide"], plan.givens["mu_force"].per_mm
-    measured = plan.givens["measured"]
-    name = station_names(measured.givens["integrated"].givens["stations"])[k]
+def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
+    k, guide, mu = plan.givens.station, plan.givens.guide, plan.givens.mu_force.per_mm
+    measured = plan.givens.measured
+    name = station_names(measured.givens.integrated.givens.stations)[k]
     foot, corner, normal, across = (complex(plan.first(key)) for key in ("foot", "corner", "contact_normal", "across"))
     alpha, length = float(measured.first("alpha")[k]), float(plan.first("normal"))
     forces = {key: float(plan.value(key)) for key in plan.readings}

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphcam.constructions.acceleration import AccelerationDiagram
 from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.curve import faired, farthest_of
@@ -18,6 +19,7 @@ from graphcam.drafting.euclid import UP, climb_along
 from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
 from graphcam.drafting.marks import Dimension, Line, Points, Role, Segments
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -30,7 +32,38 @@ SAME_HEIGHT = 2e-3
 """Projections this near to one another [mm] fall on one line."""
 
 
-def integration(diagram: Construction, poles: tuple[float, float], pencil: Pencil) -> Construction:
+@dataclass(frozen=True, eq=False)
+class IntegrationGivens:
+    """The acceleration diagram, and the distances of the two poles [mm of paper]."""
+
+    diagram: AccelerationDiagram
+    poles: tuple[float, float]
+
+    @property
+    def motion(self) -> Motion:
+        """The motion that the diagram shows."""
+        return self.diagram.givens.motion
+
+    @property
+    def stations(self) -> Stations:
+        """Its stations."""
+        return self.diagram.givens.stations
+
+    @property
+    def mu_phi(self) -> Scale:
+        """The scale of its cam angle [rad/mm]."""
+        return self.diagram.givens.mu_phi
+
+    @property
+    def unit(self) -> str:
+        """The unit of the lift."""
+        return self.diagram.givens.unit
+
+
+Integrated = Construction[IntegrationGivens]
+
+
+def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil) -> Integrated:
     """Integrate the acceleration diagram twice and fix its scale by the known lift.
 
     diagram : from :func:`~graphcam.constructions.acceleration.acceleration_diagram`
@@ -41,7 +74,8 @@ def integration(diagram: Construction, poles: tuple[float, float], pencil: Penci
     ``closing_s`` (shared out by the returns).
     """
     hand = pencil.hand("integration")
-    motion, stations, mu_phi, lift_unit = (diagram.givens[name] for name in ("motion", "stations", "mu_phi", "unit"))
+    givens = IntegrationGivens(diagram, poles)
+    motion, stations, mu_phi, lift_unit = givens.motion, givens.stations, givens.mu_phi, givens.unit
     x = diagram.points["axis"].real
     width = x[..., stations.left + 1] - x[..., stations.left]
     middle = x[..., stations.left] + width / 2
@@ -79,8 +113,7 @@ def integration(diagram: Construction, poles: tuple[float, float], pencil: Penci
     }
     first = {"a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v}
     second = {"v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s}
-    givens = {**diagram.givens, "diagram": diagram, "poles": poles, "pencil": pencil}
-    return Construction("integration", givens, readings, first | second, _draw)
+    return Construction("integration", givens, pencil, readings, first | second, _draw)
 
 
 def _polygons(rises: Floats, stations: Stations) -> Floats:
@@ -127,7 +160,7 @@ def _top(motion: Motion, stations: Stations) -> int:
     return int(stations.last[np.argmax(reached)])
 
 
-def _draw(c: Construction) -> list[Step]:
+def _draw(c: Integrated) -> list[Step]:
     return [*(step for run in _PASSES for step in _draw_pass(c, run)), _draw_scales(c)]
 
 
@@ -152,9 +185,9 @@ _PASSES = (
 )
 
 
-def _draw_pass(c: Construction, run: _Pass) -> list[Step]:
-    motion, stations, mu_phi = (c.givens[name] for name in ("motion", "stations", "mu_phi"))
-    distance, index = c.givens["poles"][run.index - 1], f"{run.index}".translate(SUBSCRIPTS)
+def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
+    motion, stations, mu_phi = c.givens.motion, c.givens.stations, c.givens.mu_phi
+    distance, index = c.givens.poles[run.index - 1], f"{run.index}".translate(SUBSCRIPTS)
     source, target = run.symbols
     projected, chords = c.first(f"{source}_projected"), c.first(f"{target}_chords")
     curve, left = c.first(f"{target}_curve"), float(np.max(np.abs(c.first(f"closing_{target}"))))
@@ -202,16 +235,16 @@ def _draw_pass(c: Construction, run: _Pass) -> list[Step]:
     ]
 
 
-def _rests(c: Construction, curve: Points) -> list[Line]:
+def _rests(c: Integrated, curve: Points) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    level, turn = UP * curve[-1].imag, FULL_TURN / c.givens["mu_phi"].per_mm
-    moving = [curve[k] for span in c.givens["stations"].phases for k in (span.start, span.stop - 1)]
+    level, turn = UP * curve[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
+    moving = [curve[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     ends = [level, *moving, turn + level]
     return [Line(np.array(pair), Role.RESULT) for pair in zip(ends[::2], ends[1::2], strict=True)]
 
 
-def _draw_scales(c: Construction) -> Step:
-    motion, stations, curve = c.givens["motion"], c.givens["stations"], c.first("s_curve")
+def _draw_scales(c: Integrated) -> Step:
+    motion, stations, curve = c.givens.motion, c.givens.stations, c.first("s_curve")
     top = complex(curve[_top(motion, stations)])
     named = numbers(curve.real + 0j, stations, -UP)
     mu_s, mu_v, mu_a = (c.readings[name].per_mm for name in ("s", "v", "a"))
@@ -219,7 +252,7 @@ def _draw_scales(c: Construction) -> Step:
         "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
         "{mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = "
         "μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm."
-    ).where(paper=top.imag, unit=unit(c.givens["unit"]), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a)
+    ).where(paper=top.imag, unit=unit(c.givens.unit), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a)
     height = Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), aside=-6.0)
     reads = ("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s")
     return Step(say("The scales"), said, DISPLACEMENT, (height, *named), reads, given=named)

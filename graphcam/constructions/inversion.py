@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.constructions import profile_view
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, along_to_circle, stepped_off, turned
 from graphcam.drafting.ink import Construction, Step, say
@@ -14,9 +17,24 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 
 
+@dataclass(frozen=True, eq=False)
+class InversionGivens(profile_view.InvertedGivens):
+    """What lies on the board; see :func:`inversion`."""
+
+    offset: float
+
+
+OffsetInverted = Construction[InversionGivens]
+
+
 def inversion(
-    integrated: Construction, rotation: Rotation, prime_radius: float, offset: float, mu_l: Scale, pencil: Pencil
-) -> Construction:
+    integrated: Integrated,
+    rotation: Rotation,
+    prime_radius: float,
+    offset: float,
+    mu_l: Scale,
+    pencil: Pencil,
+) -> OffsetInverted:
     """Lay the displacements off along the follower's line in its inverted positions: the pitch curve.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`
@@ -25,25 +43,25 @@ def inversion(
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
     hand = pencil.hand("inversion")
-    s, count = integrated.readings["s"], integrated.givens["stations"].u.size
+    s, count = integrated.readings["s"], integrated.givens.stations.u.size
     position = profile_view.inverted_positions(integrated, rotation, hand)
     feet = stepped_off(offset / mu_l.per_mm, 0j, position)  # on the circle e
     along = turned(UP, position)  # its tangents
     starts = along_to_circle(feet, along, 0j, prime_radius / mu_l.per_mm)
     laid_off = s.value / mu_l.per_mm + hand.dividers(count)
     pitch = starts + along * laid_off + hand.point(count)
-    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset}
+    givens = InversionGivens(integrated, rotation, prime_radius, mu_l, offset)
     points = {"feet": feet, "starts": starts, "pitch": pitch, "motion": along}
     readings = profile_view.curve_readings(pitch, mu_l, hand)
-    return Construction("inversion", givens | {"mu_l": mu_l, "pencil": pencil}, readings, points, _draw)
+    return Construction("inversion", givens, pencil, readings, points, _draw)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
-def _draw(inverted: Construction) -> list[Step]:
-    mu_l, phi = inverted.givens["mu_l"], inverted.givens["integrated"].givens["stations"].phi
-    sigma, e, r0 = sense(inverted.givens["rotation"]), inverted.givens["offset"], inverted.givens["prime_radius"]
+def _draw(inverted: OffsetInverted) -> list[Step]:
+    mu_l, phi = inverted.givens.mu_l, inverted.givens.integrated.givens.stations.phi
+    sigma, e, r0 = sense(inverted.givens.rotation), inverted.givens.offset, inverted.givens.prime_radius
     feet, starts, pitch = (inverted.first(name) for name in ("feet", "starts", "pitch"))
     start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
     # A central follower has no circle e: its lines are rays through the cam centre.

@@ -7,9 +7,12 @@ pressure angle; so the tangents to the curve of the D_i at the permitted angles 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.constructions.axes import OVERHANG, degrees, numbers, pieces_of, turning
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import ON_THE_LINE, Boundary, binding, lowest_on, nearest, permitted_part
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import faired, farthest_of
@@ -25,9 +28,26 @@ START = np.zeros((), dtype=complex)
 """The start of the lift, the origin of the combined diagram."""
 
 
+@dataclass(frozen=True, eq=False)
+class LeastRadiusGivens:
+    """What lies on the board; see :func:`least_radius`."""
+
+    integrated: Integrated
+    rotation: Rotation
+    limits: Limits
+    offset: float | None
+
+
+LeastRadius = Construction[LeastRadiusGivens]
+
+
 def least_radius(
-    integrated: Construction, rotation: Rotation, limits: Limits, offset: float | None, pencil: Pencil
-) -> Construction:
+    integrated: Integrated,
+    rotation: Rotation,
+    limits: Limits,
+    offset: float | None,
+    pencil: Pencil,
+) -> LeastRadius:
     """Find the cam centre that is nearest to the start of the lift.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`
@@ -36,7 +56,7 @@ def least_radius(
     Readings: ``prime_radius``, ``offset`` and ``s0`` [mm].
     """
     hand = pencil.hand("minimum_radius")
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens["stations"]
+    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
     mu, count = s.scale, stations.u.size
     # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
     segment = v.value / np.asarray(mu)[..., None] + hand.dividers(count)
@@ -45,20 +65,21 @@ def least_radius(
     centre = nearest(lines, START) if offset is None else lowest_on(lines, -offset / mu)
     return Construction(
         "minimum_radius",
-        {"integrated": integrated, "rotation": rotation, "limits": limits, "offset": offset, "pencil": pencil},
+        LeastRadiusGivens(integrated, rotation, limits, offset),
+        pencil,
         hand.readings(mu, "mm", prime_radius=np.abs(centre), offset=-centre.real, s0=-centre.imag),
         {"ends": ends, "centre": centre} | {line.name: line.touch for line in lines},
         _draw,
     )
 
 
-def boundaries(ends: Points, integrated: Construction, rotation: Rotation, limits: Limits) -> list[Boundary]:
+def boundaries(ends: Points, integrated: Integrated, rotation: Rotation, limits: Limits) -> list[Boundary]:
     """The lines that bound the region: the rise's tangent, the return's unless a spring drives it, the rest line.
 
     ends : (..., m) the D_i of all stations
     """
     sigma = sense(rotation)
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    motion, stations = integrated.givens.motion, integrated.givens.stations
 
     def touching(name: str, direction: int, inward: Points) -> Boundary:
         return Boundary(name, farthest_of(ends, pieces_of(motion, stations, direction), inward), inward)
@@ -76,15 +97,15 @@ def boundaries(ends: Points, integrated: Construction, rotation: Rotation, limit
     return lines
 
 
-def active(region: Construction) -> list[Boundary]:
+def active(region: LeastRadius) -> list[Boundary]:
     """The boundaries on which the cam centre lies, in the first sample."""
     return binding(_shown(region), complex(region.first("centre")))
 
 
-def _shown(region: Construction) -> list[Boundary]:
+def _shown(region: LeastRadius) -> list[Boundary]:
     """The boundaries of the first sample."""
-    integrated, limits = region.givens["integrated"], region.givens["limits"]
-    return boundaries(region.first("ends"), integrated, region.givens["rotation"], limits)
+    integrated, limits = region.givens.integrated, region.givens.limits
+    return boundaries(region.first("ends"), integrated, region.givens.rotation, limits)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -99,9 +120,9 @@ PLACES = {"foot": say("foot"), "apex": say("apex"), "central": say("central")}
 """The places that textbooks take besides the nearest one."""
 
 
-def _draw(region: Construction) -> list[Step]:
-    integrated = region.givens["integrated"]
-    stations, limits = integrated.givens["stations"], region.givens["limits"]
+def _draw(region: LeastRadius) -> list[Step]:
+    integrated = region.givens.integrated
+    stations, limits = integrated.givens.stations, region.givens.limits
     ends, centre, lines = region.first("ends"), complex(region.first("centre")), _shown(region)
     others = _alternatives(lines)
     marked = [place for place in (centre, *others.values()) if not np.isnan(place)]
@@ -119,7 +140,7 @@ def _draw(region: Construction) -> list[Step]:
                 "On the follower's line the displacements are marked; at each of them v is laid off in the scale of "
                 "s, turned by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} "
                 "mm."
-            ).where(rotation=turning(region.givens["rotation"]), longest=float(np.abs(ends.real).max())),
+            ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(ends.real).max())),
             COMBINED,
             (*line, *laid_off, *named),
             given=line,
@@ -151,8 +172,8 @@ def _draw(region: Construction) -> list[Step]:
     ]
 
 
-def _result(region: Construction, centre: complex) -> Step:
-    title, offset = say("The least prime radius"), region.givens["offset"]
+def _result(region: LeastRadius, centre: complex) -> Step:
+    title, offset = say("The least prime radius"), region.givens.offset
     if np.isnan(centre):
         unreadable = say(
             "No cam centre can be read: the lines that bound the region cross one another, or the "

@@ -8,10 +8,13 @@ needed.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import station_names
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
 from graphcam.drafting.euclid import UP, along_to_circle
 from graphcam.drafting.ink import Construction, Reading, Step, Words, reading, say
@@ -22,9 +25,28 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 
 
+@dataclass(frozen=True, eq=False)
+class MeasuredGivens:
+    """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs."""
+
+    integrated: Integrated
+    rotation: Rotation
+    prime_radius: float
+
+
+MeasuredAngles = Construction[MeasuredGivens]
+
+
+@dataclass(frozen=True, eq=False)
+class PressureAngleGivens(MeasuredGivens):
+    """What lies on the board; see :func:`pressure_angle`."""
+
+    offset: float
+
+
 def pressure_angle(
-    integrated: Construction, rotation: Rotation, prime_radius: float, offset: float, pencil: Pencil
-) -> Construction:
+    integrated: Integrated, rotation: Rotation, prime_radius: float, offset: float, pencil: Pencil
+) -> Construction[PressureAngleGivens]:
     """Measure the pressure angle at every station, with the cam centre at the prime radius and offset [mm].
 
     integrated : from :func:`~graphcam.constructions.integration.integration`
@@ -33,7 +55,7 @@ def pressure_angle(
     """
     hand = pencil.hand("pressure_angle")
     sigma = sense(rotation)
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens["stations"]
+    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
     mu, count = np.asarray(s.scale), stations.u.size
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
     centre = along_to_circle(-offset / mu + 0j, np.asarray(-UP), 0j, prime_radius / mu)
@@ -41,10 +63,10 @@ def pressure_angle(
     ends = -sigma * segment + UP * (s.paper + hand.line(count))
     ray = ends - centre[..., None]
     alpha = sigma * np.arctan2(-ray.real, ray.imag) + hand.protractor(count)
-    givens = {"integrated": integrated, "rotation": rotation, "prime_radius": prime_radius, "offset": offset}
     return Construction(
         "pressure_angle",
-        givens | {"pencil": pencil},
+        PressureAngleGivens(integrated, rotation, prime_radius, offset),
+        pencil,
         angle_readings(alpha) | hand.readings(mu, "mm", s0=-centre.imag),
         {"ends": ends, "centre": centre},
         _draw,
@@ -66,30 +88,30 @@ SLOW = 0.25
 """The plan is not drawn where the follower is slower than this part of its greatest velocity."""
 
 
-def shown_station(measured: Construction) -> int:
+def shown_station(measured: MeasuredAngles) -> int:
     """The station at which the plan is drawn: where the angle is greatest while the follower rises at some speed."""
     # At rest the plan shrinks to a point, though the angle may be greatest there.
     return int(np.argmax(np.where(moving_up(measured), np.abs(measured.first("alpha")), -1.0)))
 
 
-def moving_up(measured: Construction) -> NDArray[np.bool_]:
+def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
     """At which stations the follower rises at some speed."""
-    integrated = measured.givens["integrated"]
-    motion, stations, v = integrated.givens["motion"], integrated.givens["stations"], integrated.value("v")
+    integrated = measured.givens.integrated
+    motion, stations, v = integrated.givens.motion, integrated.givens.stations, integrated.value("v")
     rising = np.array([motion.phases[k].direction > 0 for k in stations.phase])
     return rising & (v >= SLOW * np.max(v))
 
 
-def _draw(measured: Construction) -> list[Step]:
-    k, sigma = shown_station(measured), sense(measured.givens["rotation"])
-    integrated, mu = measured.givens["integrated"], measured.readings["s0"].per_mm
+def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
+    k, sigma = shown_station(measured), sense(measured.givens.rotation)
+    integrated, mu = measured.givens.integrated, measured.readings["s0"].per_mm
     centre, ends = complex(measured.first("centre")), measured.first("ends")
     scale = standard_scale((ends[k] - centre).imag * mu, PLAN_HEIGHT)
     plan = at_scale(PLAN, scale)
     b = complex(-centre.real, ends[k].imag - centre.imag) * mu / scale.per_mm
     v = float(integrated.value("v")[k]) / scale.per_mm
     alpha = float(measured.first("alpha")[k])
-    name = station_names(integrated.givens["stations"])[k]
+    name = station_names(integrated.givens.stations)[k]
     d, c = b - sigma * v, complex(sigma * v, 0)
     # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
     across, along = sigma * UP * b, UP * v
@@ -110,7 +132,7 @@ def _draw(measured: Construction) -> list[Step]:
     everywhere = say(
         "With the adopted cam centre, r₀ = {r0:g} mm and e = {e:g} mm, the rays from A to the ends D of the combined "
         "diagram make the pressure angles with the motion at all stations."
-    ).where(r0=measured.givens["prime_radius"], e=measured.givens["offset"])
+    ).where(r0=measured.givens.prime_radius, e=measured.givens.offset)
     ray = Segments(np.full(1, centre), ends[k : k + 1], Role.CONSTRUCTION)
     rays, reads = (Dots(np.array([centre]), Role.RESULT), ray), ("s0", "alpha", "transmission")
     return [

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
+from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import UP, stepped_off, turned
@@ -20,6 +21,20 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.words import sequence
+
+
+@dataclass(frozen=True, eq=False)
+class InvertedGivens:
+    """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm]."""
+
+    integrated: Integrated
+    rotation: Rotation
+    prime_radius: float
+    mu_l: Scale
+
+
+Inverted = Construction[InvertedGivens]
+
 
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
@@ -35,34 +50,34 @@ def curve_readings(points: Points, mu_l: Scale, hand: Hand) -> dict[str, Reading
     return {**lengths, "polar_angle": reading(np.angle(points), 1.0, "rad")}
 
 
-def inverted_positions(integrated: Construction, rotation: Rotation, hand: Hand) -> Floats:
+def inverted_positions(integrated: Integrated, rotation: Rotation, hand: Hand) -> Floats:
     """The angles [rad] by which the frame is turned at the stations, measured off with a protractor."""
     # Numbered against the rotation: in the cam's view the frame goes round the other way.
-    phi = integrated.givens["stations"].phi
+    phi = integrated.givens.stations.phi
     return -sense(rotation) * phi + hand.protractor(phi.size)
 
 
-def divided_by(inverted: Construction) -> dict[str, Words]:
+def divided_by(inverted: Inverted) -> dict[str, Words]:
     """What a caption says of the inverted positions: the ``rotation`` they are numbered against, and the ``angles``."""
-    phases = inverted.givens["integrated"].givens["motion"].phases
+    phases = inverted.givens.integrated.givens.motion.phases
     angles = sequence([degrees(phase.angle) for phase in phases])
-    return {"rotation": turning(inverted.givens["rotation"]), "angles": angles}
+    return {"rotation": turning(inverted.givens.rotation), "angles": angles}
 
 
-def pitch_curve(inverted: Construction) -> Points:
+def pitch_curve(inverted: Inverted) -> Points:
     """The closed pitch curve of the first sample, for drawing."""
     return closed_curve(inverted, inverted.first("pitch"))
 
 
-def closed_curve(inverted: Construction, points: Points) -> Points:
+def closed_curve(inverted: Inverted, points: Points) -> Points:
     """A closed curve through one point a station: faired between jumps, an arc about the cam centre in every dwell.
 
     points : (m,) places on the paper, NaN where there is none
     """
-    integrated = inverted.givens["integrated"]
-    motion, stations = integrated.givens["motion"], integrated.givens["stations"]
+    integrated = inverted.givens.integrated
+    motion, stations = integrated.givens.motion, integrated.givens.stations
     spans = {int(stations.phase[span.start]): span for span in stations.phases}
-    sigma, line = sense(inverted.givens["rotation"]), list[Points]()
+    sigma, line = sense(inverted.givens.rotation), list[Points]()
     at, since = len(points) - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
     for k, phase in enumerate(motion.phases):
         if k in spans:
@@ -87,12 +102,12 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def radius_arrow(inverted: Construction, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
+def radius_arrow(inverted: Inverted, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
     """An arrow from the cam centre to a circle, in the middle of the longest phase, where there is most room."""
-    motion: Motion = inverted.givens["integrated"].givens["motion"]
+    motion: Motion = inverted.givens.integrated.givens.motion
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
-    sigma, mu_l = sense(inverted.givens["rotation"]), inverted.givens["mu_l"]
+    sigma, mu_l = sense(inverted.givens.rotation), inverted.givens.mu_l
     tip = complex(turned(start / abs(start), -sigma * middle)) * radius / mu_l.per_mm
     return (
         Arrow(0j, tip, Role.DIMENSION),
@@ -106,10 +121,10 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
     return Arc(0j, radius, start, end, Role.CURVE, arrow="end" if sigma > 0 else "start")
 
 
-def phase_angles(inverted: Construction, start: complex) -> list[Mark]:
+def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
     """The angles of the phases outside the curve, against the rotation, from the point where the lift starts."""
-    motion: Motion = inverted.givens["integrated"].givens["motion"]
-    sigma, radius = sense(inverted.givens["rotation"]), _outer_radius(inverted)
+    motion: Motion = inverted.givens.integrated.givens.motion
+    sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     rays: Points = np.exp(1j * limits[:-1])
     marks = list[Mark]([Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS)])
@@ -118,15 +133,15 @@ def phase_angles(inverted: Construction, start: complex) -> list[Mark]:
     return marks
 
 
-def _outer_radius(inverted: Construction) -> float:
+def _outer_radius(inverted: Inverted) -> float:
     """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
-    prime = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm
+    prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
     return max(float(np.nanmax(np.abs(inverted.first("pitch")))), prime) + BEYOND
 
 
-def ground(inverted: Construction) -> tuple[Mark, ...]:
+def ground(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation."""
-    prime, sigma = inverted.givens["prime_radius"] / inverted.givens["mu_l"].per_mm, sense(inverted.givens["rotation"])
+    prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
     reach = (_outer_radius(inverted) + BEYOND) * np.array([-1, 1])
     return (
         Line(reach + 0j, Role.AXIS),
@@ -138,7 +153,7 @@ def ground(inverted: Construction) -> tuple[Mark, ...]:
 
 
 def prime_step(
-    inverted: Construction,
+    inverted: Inverted,
     title: Caption,
     said: Caption,
     start: complex,
@@ -146,7 +161,7 @@ def prime_step(
     further: tuple[Mark, ...] = (),
 ) -> Step:
     """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them."""
-    centre, r0, mu_l = ground(inverted), inverted.givens["prime_radius"], inverted.givens["mu_l"]
+    centre, r0, mu_l = ground(inverted), inverted.givens.prime_radius, inverted.givens.mu_l
     prime = Circle(0j, r0 / mu_l.per_mm, Role.CONSTRUCTION)
     marks = (*centre, prime, *circles, *radius_arrow(inverted, start, "r₀", r0), *further)
     return Step(title, said, PROFILE, marks, given=centre)
@@ -157,10 +172,10 @@ PITCH_SAID = say("A smooth curve through the points, with arcs about the centre 
 
 
 def pitch_steps(
-    inverted: Construction, laid_off: Step, title: Caption = PITCH_CURVE, said: Caption = PITCH_SAID
+    inverted: Inverted, laid_off: Step, title: Caption = PITCH_CURVE, said: Caption = PITCH_SAID
 ) -> list[Step]:
     """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
-    pitch, stations = inverted.first("pitch"), inverted.givens["integrated"].givens["stations"]
+    pitch, stations = inverted.first("pitch"), inverted.givens.integrated.givens.stations
     points = (Dots(pitch, Role.CONSTRUCTION), *numbers(pitch, stations, pitch / np.abs(pitch)))
     curve = Line(pitch_curve(inverted), Role.CURVE, closed=True)
     return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]

@@ -127,7 +127,7 @@ def rows(construction: Construction, step: Step) -> list[ReadingRow]:
 def _row(construction: Construction, name: str) -> ReadingRow:
     reading = construction.readings[name]
     # Not Construction.first: a place of the same name would come before the reading.
-    paper = reading.paper[0] if construction.givens["pencil"].samples is not None else reading.paper
+    paper = reading.paper[0] if construction.pencil.samples is not None else reading.paper
     paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
     title = TITLES.get(f"{construction.name}.{name}") or TITLES[name]
     places = _places(construction, paper.size) if paper.ndim else ()
@@ -150,7 +150,7 @@ def _places(construction: Construction, size: int) -> tuple[str, ...]:
 
 def _stations(construction: Construction) -> tuple[str, ...]:
     """The names of the stations that lie on the board of a construction, or of those that it started from."""
-    for given in construction.givens.values():
+    for given in vars(construction.givens).values():
         if isinstance(given, Construction):
             if names := _stations(given):
                 return names

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.profile_view import closed_curve
+from graphcam.constructions.curvature import Curved
+from graphcam.constructions.profile_view import Inverted, closed_curve
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
 from graphcam.drafting.ink import Caption, Construction, Step, reading, say
@@ -25,9 +27,29 @@ TREMBLE = 3.0
 """So many of a hand's errors may set a point inside a circle that only touches it."""
 
 
+@dataclass(frozen=True, eq=False)
+class RollerGivens:
+    """What lies on the board; see :func:`roller_radius`."""
+
+    curved: Curved
+    rule: tuple[Candidate, ...]
+    given: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileGivens:
+    """The pitch curve, and the radius of the roller [mm]."""
+
+    inverted: Inverted
+    roller_radius: float
+
+
+Profile = Construction[ProfileGivens]
+
+
 def roller_radius(
-    curved: Construction, rule: tuple[Candidate, ...], given: float | None, pencil: Pencil
-) -> Construction:
+    curved: Curved, rule: tuple[Candidate, ...], given: float | None, pencil: Pencil
+) -> Construction[RollerGivens]:
     """What the rule proposes from the least radius of curvature and the prime radius; the smallest is taken.
 
     curved : from :func:`~graphcam.constructions.curvature.curvature`
@@ -35,9 +57,9 @@ def roller_radius(
 
     Readings: the ``candidates``, one a term of the rule or the given one, and their least, ``roller_radius`` [mm].
     """
-    inverted, rho = curved.givens["inverted"], curved.readings["rho"].paper
-    mu_l = inverted.givens["mu_l"].per_mm
-    r0 = pencil.sheets(inverted.givens["prime_radius"] / mu_l)
+    inverted, rho = curved.givens.inverted, curved.readings["rho"].paper
+    mu_l = inverted.givens.mu_l.per_mm
+    r0 = pencil.sheets(inverted.givens.prime_radius / mu_l)
     if given is None:
         terms = [term.factor * (rho if term.of == "rho" else r0) - term.margin / mu_l for term in rule]
         candidates = np.stack(terms, axis=-1)
@@ -47,14 +69,15 @@ def roller_radius(
     least = np.fmin.reduce(candidates, axis=-1)
     return Construction(
         "roller",
-        {"curved": curved, "rule": rule, "given": given, "pencil": pencil},
+        RollerGivens(curved, rule, given),
+        pencil,
         {"candidates": reading(candidates, mu_l, "mm"), "roller_radius": reading(least, mu_l, "mm")},
         {},
         _draw,
     )
 
 
-def working_profile(inverted: Construction, roller: float, pencil: Pencil) -> Construction:
+def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profile:
     """From each pitch point the roller's radius [mm] towards the cam, square to the circle through its neighbours.
 
     inverted : from :func:`~graphcam.constructions.inversion.inversion`
@@ -63,16 +86,17 @@ def working_profile(inverted: Construction, roller: float, pencil: Pencil) -> Co
     Points: ``touch`` (..., m), NaN where covered; ``covered`` the touch points that were dropped.
     """
     hand = pencil.hand("working_profile")
-    stations, mu_l = inverted.givens["integrated"].givens["stations"], inverted.givens["mu_l"]
+    stations, mu_l = inverted.givens.integrated.givens.stations, inverted.givens.mu_l
     pitch = inverted.points["pitch"]
     radius = roller / mu_l.per_mm
-    touch = pitch + radius * _inward(pitch, stations, sense(inverted.givens["rotation"])) + hand.point(stations.u.size)
+    touch = pitch + radius * _inward(pitch, stations, sense(inverted.givens.rotation)) + hand.point(stations.u.size)
     tremble = TREMBLE * math.hypot(pencil.line, pencil.dividers)
     covered = _covered(touch, pitch, radius * (1 - TOUCHING) - tremble)
     kept = np.where(covered, np.nan, touch)
     return Construction(
         "working_profile",
-        {"inverted": inverted, "roller_radius": roller, "pencil": pencil},
+        ProfileGivens(inverted, roller),
+        pencil,
         {"radius": reading(hand.read(np.abs(kept)), mu_l.per_mm, "mm")},
         {"touch": kept, "covered": np.where(covered, touch, np.nan)},
         _draw_profile,
@@ -112,8 +136,8 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
-def _draw(rolled: Construction) -> list[Step]:
-    rule, given, candidates = rolled.givens["rule"], rolled.givens["given"], rolled.value("candidates")
+def _draw(rolled: Construction[RollerGivens]) -> list[Step]:
+    rule, given, candidates = rolled.givens.rule, rolled.givens.given, rolled.value("candidates")
     taken = float(rolled.value("roller_radius"))
     if given is None:
         terms = [_proposal(term, radius) for term, radius in zip(rule, candidates, strict=True)]
@@ -133,9 +157,9 @@ def _proposal(term: Candidate, radius: float) -> Caption:
     return say("{term}, which cannot be read", term=term.said)
 
 
-def _draw_profile(profile: Construction) -> list[Step]:
-    inverted, roller = profile.givens["inverted"], profile.givens["roller_radius"]
-    mu_l = inverted.givens["mu_l"]
+def _draw_profile(profile: Profile) -> list[Step]:
+    inverted, roller = profile.givens.inverted, profile.givens.roller_radius
+    mu_l = inverted.givens.mu_l
     touch, covered, pitch = profile.first("touch"), profile.first("covered"), inverted.first("pitch")
     lost, measured = int(np.sum(~np.isnan(covered))), profile.first("radius") * mu_l.per_mm
     radii = {"least": np.nanmin(measured), "greatest": np.nanmax(measured)}
@@ -177,22 +201,22 @@ def _draw_profile(profile: Construction) -> list[Step]:
     ]
 
 
-def _angles(profile: Construction) -> Floats:
+def _angles(profile: Profile) -> Floats:
     """The angles from the follower's line to the profile's normal at the stations [rad], in the first sample."""
-    inverted = profile.givens["inverted"]
+    inverted = profile.givens.inverted
     pitch = inverted.first("pitch")
     return np.angle((pitch - profile.first("touch")) / inverted.first("motion"))
 
 
-def _steepest(profile: Construction) -> list[int]:
+def _steepest(profile: Profile) -> list[int]:
     """The station of the greatest angle in each moving phase; none where the whole phase is covered."""
-    stations, angles = profile.givens["inverted"].givens["integrated"].givens["stations"], np.abs(_angles(profile))
+    stations, angles = profile.givens.inverted.givens.integrated.givens.stations, np.abs(_angles(profile))
     touched = [span for span in stations.phases if not np.isnan(angles[span]).all()]
     return [int(span.start + np.nanargmax(angles[span])) for span in touched]
 
 
-def _normal(profile: Construction, at: int) -> tuple[Mark, ...]:
-    inverted, angle = profile.givens["inverted"], float(_angles(profile)[at])
+def _normal(profile: Profile, at: int) -> tuple[Mark, ...]:
+    inverted, angle = profile.givens.inverted, float(_angles(profile)[at])
     places = (inverted.first("pitch"), inverted.first("motion"), profile.first("touch"))
     pitch, line, touch = (complex(place[at]) for place in places)
     normal = (pitch - touch) / abs(pitch - touch)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from graphcam.constructions.board import DrawnFollower
 from graphcam.constructions.profile_view import closed_curve, rotation_arrow
+from graphcam.constructions.roller import Profile
 from graphcam.constructions.views import SCHEME, at_scale
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Circle, Label, Line, Role, Segments
@@ -16,27 +19,34 @@ SIZE = 60.0
 """The cam is drawn at the largest standard scale at which it is not wider [mm]."""
 
 
-def scheme(profile: Construction, follower: DrawnFollower) -> Construction:
+@dataclass(frozen=True, eq=False)
+class SchemeGivens:
+    """The profile, and the follower on it."""
+
+    profile: Profile
+    follower: DrawnFollower
+
+
+def scheme(profile: Profile, follower: DrawnFollower) -> Construction[SchemeGivens]:
     """Cam, follower and frame at the start of the turn.
 
     profile : from :func:`~graphcam.constructions.roller.working_profile`
     """
-    givens = {"profile": profile, "follower": follower, "pencil": profile.givens["pencil"]}
-    return Construction("scheme", givens, {}, {}, _draw)
+    return Construction("scheme", SchemeGivens(profile, follower), profile.pencil, {}, {}, _draw)
 
 
-def _draw(drawn: Construction) -> list[Step]:
-    profile = drawn.givens["profile"]
-    inverted, roller = profile.givens["inverted"], profile.givens["roller_radius"]
-    mu_l, sigma = inverted.givens["mu_l"], sense(inverted.givens["rotation"])
+def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
+    profile = drawn.givens.profile
+    inverted, roller = profile.givens.inverted, profile.givens.roller_radius
+    mu_l, sigma = inverted.givens.mu_l, sense(inverted.givens.rotation)
     outline = closed_curve(inverted, profile.first("touch")) * mu_l.per_mm
     scale = standard_scale(2 * float(np.nanmax(np.abs(outline))), SIZE)
     scheme = at_scale(SCHEME, scale)
-    radius = 0.5 * inverted.givens["prime_radius"] / scale.per_mm
+    radius = 0.5 * inverted.givens.prime_radius / scale.per_mm
     ground = np.arange(-3, 3.1, 1.5) - 5j
     marks = (
         Line(outline / scale.per_mm, Role.RESULT, closed=True),
-        *drawn.givens["follower"].scheme(inverted, roller, scale),
+        *drawn.givens.follower.scheme(inverted, roller, scale),
         Circle(0j, 1.2, Role.CURVE),
         Line(np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),
         Segments(ground, ground - 1.2 - 1.5j, Role.HATCH),

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import TypeVar
 
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
@@ -17,6 +18,7 @@ from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 from graphcam.words import Caption as Caption, Tell, Words as Words, say as say
 
 if TYPE_CHECKING:
+    from graphcam.drafting.pencil import Pencil
     from graphcam.showing import Axes, Figure
 
 
@@ -98,7 +100,7 @@ class Reading:
     """
 
     paper: NDArray[np.float64]
-    scale: float | NDArray[np.float64]
+    scale: float | NDArray[np.floating[Any]]
     unit: str
 
     def __repr__(self) -> str:
@@ -132,7 +134,7 @@ def _range(values: ArrayLike) -> str:
     return f"[{np.min(known):.5g} ... {np.max(known):.5g}]" if known.size else "[nan]"
 
 
-def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> Reading:
+def reading(paper: ArrayLike, scale: float | NDArray[np.floating[Any]], unit: str) -> Reading:
     """A :class:`Reading` of what is on the paper.
 
     >>> reading(50.0, 0.6, "mm").value.item()
@@ -141,14 +143,19 @@ def reading(paper: ArrayLike, scale: float | NDArray[np.float64], unit: str) -> 
     return Reading(np.asarray(paper, dtype=np.float64), scale, unit)
 
 
+G = TypeVar("G", covariant=True, default=Any)
+"""What lies on the board of a construction."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Construction(Shown):
+class Construction(Shown, Generic[G]):
     """A textbook construction as a value: what was given, what was read, and how to draw it.
 
     Attributes
     ----------
     name : of the construction
-    givens : what lay on the board, among it the constructions it started from
+    givens : what lay on the board, among it the constructions it started from: a small frozen dataclass
+    pencil : the hand that drew
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
@@ -165,17 +172,18 @@ class Construction(Shown):
     _drawn_in = "construction_drawing"
 
     name: str
-    givens: Mapping[str, Any]
+    givens: G
+    pencil: Pencil
     readings: Mapping[str, Reading]
     points: Mapping[str, Points]
-    draw: Callable[[Construction], list[Step]]
+    draw: Callable[[Construction[G]], list[Step]]
 
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""
         return self.draw(self)
 
     def __repr__(self) -> str:
-        samples = self.givens["pencil"].samples
+        samples = self.pencil.samples
         first = f"Construction {self.name!r}, steps: {len(self.steps())}" + (f", samples: {samples}" if samples else "")
         rows = (f"{name}: {reading}" for name, reading in self.readings.items())
         return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
@@ -195,9 +203,9 @@ class Construction(Shown):
     def first(self, name: str) -> Any:
         """The points or the reading's paper of that name in the first sample (or the only one): what a step shows."""
         values = self.points[name] if name in self.points else self.readings[name].paper
-        return values[0] if self.givens["pencil"].samples is not None else values
+        return values[0] if self.pencil.samples is not None else values
 
     def value(self, name: str) -> Any:
         """The machine value of a reading in the first sample."""
         values = self.readings[name].value
-        return values[0] if self.givens["pencil"].samples is not None else values
+        return values[0] if self.pencil.samples is not None else values

@@ -104,7 +104,7 @@ class Hand:
         division = self.pencil.division
         return np.round(paper / division) * division if division else paper
 
-    def readings(self, scale: float | NDArray[np.float64], unit: str, **paper: Floats) -> dict[str, Reading]:
+    def readings(self, scale: float | NDArray[np.floating[Any]], unit: str, **paper: Floats) -> dict[str, Reading]:
         """Lengths as they are read off a scale, by their names.
 
         >>> import graphcam as gc

@@ -140,7 +140,7 @@ def ancestors(construction: Construction) -> list[Construction]:
     ['acceleration', 'integration']
     """
     found: dict[str, Construction] = {}
-    for given in construction.givens.values():
+    for given in vars(construction.givens).values():
         if isinstance(given, Construction):
             found |= {c.name: c for c in (*ancestors(given), given)}
     return list(found.values())

@@ -69,7 +69,7 @@ def acceleration(solution: Solution) -> str:
         (phase_title(motion, i), law_title(motion, i), *_peak_and_lift(phase), degrees(phase.angle), number(y))
         for i, phase, y in zip(index, phases, greatest, strict=True)
     ]
-    lift = say("h, {unit}", unit=unit(diagram.givens["unit"]))
+    lift = say("h, {unit}", unit=unit(diagram.givens.unit))
     return blocks(
         say(
             "One revolution is laid off as {base} mm, so $\\mu_\\varphi = 2\\pi/{base} = {mu}$ rad/mm. The moving "
@@ -152,12 +152,12 @@ def integration(solution: Solution) -> str:
 def _integrated(solution: Solution) -> dict[str, Caption]:
     """What was measured on the integrals, and their scales."""
     c, lift, middles = solution.drawn["integration"], solution.cam.motion.lift, solution.drawn["acceleration"]
-    x, chord, of_lift = c.first("s_curve").real, c.first("v_chords")[1].imag, unit(c.givens["unit"])
+    x, chord, of_lift = c.first("s_curve").real, c.first("v_chords")[1].imag, unit(c.givens.unit)
     return {
         **numbers(y=middles.first("middles")[0], width=x[1] - x[0], chord=chord, left_s=c.first("closing_s")),
         **numbers(v=c.first("max_v"), a=c.first("max_a"), paper=lift / c.readings["s"].per_mm),
         **{name: general(c.readings[name[-1]].per_mm, 5) for name in ("mu_s", "mu_v", "mu_a")},
-        **{name: say("{h:g}", h=h) for name, h in zip(("h1", "h2"), c.givens["poles"], strict=True)},
+        **{name: say("{h:g}", h=h) for name, h in zip(("h1", "h2"), c.givens.poles, strict=True)},
         "mu_phi": number(solution.chain.board.mu_phi.per_mm, 6),
         "lift": general(lift),
         "unit": of_lift,

@@ -39,7 +39,7 @@ CONDITIONS = {
 
 def _conditions(region: Construction) -> Iterator[Caption]:
     """The lines that bound the region: s0 tan(angle) + side sigma e >= v - s tan(angle), each touching at (s, v)."""
-    limits, mu = region.givens["limits"], region.readings["prime_radius"].per_mm
+    limits, mu = region.givens.limits, region.readings["prime_radius"].per_mm
     for name, angle, side in (("rise", limits.rise, "+"), ("return", limits.return_, "-"), ("rest", limits.rise, "-")):
         if name in region.points and angle is not None:
             touch = complex(region.first(name)) * mu
@@ -79,7 +79,7 @@ def _centre(region: Construction) -> list[Caption]:
         unreadable = say("No cam centre can be read, because the lines that bound the region cross at under a degree.")
         return [warning(unreadable)]
     values = numbers(s0=s0, e=e, r0=r0)
-    bound_by, given = [LINES[line.name] for line in active(region)], region.givens["offset"]
+    bound_by, given = [LINES[line.name] for line in active(region)], region.givens.offset
     place = (
         say("Of the region the place that is nearest to the start of the lift is taken.")
         if given is None

@@ -87,7 +87,7 @@ def error_of_pitch_points(chain: Chain, cam: gc.Cam) -> float:
 
 
 def error_of_profile(chain: Chain, cam: gc.Cam) -> float:
-    touch = chain["working_profile"].points["touch"] * chain["inversion"].givens["mu_l"].per_mm
+    touch = chain["working_profile"].points["touch"] * chain["inversion"].givens.mu_l.per_mm
     return float(distance_from_profile(cam, touch, chain.board.stations.phi).max())
 
 
@@ -194,7 +194,7 @@ def plotted_alone(region) -> float:
         for part in ("touch", "inward")
     )
     place, _ = nearest_of_many(touches, inwards, region.points["start"])
-    return float(np.abs(place - region.points["start"])) * region.givens["mu_l"].per_mm
+    return float(np.abs(place - region.points["start"])) * region.givens.mu_l.per_mm
 
 
 # --- theorems --------------------------------------------------------------------------------------------------------
@@ -232,7 +232,7 @@ def test_start_points_lie_on_the_prime_circle_at_the_arms_length_from_their_pivo
     chain = drawn("3-4-5", rotation)
     inverted, phi = chain["inversion"], chain.board.stations.phi
     pivots, starts, pitch = (inverted.points[name] for name in ("pivots", "starts", "pitch"))
-    mu = inverted.givens["mu_l"].per_mm
+    mu = inverted.givens.mu_l.per_mm
     assert_allclose(np.abs(pivots), 120 / mu, rtol=1e-14)
     assert_allclose(np.abs(starts), 45 / mu, rtol=1e-14)
     assert_allclose(np.abs(starts - pivots), ARM / mu, rtol=1e-14)
@@ -261,7 +261,7 @@ def test_no_line_cuts_the_cam_centre_off(law, problem, rotation):
     region = region_of(law, problem, rotation, 24)
     ends, tips, centre = (region.points[name] for name in ("ends", "tips", "centre"))
     seen = (centre - tips) / (UP * unit(ends))  # against the arm's normal, towards the cam
-    motion, stations = region.givens["integrated"].givens["motion"], region.givens["integrated"].givens["stations"]
+    motion, stations = region.givens.integrated.givens.motion, region.givens.integrated.givens.stations
     direction = np.array([motion.phases[k].direction for k in stations.phase])
     drives = sense(rotation) * direction
     alpha = drives * np.angle(seen)

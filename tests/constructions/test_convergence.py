@@ -59,7 +59,7 @@ def error_of_pitch_points(chain: Chain, law: str) -> float:
 
 def error_of_profile(chain: Chain, law: str) -> float:
     profile = chain["working_profile"]
-    touch = profile.points["touch"] * profile.givens["inverted"].givens["mu_l"].per_mm
+    touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm
     return float(distance_from_profile(cam_of(law), touch, chain.board.stations.phi).max()) / SIZES.prime_radius
 
 

@@ -136,7 +136,7 @@ def test_given_sizes_are_kept_and_the_least_radius_is_drawn_all_the_same():
 def test_sizes_decided_before_take_the_place_of_the_proposals():
     chain = Chain(coursework(), decided=SIZES)
     assert chain.sizes == SIZES
-    assert chain["inversion"].givens["prime_radius"] == SIZES.prime_radius
+    assert chain["inversion"].givens.prime_radius == SIZES.prime_radius
 
 
 @pytest.mark.parametrize(

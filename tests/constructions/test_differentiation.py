@@ -100,7 +100,7 @@ def test_unequal_intervals_are_permitted(by):
 def test_a_cyclic_diagram_wraps_round(by):
     """Where a turn is begun changes nothing, and the velocity comes to nothing over it."""
     c = drawn(24, by)
-    s = c.givens["x"], c.points["s"].imag
+    s = c.givens.x, c.points["s"].imag
     shifted = differentiation(s[0], np.roll(s[1], 7), MU_PHI, MU_S, POLES, Pencil(), turn=TURN, by=by)
     for name in ("v", "a"):
         assert c.readings[name].paper.size == 24
@@ -131,7 +131,7 @@ def test_the_scales_are_those_of_the_integration():
 def test_the_integration_of_the_chords_gives_the_displacement_back():
     """Chord by chord, without rounding: the polygon of the integration is that of the differentiation."""
     c = drawn(24)
-    x, s = np.append(c.givens["x"], TURN), c.points["s"].imag
+    x, s = np.append(c.givens.x, TURN), c.points["s"].imag
     rises = c.readings["v"].paper / POLES[0] * np.diff(x)
     assert_allclose(s[0] + np.append(0, np.cumsum(rises)[:-1]), s, atol=1e-10)
     assert_allclose(c.readings["rise"].paper, rises, atol=1e-12)
@@ -224,7 +224,7 @@ def test_a_measured_motion_is_differentiated_beside_the_chain():
     assert list(chain)[-1] == "differentiation"
     c, integrated = chain["differentiation"], chain["integration"]
     for name in ("s", "v", "a"):
-        scale = c.givens["mu_s"].per_mm if name == "s" else c.readings[name].scale
+        scale = c.givens.mu_s.per_mm if name == "s" else c.readings[name].scale
         assert scale == pytest.approx(float(integrated.readings[name].scale))
     assert "differentiation" not in Chain(board_of(coursework_motion("3-4-5")))
 

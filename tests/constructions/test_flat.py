@@ -211,7 +211,7 @@ def test_every_face_touches_the_profile_square_to_its_ray_at_the_displacement(la
     chain = drawn(law, rotation)
     inverted, phi = chain["inversion"], chain.board.stations.phi
     feet, touch, along = (inverted.points[name] for name in ("feet", "pitch", "motion"))
-    mu = inverted.givens["mu_l"].per_mm
+    mu = inverted.givens.mu_l.per_mm
     assert_allclose(along, 1j * np.exp(-1j * sense(rotation) * phi), atol=1e-14)  # numbered against the rotation
     assert_allclose(feet, along * (60 + chain["integration"].readings["s"].value) / mu, rtol=1e-13)
     assert np.abs(dot(along, touch - feet)).max() < 1e-12  # on the face, square to the ray

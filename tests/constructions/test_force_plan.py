@@ -38,7 +38,7 @@ def value(plan: gc.Construction, name: str) -> float:
 def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, guide):
     """The triangle closes: the parts along and across the motion balance, and the friction acts against the motion."""
     angles = measured(rotation=rotation)
-    stations = angles.givens["integrated"].givens["stations"]
+    stations = angles.givens.integrated.givens.stations
     for k in range(1, stations.u.size - 1):
         plan = force_plan(angles, LOAD, Pencil(), guide, station=k)
         alpha = abs(float(angles.readings["alpha"].paper[k]))
@@ -48,7 +48,7 @@ def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, guide):
         assert value(plan, "along") == pytest.approx(normal * math.cos(alpha), rel=1e-12)
         assert value(plan, "along") == pytest.approx(value(plan, "load") + rising * friction, rel=1e-12)
         if guide:
-            s = float(angles.givens["integrated"].readings["s"].value[k])
+            s = float(angles.givens.integrated.readings["s"].value[k])
             assert friction == pytest.approx(side * 0.12 * (1 + 2 * (60 - s) / 90), rel=1e-12)
 
 
@@ -68,8 +68,8 @@ def test_the_scatter_is_what_the_pencil_explains():
     """Linear propagation: a length of Q errs by the dividers, the direction of F by the protractor."""
     angles, k = measured(), 5
     perfect = force_plan(angles, LOAD, Pencil(), GUIDE, station=k)
-    mu, alpha = perfect.givens["mu_force"], float(angles.readings["alpha"].paper[k])
-    s = float(angles.givens["integrated"].readings["s"].value[k])
+    mu, alpha = perfect.givens.mu_force, float(angles.readings["alpha"].paper[k])
+    s = float(angles.givens.integrated.readings["s"].value[k])
     share = 0.12 * (1 + 2 * (60 - s) / 90)
     denominator = math.cos(alpha) - share * math.sin(alpha)
     for pencil, sigma in (
@@ -102,7 +102,7 @@ def test_a_jamming_follower_has_no_triangle():
     # Just below the jamming angle the lines still cross, at less than a degree: no hand could read it.
     angles = measured()
     alpha = float(angles.readings["alpha"].paper[5])
-    s = float(angles.givens["integrated"].readings["s"].value[5])
+    s = float(angles.givens.integrated.readings["s"].value[5])
     almost = gc.Guide(1 / math.tan(alpha + READABLE_CROSSING / 2) / (1 + 2 * (60 - s) / 90), 60, 90)
     assert math.isnan(value(force_plan(angles, LOAD, Pencil(), almost, station=5), "normal"))
 

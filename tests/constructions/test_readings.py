@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -100,9 +101,7 @@ def test_values_at_stations_bear_the_names_of_the_stations():
 
 def test_what_could_not_be_read_is_left_out():
     construction = Chain(coursework())["minimum_radius"]
-    unreadable = Construction(
-        construction.name, construction.givens, {"s0": reading(np.nan, 1.0, "mm")}, {}, construction.draw
-    )
+    unreadable = replace(construction, readings={"s0": reading(np.nan, 1.0, "mm")})
     step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("s0",))
     assert rows(construction, step)
     assert rows(unreadable, step) == []

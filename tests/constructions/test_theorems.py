@@ -73,7 +73,7 @@ def test_the_draughtsmans_choices_change_the_paper_but_no_machine_value(choice):
 def test_the_closing_error_is_shown_and_shared_out_along_the_returns():
     phases = (30, 80, "3-4-5"), (0, 45), (-10, 40, "cosine"), (0, 20), (-20, 60, "cycloidal")
     drawn = Chain(board_of(motion_of(*phases), divisions=4))["integration"]
-    stations, closing = drawn.givens["stations"], float(drawn.readings["closing_s"].paper)
+    stations, closing = drawn.givens.stations, float(drawn.readings["closing_s"].paper)
     assert abs(closing) > 0.5  # four parts are few
     chords, curve = drawn.points["s_chords"].imag, drawn.points["s_curve"].imag
     assert chords[-1] == pytest.approx(closing, rel=1e-12)
@@ -164,13 +164,13 @@ def test_the_greatest_angles_of_a_lecture_script(offset, greatest):
 def test_the_inverted_line_touches_the_circle_of_the_offset(rotation, offset):
     inverted = chain_of(rotation, offset)["inversion"]
     feet, starts, pitch = (inverted.points[name] for name in ("feet", "starts", "pitch"))
-    mu = inverted.givens["mu_l"].per_mm
+    mu = inverted.givens.mu_l.per_mm
     assert_allclose(np.abs(feet), abs(offset) / mu, rtol=1e-14)
     assert_allclose((feet * np.conj(pitch - feet)).real, 0, atol=1e-11)
     assert_allclose(np.abs(starts), 46 / mu, rtol=1e-14)
     # Numbered against the rotation, by the cam angle.
     turn = np.unwrap(np.angle(starts / starts[0]))
-    assert_allclose(turn, -sense(rotation) * inverted.givens["integrated"].givens["stations"].phi, atol=1e-13)
+    assert_allclose(turn, -sense(rotation) * inverted.givens.integrated.givens.stations.phi, atol=1e-13)
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
@@ -201,8 +201,8 @@ def test_a_cam_that_turns_the_other_way_with_the_opposite_offset_is_the_mirror_i
 @every_side
 def test_touch_points_lie_at_the_roller_radius_from_their_centres_towards_the_cam(rotation, offset):
     profile = chain_of(rotation, offset)["working_profile"]
-    pitch, touch = profile.givens["inverted"].points["pitch"], profile.points["touch"]
-    assert_allclose(np.abs(touch - pitch), 12 / profile.givens["inverted"].givens["mu_l"].per_mm, rtol=1e-13)
+    pitch, touch = profile.givens.inverted.points["pitch"], profile.points["touch"]
+    assert_allclose(np.abs(touch - pitch), 12 / profile.givens.inverted.givens.mu_l.per_mm, rtol=1e-13)
     assert np.all(np.abs(touch) < np.abs(pitch))
 
 
@@ -238,7 +238,7 @@ def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n)
 @pytest.mark.parametrize("missing", [[12], [13], [12, 13]], ids=["before", "after", "on both sides"])
 def test_a_dwells_arc_is_drawn_from_the_end_that_was_touched(missing):
     profile = chain_of("cw", -10.0)["working_profile"]
-    inverted, touch = profile.givens["inverted"], profile.points["touch"].copy()
+    inverted, touch = profile.givens.inverted, profile.points["touch"].copy()
     radius = abs(touch[12])
     touch[missing] = np.nan
     line = closed_curve(inverted, touch)

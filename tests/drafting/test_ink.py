@@ -22,7 +22,7 @@ def one_line(construction: Construction) -> list[Step]:
 
 def drawn(pencil: Pencil) -> Construction:
     length = pencil.sheets(20.0) + pencil.hand("line").line(1)[..., 0]
-    return Construction("line", {"pencil": pencil}, {"length": reading(length, 0.5, "mm")}, {}, one_line)
+    return Construction("line", None, pencil, {"length": reading(length, 0.5, "mm")}, {}, one_line)
 
 
 def test_a_value_is_scale_times_paper():

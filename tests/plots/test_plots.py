@@ -139,7 +139,7 @@ def test_a_construction_is_drawn_in_millimetres_of_paper(solution):
     assert first.get_ylim() == whole.get_ylim()
     left, right = whole.get_xlim()
     length = solution.drawn["acceleration"].readings["base"].paper
-    assert left < -float(integration.givens["poles"][0])
+    assert left < -float(integration.givens.poles[0])
     assert right > length
     assert right - left < length + 100
 

@@ -66,7 +66,7 @@ def test_the_sheet_shows_the_contact_function_and_the_force_plan(tmp_path):
     assert max(widths) == pytest.approx(120, abs=1e-6)
     assert sum(name.endswith(" force_plan") for name in groups) == 4
     plan = solution.spring.force_plan
-    k = plan.givens["station"]
+    k = plan.givens.station
     stations = solution.chain.board.stations
     exact = gc.CamForces(solution.cam, solution.spring.load).at(stations.phase[k], stations.u[k])
     assert float(plan.readings["normal"].value) == pytest.approx(float(exact.normal), rel=0.01)
@@ -97,7 +97,7 @@ def test_the_force_plan_is_drawn_where_the_least_preload_leaves_a_load(tmp_path)
     shown = shown_station(solution.chain.pressure_angle)
     assert spring.least.phi == pytest.approx(math.radians(40 / 3.5))
     assert math.radians(40) * stations.u[shown] == pytest.approx(spring.least.phi)
-    k = spring.force_plan.givens["station"]
+    k = spring.force_plan.givens.station
     normal = float(spring.force_plan.readings["normal"].value)
     assert normal == pytest.approx(float(forces.at(stations.phase[k], stations.u[k]).normal), rel=0.02)
     assert normal > 0.2 * spring.greatest_normal.value

@@ -164,7 +164,7 @@ def read_as(construction: Construction, name: str, paper: NDArray[np.float64]) -
 
 def with_ordinates(diagram: Construction, factor: NDArray[np.float64]) -> Construction:
     """The acceleration diagram with the ordinates of every moving phase (..., phases) times a factor."""
-    stations: Stations = diagram.givens["stations"]
+    stations: Stations = diagram.givens.stations
     of_part = np.repeat(np.arange(len(stations.parts)), [part.stop - part.start for part in stations.parts])
     phases = {"greatest": slice(None), "middles": of_part, "stations": stations.moving, "before": stations.moving}
     readings = {

@@ -176,7 +176,7 @@ def slope_inverted(chain: Chain) -> Chain:
     derived = chain.differentiation
     v = derived.readings["v"].paper
     with np.errstate(divide="ignore"):
-        return chain.going_on_from(read_as(derived, "v", derived.givens["poles"][0] ** 2 / v))
+        return chain.going_on_from(read_as(derived, "v", derived.givens.poles[0] ** 2 / v))
 
 
 @usual(say("The slope of a chord looks set down at its end: it belongs to the middle of the part."))
