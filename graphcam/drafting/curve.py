@@ -27,7 +27,7 @@ def at_greatest(values: NDArray[Scalar], measure: Floats) -> NDArray[Scalar]:
 def farthest(points: Points, direction: Points | complex) -> Points:
     """The point of a faired curve that lies farthest in a direction: there the tangent is perpendicular to it.
 
-    points : (..., n) plotted points of one smooth piece, in order; direction : one for all
+    points : (..., n) plotted points of one smooth piece, in order; direction : one for all, or (...) one for each
     returns : (...) on the parabola through the three points about the farthest one, or that point itself where the
     parabola has no top between them, so that nothing is read beyond a corner or an end
 
@@ -37,7 +37,7 @@ def farthest(points: Points, direction: Points | complex) -> Points:
     """
     points = np.asarray(points)
     direction = direction / np.abs(direction)
-    height = dot(direction, points)
+    height = dot(np.asarray(direction)[..., None], points)
     best = np.argmax(np.where(np.isnan(height), -np.inf, height), axis=-1)[..., None]
     plotted = np.take_along_axis(points, best, -1)[..., 0]
     if points.shape[-1] < 3:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, Generic
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import TypeVar
 
+from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 
@@ -97,11 +98,13 @@ class Reading:
 
     paper : mm (an angle: rad), scalar or array; with a pencil that carries samples their axis comes first
     scale : machine units per mm of paper; 1 for an angle, which is itself on every scale
+    act : how it was read, or reckoned from other readings
     """
 
     paper: NDArray[np.float64]
     scale: float | NDArray[np.floating[Any]]
     unit: str
+    act: Act | None = None
 
     def __repr__(self) -> str:
         return f"Reading {self}"
@@ -159,6 +162,7 @@ class Construction(Shown, Generic[G]):
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
+    acts : what was done, by the name of what it left on the paper
 
     >>> import graphcam as gc
     >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]
@@ -177,6 +181,7 @@ class Construction(Shown, Generic[G]):
     readings: Mapping[str, Reading]
     points: Mapping[str, Points]
     draw: Callable[[Construction[G]], list[Step]]
+    acts: Mapping[str, Drawn] = field(default_factory=dict[str, Drawn])
 
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""

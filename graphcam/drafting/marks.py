@@ -1,4 +1,4 @@
-"""Marks: what a line, a point or a text on the paper is, by its role.
+"""Marks: what a line, a point or a text on the paper is, by its role, and the act that left it.
 
 Points are complex numbers in mm of paper, in the frame of their view (x right, y up).  How thick a line is drawn, and
 where a label finds room, is the sheet's business.
@@ -6,9 +6,9 @@ where a label finds room, is the sheet's business.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,15 @@ from numpy.typing import NDArray
 from graphcam.words import Words
 
 Points = NDArray[np.complexfloating[Any, Any]]
+
+
+class Origin(Protocol):
+    """What a mark comes from: the act that left it, or, of a dimension, the reading whose number it bears."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in its construction."""
+        ...
 
 
 class Role(StrEnum):
@@ -39,6 +48,7 @@ class Line:
     points: Points
     role: Role
     closed: bool = False
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +58,7 @@ class Segments:
     starts: Points
     ends: Points
     role: Role
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -57,6 +68,7 @@ class Circle:
     centre: complex
     radius: float
     role: Role
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -69,6 +81,7 @@ class Arc:
     end: float
     role: Role
     arrow: str = ""
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +90,7 @@ class Dots:
 
     points: Points
     role: Role = Role.CURVE
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -86,6 +100,7 @@ class Arrow:
     start: complex
     end: complex
     role: Role
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -96,6 +111,7 @@ class Label:
     text: Words
     towards: complex = 1 + 1j
     small: bool = False
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -106,6 +122,7 @@ class Dimension:
     end: complex
     text: Words
     aside: float = 0.0
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -117,6 +134,7 @@ class AngleMark:
     start: float
     end: float
     text: Words
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +142,7 @@ class Region:
     """A shaded region: a polygon (n,) to be hatched."""
 
     boundary: Points
+    of: Origin | None = field(default=None, compare=False, repr=False)
 
 
 Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.drafting.ink import Reading, reading
 from graphcam.errors import DesignError
 
 Floats = NDArray[np.floating[Any]]
@@ -104,7 +103,7 @@ class Hand:
         division = self.pencil.division
         return np.round(paper / division) * division if division else paper
 
-    def readings(self, scale: float | NDArray[np.floating[Any]], unit: str, **paper: Floats) -> dict[str, Reading]:
+    def readings(self, scale: float | NDArray[np.floating[Any]], unit: str, **paper: Floats) -> dict[str, Any]:
         """Lengths as they are read off a scale, by their names.
 
         >>> import graphcam as gc
@@ -112,6 +111,8 @@ class Hand:
         >>> read["radius"].paper.item(), read["radius"].value.item()
         (40.0, 8.0)
         """
+        from graphcam.drafting.ink import reading
+
         return {name: reading(self.read(length), scale, unit) for name, length in paper.items()}
 
     def _errors(self, sigma: float, count: int) -> Floats:

@@ -1,0 +1,178 @@
+"""Acts: what a draughtsman does, as values that say with what, from where and to where.
+
+An act is recorded when it is done: its kind, what it takes, and what it leaves on the paper.  Only references to arrays
+are kept.  What an act leaves is a :class:`Drawn`: places, lines or circles, for all stations and all hands at once.
+Later acts take it, whole or in part, and marks are made of it, so that every mark knows the act that left it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.drafting.marks import Arrow, Circle, Dots, Label, Line, Points, Role, Segments
+from graphcam.words import Words
+
+Floats = NDArray[np.floating[Any]]
+Index = int | slice | list[int] | NDArray[np.integer[Any]] | NDArray[np.bool_]
+
+
+class Kind(StrEnum):
+    """What is done, and with which instrument."""
+
+    GIVEN = "given"  # lies on the board before the first line, or is found in a drawing made before
+    DIVIDE = "divide"  # dividers: equal parts
+    ERECT = "erect"  # T-square and set square: an upright, or another line of known direction
+    PROJECT = "project"  # T-square: square across to a line
+    LAY_OFF = "lay off"  # dividers: a length from a place
+    JOIN = "join"  # ruler: a line through two places
+    PARALLEL = "parallel"  # two set squares
+    PERPENDICULAR = "perpendicular"  # two set squares
+    TANGENT = "tangent"  # set square or mirror, moved until it touches
+    BISECT = "bisect"  # compass: two arcs of one setting
+    CIRCLE = "circle"  # compass
+    PROTRACTOR = "protractor"  # an angle laid off
+    CROSS = "cross"  # where two lines meet
+    FAIR = "fair"  # curve template
+    TAKE = "take"  # of what lies there, what one goes on with
+    ENLARGE = "enlarge"  # the same places once more, at another scale
+    READ = "read"  # ruler or protractor: a length, an angle
+    RECKON = "reckon"  # in the head, from readings
+
+
+INSTRUMENTS: Mapping[Kind, str] = {
+    Kind.DIVIDE: "dividers",
+    Kind.ERECT: "set square",
+    Kind.PROJECT: "T-square",
+    Kind.LAY_OFF: "dividers",
+    Kind.JOIN: "ruler",
+    Kind.PARALLEL: "set squares",
+    Kind.PERPENDICULAR: "set squares",
+    Kind.TANGENT: "set square",
+    Kind.BISECT: "compass",
+    Kind.CIRCLE: "compass",
+    Kind.PROTRACTOR: "protractor",
+    Kind.FAIR: "curve template",
+    Kind.READ: "ruler",
+}
+"""With what each act is done; the others need none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What dividers or a protractor are set to, and where that comes from.
+
+    amount : ([samples,] ...) [mm of paper, or rad]
+    reading : (construction, reading) that it is carried over from, times ``factor``
+    ends : the two places that it is taken between, ``along`` a direction if one is given
+    """
+
+    amount: Floats
+    reading: tuple[str, str] | None = None
+    factor: Floats | float = 1.0
+    ends: tuple[Drawn, Drawn] | None = None
+    along: complex | None = None
+    sampled: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Act:
+    """One kind of move at all stations at once.
+
+    takes : by argument: what is drawn already, settings, given numbers and directions
+    """
+
+    kind: Kind
+    construction: str
+    name: str
+    takes: Mapping[str, Any]
+
+    @property
+    def instrument(self) -> str:
+        """With what it is done."""
+        return INSTRUMENTS.get(self.kind, "")
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """What an act left on the paper, or a part of it.
+
+    points : ([samples,] ...) places; of lines a place on each, of circles the centres
+    along : directions of lines, of any length; radius : of circles [mm]; None for places
+    whole : what it is a part of: the stations ``at``, with the directions turned by ``turn``
+    """
+
+    act: Act
+    points: Points
+    along: Points | None = None
+    radius: Floats | None = None
+    sampled: bool = False
+    whole: Drawn | None = None
+    at: Index | None = None
+    turn: complex = 1
+
+    def __getitem__(self, at: Index) -> Drawn:
+        """The part of it at some stations, or at one."""
+        parts = [None if each is None else each[..., at] for each in (self.points, self.along, self.radius)]
+        return Drawn(self.act, *parts, sampled=self.sampled, whole=self, at=at)  # pyright: ignore[reportArgumentType]
+
+    def turned(self, turn: complex) -> Drawn:
+        """The same lines, taken in another sense (-1) or as seen square to them (1j, -1j)."""
+        return Drawn(self.act, self.points, self.directions * turn, None, self.sampled, self, None, turn)
+
+    @property
+    def directions(self) -> Points:
+        """The directions of lines."""
+        assert self.along is not None
+        return self.along
+
+    @property
+    def first(self) -> Drawn:
+        """The same in the first sample, which is the one that is shown."""
+        if not self.sampled:
+            return self
+        parts = [None if each is None else each[0] for each in (self.points, self.along, self.radius)]
+        return Drawn(self.act, *parts)  # pyright: ignore[reportArgumentType]
+
+    # --- what it looks like, in the first sample ---------------------------------------------------------------------
+
+    @property
+    def shown(self) -> Points:
+        """The places in the first sample, in a row."""
+        return np.atleast_1d(self.first.points)
+
+    @property
+    def place(self) -> complex:
+        """The one place in the first sample."""
+        return complex(self.first.points)
+
+    def dots(self, role: Role = Role.CURVE) -> Dots:
+        """The places, plotted."""
+        return Dots(self.shown, role, of=self.act)
+
+    def line(self, role: Role, *, closed: bool = False) -> Line:
+        """The places joined one after another."""
+        return Line(self.shown, role, closed, of=self.act)
+
+    def from_(self, start: Drawn | Points | complex, role: Role) -> Segments:
+        """A segment to each place from ``start``, one for all or one for each."""
+        begin = start.shown if isinstance(start, Drawn) else np.asarray(start)
+        ends = self.shown
+        return Segments(np.broadcast_to(begin, ends.shape), ends, role, of=self.act)
+
+    def arrow(self, start: Drawn | complex, role: Role) -> Arrow:
+        """An arrow to the place."""
+        return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role, of=self.act)
+
+    def drawn_circle(self, role: Role) -> Circle:
+        """The circle."""
+        return Circle(self.place, float(np.asarray(self.first.radius)), role, of=self.act)
+
+    def label(self, text: Words, towards: complex = 1 + 1j, *, small: bool = False) -> Label:
+        """The name of the place."""
+        return Label(self.place, text, towards, small, of=self.act)

@@ -1,0 +1,404 @@
+"""The hand that draws one construction, with ruler, compass, set squares, dividers, protractor: none without error.
+
+Every act errs as CONSTRUCTIONS in textbooks say it does, is recorded, and returns what it leaves on the paper.  Points
+and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.drafting import curve, euclid
+from graphcam.drafting.acts import Act, Drawn, Floats, Index, Kind, Setting
+from graphcam.drafting.ink import Construction, G, Reading, Step
+from graphcam.drafting.marks import Points
+from graphcam.drafting.pencil import Pencil
+from graphcam.plane import dot
+
+SQUARE = 150.0
+"""Length of a set square [mm]: a line drawn along it is turned by its offset over this."""
+COMPASS = 0.8
+"""To bisect a chord the compass is set to this part of it."""
+
+Direction = Drawn | Points | complex
+Length = Setting | ArrayLike
+
+
+def carried(construction: Construction, name: str, factor: Floats | float = 1.0) -> Setting:
+    """The lengths on paper, or the angles, of a reading times a factor: one a drawing, or one a sample.
+
+    >>> import graphcam as gc
+    >>> carried(gc.solve(gc.builtin_task()).drawn["minimum_radius"], "prime_radius", 0.6).amount.round(2).item()
+    43.28
+    """
+    paper, sampled = construction.readings[name].paper, construction.pencil.samples is not None
+    each = np.asarray(factor)
+    by = each[..., None] if sampled and each.ndim and paper.ndim > 1 else each
+    return Setting(paper * by, (construction.name, name), factor, sampled=sampled)
+
+
+def between(start: Drawn, end: Drawn, along: complex | None = None) -> Setting:
+    """The distance of two places, or the signed part of the way along a direction, taken up with dividers."""
+    a, b = _aligned(_places(start), _places(end))
+    amount = np.abs(b - a) if along is None else dot(np.asarray(along), b - a)
+    return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
+
+
+def _aligned(*given: tuple[Any, bool]) -> list[Any]:
+    """Arrays, and of each whether the samples stand first: with stations last in all of them, if any has stations."""
+    own = max(array.ndim - sampled for array, sampled in given)
+    return [array[..., None] if sampled and array.ndim - 1 < own else array for array, sampled in given]
+
+
+def _places(drawn: Drawn) -> tuple[Points, bool]:
+    return drawn.points, drawn.sampled
+
+
+def _way(direction: Direction) -> tuple[Points, bool]:
+    if isinstance(direction, Drawn):
+        return direction.directions, direction.sampled
+    return np.asarray(direction), False
+
+
+def _radii(circle: Drawn) -> tuple[Floats, bool]:
+    assert circle.radius is not None
+    return circle.radius, circle.sampled
+
+
+def _amount(length: Length) -> tuple[Floats, bool]:
+    if isinstance(length, Setting):
+        return length.amount, length.sampled
+    return np.asarray(length, dtype=np.float64), False
+
+
+class Hand:
+    """A pencil at work on one construction.
+
+    acts : what was done so far, by the name of what it left
+    readings : what was read
+
+    >>> import graphcam as gc
+    >>> hand = Hand(gc.Pencil(), "example")
+    >>> a, b = hand.given("A", 0j), hand.given("B", 6 + 0j)
+    >>> above = hand.cross("C", hand.circle("about A", a, 5.0), hand.circle("about B", b, 5.0))
+    >>> above.place, [str(left.act.kind) for left in hand.acts.values()]
+    ((3+4j), ['given', 'given', 'circle', 'circle', 'cross'])
+    """
+
+    def __init__(self, pencil: Pencil, construction: str) -> None:
+        self.pencil, self.construction = pencil, construction
+        self.acts: dict[str, Drawn] = {}
+        self.readings: dict[str, Reading] = {}
+        self._stream: np.random.Generator | None = None
+
+    # --- what lies there ---------------------------------------------------------------------------------------------
+
+    def given(self, name: str, points: ArrayLike = 0j, along: ArrayLike | None = None) -> Drawn:
+        """Places, or lines along a direction, that lie on the board before the first act: origin, axes, data."""
+        places = np.asarray(points, dtype=np.complex128)
+        direction = None if along is None else np.asarray(along, dtype=np.complex128)
+        return self._left(
+            Kind.GIVEN, name, {"points": places, "along": direction}, self.pencil.sheets(places), direction
+        )
+
+    def found(self, construction: Construction, name: str) -> Drawn:
+        """Places of a drawing that was made before, by their name there."""
+        return self._left(
+            Kind.GIVEN, f"{construction.name}: {name}", {"place": (construction.name, name)}, construction.points[name]
+        )
+
+    def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
+        """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
+        if len(drawn) == 1:
+            points, along = drawn[0].points, drawn[0].along
+        else:
+            points = self._row([each.points for each in drawn])
+            along = None if drawn[0].along is None else self._row([each.directions for each in drawn])
+        if which is not None:
+            points, along = (None if each is None else _chosen(each, which) for each in (points, along))
+        assert points is not None
+        return self._left(Kind.TAKE, name, {"of": drawn, "which": which}, points, along)
+
+    def _row(self, parts: Sequence[Points]) -> Points:
+        own = self.pencil.samples is not None
+        return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
+
+    def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
+        """The same places in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
+        points, about = _aligned(_places(drawn), _places(origin))
+        return self._left(
+            Kind.ENLARGE, name, {"of": drawn, "origin": origin, "times": times, "to": to}, to + (points - about) * times
+        )
+
+    # --- dividers ----------------------------------------------------------------------------------------------------
+
+    def divide(self, name: str, start: Drawn, end: Drawn, share: ArrayLike) -> Drawn:
+        """Places at given shares of the way from start to end; a mark that is new is off by a divider setting."""
+        a, b, part = _aligned(_places(start), _places(end), _amount(share))
+        points = a + (b - a) * part
+        if self.pencil.dividers:
+            new = (part > 0) & (part < 1)
+            points = points + euclid.unit(b - a) * new * self._dividers(points)
+        return self._left(Kind.DIVIDE, name, {"start": start, "end": end, "share": part}, points)
+
+    def lay_off(self, name: str, start: Drawn, along: Direction, length: Length) -> Drawn:
+        """Places at a length from start in a direction (of length one), off by a divider setting."""
+        a, d, mm = _aligned(_places(start), _way(along), _amount(length))
+        if isinstance(along, Drawn):
+            d = euclid.unit(d)
+        points = a + d * mm
+        if self.pencil.dividers:
+            points = points + d * self._dividers(points)
+        return self._left(Kind.LAY_OFF, name, {"start": start, "along": along, "length": length}, points)
+
+    # --- ruler, T-square and set squares -----------------------------------------------------------------------------
+
+    def erect(self, name: str, feet: Drawn, along: Direction = euclid.UP) -> Drawn:
+        """Lines of a known direction through places, drawn beside them by a line's offset."""
+        return self._through(Kind.ERECT, name, {"feet": feet, "along": along}, feet, along, 1, 0.0)
+
+    def parallel(self, name: str, to: Drawn, through: Drawn) -> Drawn:
+        """Lines through places, carried by set squares: with an offset, and a small turn."""
+        return self._through(Kind.PARALLEL, name, {"to": to, "through": through}, through, to, 1, SQUARE)
+
+    def perpendicular(self, name: str, to: Drawn, through: Drawn) -> Drawn:
+        """Lines through places square to others, to the left of their directions."""
+        return self._through(Kind.PERPENDICULAR, name, {"to": to, "through": through}, through, to, euclid.UP, SQUARE)
+
+    def _through(
+        self,
+        kind: Kind,
+        name: str,
+        takes: Mapping[str, Any],
+        places: Drawn,
+        to: Direction,
+        turn: complex,
+        square: float,
+    ) -> Drawn:
+        points, along = np.broadcast_arrays(*_aligned(_places(places), _way(to)))
+        along = along * turn
+        if self.pencil.line:
+            points = points + euclid.UP * euclid.unit(along) * self._line(points)
+            if square:
+                along = euclid.turned(along, self._line(points) / square)
+        return self._left(kind, name, takes, points, along)
+
+    def join(self, name: str, start: Drawn, end: Drawn) -> Drawn:
+        """The lines from places to others: as good as the places are."""
+        a, b = np.broadcast_arrays(*_aligned(_places(start), _places(end)))
+        return self._left(Kind.JOIN, name, {"start": start, "end": end}, a, b - a)
+
+    def project(self, name: str, points: Drawn, onto: Drawn) -> Drawn:
+        """The feet of places on lines, off along the line by a line's offset."""
+        p, q, d = _aligned(_places(points), _places(onto), _way(onto))
+        feet = euclid.foot(p, q, d)
+        if self.pencil.line:
+            feet = feet + euclid.unit(d) * self._line(feet)
+        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
+
+    def end_to_end(self, name: str, lines: Drawn, cuts: Drawn, chains: Sequence[tuple[slice, slice]]) -> Drawn:
+        """Chords set end to end, each parallel to its line, from one upright to the next.
+
+        cuts : feet of the uprights, where the first chord of each chain starts
+        chains : for each the slice of its cuts and that of its lines
+
+        Every chord is off by its set square's offset and its small turn, and the next one starts from its end.
+        """
+        heights = np.zeros(cuts.points.shape)
+        for at, parts in chains:
+            direction, x = lines.directions[..., parts], cuts.points[..., at].real
+            width = np.diff(x)
+            rises = euclid.climb_along(direction, width)
+            if self.pencil.line:
+                rises = rises + self._line(rises) + self._line(rises) / SQUARE * width
+            heights[..., at][..., 1:] = np.cumsum(rises, axis=-1)
+        return self._left(
+            Kind.PARALLEL,
+            name,
+            {"lines": lines, "cuts": cuts, "chains": tuple(chains)},
+            cuts.points + euclid.UP * heights,
+        )
+
+    def cross(self, name: str, one: Drawn, other: Drawn, *, flat: bool = False) -> Drawn:
+        """Where two lines meet; where a ray leaves a circle; where two circles meet, left of the way between centres.
+
+        flat : whether lines that cross at less than a degree count as well
+        """
+        p, q = _places(one), _places(other)
+        if one.radius is not None:
+            p, r, q, s = _aligned(p, _radii(one), q, _radii(other))
+            found = euclid.circles_meet(p, r, q, s)
+        elif other.radius is not None:
+            p, d, q, r = _aligned(p, _way(one), q, _radii(other))
+            found = euclid.along_to_circle(p, d, q, r)
+        else:
+            p, d, q, e = _aligned(p, _way(one), q, _way(other))
+            found = (euclid.crossing if flat else euclid.meet)(p, d, q, e)
+        return self._left(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
+
+    # --- compass and protractor --------------------------------------------------------------------------------------
+
+    def circle(self, name: str, centre: Drawn, radius: Length) -> Drawn:
+        """Circles: the centre is pricked off by half a line, the radius is off by a divider setting."""
+        points, r = np.broadcast_arrays(*_aligned(_places(centre), _amount(radius)))
+        if self.pencil.line:
+            points = points + (self._line(points) + euclid.UP * self._line(points)) / 2
+        if self.pencil.dividers:
+            r = r + self._dividers(points)
+        return self._left(Kind.CIRCLE, name, {"centre": centre, "radius": radius}, points, None, r)
+
+    def bisect(self, name: str, start: Drawn, end: Drawn) -> Drawn:
+        """The perpendicular bisectors of chords: off at both crossings of the arcs by a line over the root of two."""
+        a, b = _aligned(_places(start), _places(end))
+        middle, along = euclid.perpendicular_bisector(a, b)
+        if self.pencil.line:
+            apart = 2 * np.sqrt(COMPASS**2 - 0.25) * np.abs(b - a)  # of the two crossings
+            one, other = (self._line(middle) / np.sqrt(2) for _ in range(2))
+            middle = middle + euclid.unit(b - a) * (one + other) / 2
+            along = euclid.turned(along, (other - one) / apart)
+        return self._left(Kind.BISECT, name, {"start": start, "end": end}, middle, along)
+
+    def protractor(self, name: str, vertex: Drawn, base: Direction, angle: Length) -> Drawn:
+        """Lines through places at angles [rad], counter-clockwise from a direction: off by the setting and a line."""
+        points, d, turn = np.broadcast_arrays(*_aligned(_places(vertex), _way(base), _amount(angle)))
+        if self.pencil.protractor:
+            turn = turn + self._protractor(points)
+        along = euclid.turned(d, turn)
+        if self.pencil.line:
+            points = points + euclid.UP * euclid.unit(along) * self._line(points)
+        return self._left(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
+
+    # --- curves ------------------------------------------------------------------------------------------------------
+
+    def tangent(self, name: str, points: Drawn, pieces: Sequence[slice], inward: Direction) -> Drawn:
+        """The line square to ``inward`` that touches a curve, faired piece by piece, from its far side.
+
+        The line is moved along until it touches: its place is off by a line's offset.
+        """
+        direction = _way(inward)[0]
+        touch = curve.farthest_of(points.points, pieces, direction)
+        if self.pencil.line:
+            touch = touch + euclid.unit(direction) * self._line(touch)
+        return self._left(
+            Kind.TANGENT,
+            name,
+            {"points": points, "pieces": tuple(pieces), "inward": inward},
+            touch,
+            direction * euclid.UP,
+        )
+
+    def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points]) -> Drawn:
+        """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle.
+
+        rule : the directions that the eye sees, from the points and their neighbours
+        """
+        along = rule(points.points)
+        if self.pencil.protractor:
+            along = euclid.turned(along, self._protractor(along))
+        return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, points.points, along)
+
+    def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
+        """A smooth curve through plotted points, piece by piece, in so many short chords a part."""
+        line = [curve.faired(points.points[..., piece], parts) for piece in pieces]
+        return self._left(
+            Kind.FAIR, name, {"points": points, "pieces": tuple(pieces), "parts": parts}, np.concatenate(line, axis=-1)
+        )
+
+    # --- readings ----------------------------------------------------------------------------------------------------
+
+    def length(self, name: str, start: Drawn, end: Drawn, scale: Floats | float, unit: str) -> Reading:
+        """A distance on paper, read off a rule."""
+        a, b = _aligned(_places(start), _places(end))
+        return self._read(name, {"start": start, "end": end}, self._rounded(np.abs(b - a)), scale, unit)
+
+    def along(
+        self, name: str, start: Drawn, end: Drawn, direction: complex, scale: Floats | float, unit: str
+    ) -> Reading:
+        """The signed part of a distance along a given direction: a height, an abscissa."""
+        a, b = _aligned(_places(start), _places(end))
+        paper = self._rounded(dot(np.asarray(direction), b - a))
+        return self._read(name, {"start": start, "end": end, "direction": direction}, paper, scale, unit)
+
+    def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
+        """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
+        d, e = _aligned(_way(base), _way(line))
+        paper = sense * np.angle(e / d)
+        if self.pencil.protractor:
+            paper = paper + self._protractor(paper)
+        return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
+
+    def reckon(
+        self, name: str, formula: Callable[..., Floats], *given: str, scale: Floats | float, unit: str, **data: Any
+    ) -> Reading:
+        """What is found in the head: a formula of readings, by their names, and of data of the task."""
+        paper = formula(*(self.readings[each].paper for each in given), **data)
+        return self._read(name, {"formula": formula, "given": given, "data": data}, paper, scale, unit, Kind.RECKON)
+
+    def finished(
+        self,
+        givens: G,
+        draw: Callable[[Construction[G]], list[Step]],
+        points: Mapping[str, Drawn | Points],
+    ) -> Construction[G]:
+        """The construction with all that was read, the acts, and the places that later ones go on from."""
+        places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
+        return Construction(self.construction, givens, self.pencil, self.readings, places, draw, self.acts)
+
+    def _rounded(self, paper: Floats) -> Floats:
+        division = self.pencil.division
+        return np.round(paper / division) * division if division else paper
+
+    def _read(
+        self,
+        name: str,
+        takes: Mapping[str, Any],
+        paper: Floats,
+        scale: Floats | float,
+        unit: str,
+        kind: Kind = Kind.READ,
+    ) -> Reading:
+        act = Act(kind, self.construction, name, takes)
+        self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, unit, act)
+        return self.readings[name]
+
+    # --- errors ------------------------------------------------------------------------------------------------------
+
+    def _line(self, like: Any) -> Floats:
+        return self._errors(self.pencil.line, like)
+
+    def _dividers(self, like: Any) -> Floats:
+        return self._errors(self.pencil.dividers, like)
+
+    def _protractor(self, like: Any) -> Floats:
+        return self._errors(self.pencil.protractor, like)
+
+    def _errors(self, deviation: float, like: Any) -> Floats:
+        # The stream depends on the seed and the construction only: drawing one construction more never changes another.
+        if self._stream is None:
+            self._stream = np.random.default_rng([self.pencil.seed, *self.construction.encode()])
+        return deviation * self._stream.standard_normal(like.shape)
+
+    def _left(
+        self,
+        kind: Kind,
+        name: str,
+        takes: Mapping[str, Any],
+        points: Points,
+        along: Points | None = None,
+        radius: Floats | None = None,
+    ) -> Drawn:
+        if along is not None and along.shape != points.shape:
+            along = np.broadcast_to(along, points.shape)  # one direction for all places
+        left = Drawn(Act(kind, self.construction, name, takes), points, along, radius, self.pencil.samples is not None)
+        self.acts[name] = left
+        return left
+
+
+def _chosen(values: Points, which: Index) -> Points:
+    if isinstance(which, np.ndarray) and which.ndim == values.ndim:  # other places in every sample
+        return np.take_along_axis(values, np.asarray(which, dtype=np.intp), -1)
+    return values[..., which]
