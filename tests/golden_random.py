@@ -19,7 +19,7 @@ import graphcam as gc
 from graphcam.tasks.arcs_task import ArcsDrawingTable, ArcsTable, ArcsTask, RollerTable
 
 FILE = Path(__file__).with_name("golden_random.json")
-ARCS = tuple(sound_data(20))
+ARCS = tuple(sound_data(24))
 LEFT_OUT = ((), ("C1",), ("C2",), ("C1", "C2"), ("A",))
 """What the data of three arcs may leave open."""
 TOLERANCE = 1e-12
@@ -39,12 +39,13 @@ def random_arcs_task(seed: int) -> ArcsTask:
     )
 
 
-# The last arm and the last flat face are tasks that no cam solves.
+# No cam solves the last arm and the last flat face.  Left out are an arm and cams of arcs with a crossing so flat, or a
+# circle so small, that it magnifies rounding, which differs between processors, to more than the tolerance.
 TASKS = {
     **{f"translating {seed}": random_task(seed) for seed in range(20)},
-    **{f"arm {seed}": random_arm_task(seed) for seed in (*range(19), 59)},
+    **{f"arm {seed}": random_arm_task(seed) for seed in (*range(14), *range(15, 20), 59)},
     **{f"flat {seed}": random_flat_task(seed) for seed in (*range(19), 38)},
-    **{f"arcs {seed}": random_arcs_task(seed) for seed in range(len(ARCS))},
+    **{f"arcs {seed}": random_arcs_task(seed) for seed in (0, *range(4, 11), *range(12, 24))},
 }
 
 
