@@ -7,6 +7,7 @@ where a reading is meant to change.  The file keeps every digit, one task a line
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from three_arcs import given, sound_data
 
 import graphcam as gc
 from graphcam.tasks.arcs_task import ArcsDrawingTable, ArcsTable, ArcsTask, RollerTable
+from graphcam.tasks.task import SpringTable
 
 FILE = Path(__file__).with_name("golden_random.json")
 ARCS = tuple(sound_data(24))
@@ -39,6 +41,15 @@ def random_arcs_task(seed: int) -> ArcsTask:
     )
 
 
+def random_spring_task(seed: int) -> gc.Task:
+    """A translating follower under a spring with a given preload: one that is left open is found by a solver."""
+    random = np.random.default_rng([seed, 7])
+    mass, stiffness, preload = (round(random.uniform(*span), 2) for span in ((0.1, 0.5), (1, 8), (20, 200)))
+    return replace(
+        random_task(seed), speed_rpm=round(random.uniform(50, 300)), spring=SpringTable(mass, stiffness, preload)
+    )
+
+
 # No cam solves the last arm and the last flat face.  Left out are an arm and cams of arcs with a crossing so flat, or a
 # circle so small, that it magnifies rounding, which differs between processors, to more than the tolerance.
 TASKS = {
@@ -46,15 +57,19 @@ TASKS = {
     **{f"arm {seed}": random_arm_task(seed) for seed in (*range(14), *range(15, 20), 59)},
     **{f"flat {seed}": random_flat_task(seed) for seed in (*range(19), 38)},
     **{f"arcs {seed}": random_arcs_task(seed) for seed in (0, *range(4, 11), *range(12, 24))},
+    **{f"spring {seed}": random_spring_task(seed) for seed in range(20, 26)},
 }
 
 
 def read(task: gc.Task | ArcsTask) -> Readings | str:
     """Every reading of every construction, by the names of both; why there is none, where there is no cam."""
     try:
-        drawn = dict(gc.solve(task).drawn)
+        solution = gc.solve(task)
+        drawn = dict(solution.drawn)
     except gc.DesignError as why:
         return str(why)
+    if isinstance(task, gc.Task) and task.spring:
+        drawn["force_plan"] = solution.spring.force_plan
     return {f"{name}.{key}": value for name, one in drawn.items() for key, value in readings(one).items()}
 
 

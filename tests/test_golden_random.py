@@ -11,12 +11,13 @@ import math
 from dataclasses import replace
 
 import golden
+import numpy as np
 import pytest
 from golden_random import FILE, TASKS, differences, read
 
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 REFUSED = {"arm 59", "flat 38"}
-each_kind = pytest.mark.parametrize("name", ["translating 0", "arm 0", "flat 0", "arcs 0"])
+each_kind = pytest.mark.parametrize("name", ["translating 0", "arm 0", "flat 0", "arcs 0", "spring 20"])
 
 
 def damaged(readings, name, part, value, at=0):
@@ -39,10 +40,17 @@ def test_the_file_holds_every_task_and_two_that_no_cam_solves():
 @each_kind
 def test_the_tasks_of_a_kind_give_every_reading_that_the_built_in_one_gives(name):
     kind = name.split()[0]
-    built_in = json.loads(golden.FILE.read_text(encoding="utf-8"))["coursework" if kind == "translating" else kind]
-    wanted = {f"{one}.{key}" for one, drawn in built_in["constructions"].items() for key in drawn["readings"]}
+    like = {"translating": "coursework", "spring": "coursework"}.get(kind, kind)
+    built_in = json.loads(golden.FILE.read_text(encoding="utf-8"))[like]["constructions"]
+    wanted = {f"{one}.{key}" for one, drawn in built_in.items() for key in drawn["readings"]}
     for found in (BEFORE[task] for task in TASKS if task.startswith(kind) and task not in REFUSED):
-        assert found.keys() == wanted
+        assert {key for key in found if not key.startswith("force_plan.")} == wanted
+
+
+def test_the_force_plan_of_every_spring_is_read():
+    read_off = [found["force_plan.normal"][0] for name, found in BEFORE.items() if name.startswith("spring")]
+    assert len(read_off) == 6
+    assert np.all(np.array(read_off) > 0)
 
 
 @each_kind
