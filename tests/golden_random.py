@@ -51,7 +51,7 @@ def random_spring_task(seed: int) -> gc.Task:
 
 
 # No cam solves the last arm and the last flat face.  Left out are an arm and cams of arcs with a crossing so flat, or a
-# circle so small, that it magnifies rounding, which differs between processors, to more than the tolerance.
+# circle so small, that it magnifies rounding, which differs between processors, to about the tolerance or more.
 TASKS = {
     **{f"translating {seed}": random_task(seed) for seed in range(20)},
     **{f"arm {seed}": random_arm_task(seed) for seed in (*range(14), *range(15, 20), 59)},
