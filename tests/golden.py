@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 import graphcam as gc
-from graphcam.drafting.marks import Region
+from graphcam.drafting.marks import Mark, Region
 from graphcam.words import Caption
 
 FILE = Path(__file__).with_name("golden.json")
@@ -43,18 +43,24 @@ def summary(value: Any) -> Any:
         points = value.boundary
         return ["Region", *(float(x) for part in (points.real, points.imag) for x in (part.min(), part.max()))]
     if is_dataclass(value):
-        return [type(value).__name__, *(summary(getattr(value, field.name)) for field in fields(value))]
+        # What a mark belongs to is no part of how it looks.
+        left_out = {"of"} if isinstance(value, Mark) else set()
+        parts = [getattr(value, field.name) for field in fields(value) if field.name not in left_out]
+        return [type(value).__name__, *map(summary, parts)]
     if isinstance(value, tuple):
         return [summary(item) for item in value]
     return value if isinstance(value, int | float | None) else str(value)
 
 
+def readings(drawn: gc.Construction) -> dict[str, list[Any]]:
+    """Of each reading what was measured on the paper, the scale and the unit."""
+    return {name: [numbers(read.paper), numbers(read.scale), read.unit] for name, read in drawn.readings.items()}
+
+
 def construction(drawn: gc.Construction) -> dict[str, Any]:
     """The readings, the points and the steps."""
     return {
-        "readings": {
-            name: [numbers(read.paper), numbers(read.scale), read.unit] for name, read in drawn.readings.items()
-        },
+        "readings": readings(drawn),
         "points": {name: numbers(points) for name, points in drawn.points.items()},
         "steps": [
             [str(step.title), str(step.caption), step.view.name, [summary(mark) for mark in step.marks]]
@@ -102,9 +108,12 @@ def solved(name: str) -> dict[str, Any]:
 
 
 def differences(before: Any, now: Any, tolerance: float, where: str = "") -> list[str]:
-    """Where two values of plain data differ, numbers by more than the tolerance, of themselves if they are large."""
+    """Where two values of plain data differ, numbers by more than the tolerance, of themselves if they are large.
+
+    What has names is compared by name, in whatever order it comes.
+    """
     if isinstance(before, dict) and isinstance(now, dict):
-        if list(before) != list(now):
+        if before.keys() != now.keys():
             return [f"{where}: {list(before)} became {list(now)}"]
         return [found for key in before for found in differences(before[key], now[key], tolerance, f"{where}/{key}")]
     if isinstance(before, list) and isinstance(now, list):

@@ -7,9 +7,13 @@ from __future__ import annotations
 
 import copy
 import json
+from dataclasses import dataclass
 
+import numpy as np
 import pytest
-from golden import FILE, TASKS, differences, solved
+from golden import FILE, TASKS, differences, solved, summary
+
+from graphcam.drafting import marks
 
 READINGS, MARKS, FITTED = 1e-12, 1e-9, 1e-9
 """Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points; a fitted motion
@@ -36,6 +40,24 @@ def test_every_reading_is_the_one_that_was_read_before(task):
 def test_every_mark_and_every_sheet_is_the_one_that_was_drawn_before(task):
     name, now = task
     assert differences(BEFORE[name], now, MARKS) == []
+
+
+def test_constructions_quantities_and_groups_of_the_sheet_come_in_the_order_in_which_they_came(task):
+    def orders(found):
+        return [list(found["constructions"]), list(found["quantities"]), *map(list, found["sheet"])]
+
+    name, now = task
+    assert orders(BEFORE[name]) == orders(now)
+
+
+def test_what_a_mark_belongs_to_is_no_part_of_how_it_looks():
+    @dataclass(frozen=True, eq=False)
+    class Line(marks.Line):
+        of: str = "a ray"
+
+    points = np.array([0j, 1 + 2j])
+    assert summary(Line(points, marks.Role.CURVE)) == summary(marks.Line(points, marks.Role.CURVE))
+    assert summary(Line(points, marks.Role.CURVE)) != summary(Line(points + 1, marks.Role.CURVE))
 
 
 def test_a_reading_that_moves_by_more_than_rounding_is_found():
