@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from typing_extensions import TypeVar
 
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
+from graphcam.drafting.meaning import Meaning
 from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 
 # A construction says what it draws, so both come from here.
@@ -153,7 +154,7 @@ class Construction(Shown, Generic[G]):
 
     Attributes
     ----------
-    name : of the construction
+    meaning : what the construction says of itself
     givens : what lay on the board, among it the constructions it started from: a small frozen dataclass
     pencil : the hand that drew
     readings : what was read off the paper, by name
@@ -171,12 +172,17 @@ class Construction(Shown, Generic[G]):
 
     _drawn_in = "construction_drawing"
 
-    name: str
+    meaning: Meaning
     givens: G
     pencil: Pencil
     readings: Mapping[str, Reading]
     points: Mapping[str, Points]
     draw: Callable[[Construction[G]], list[Step]]
+
+    @property
+    def name(self) -> str:
+        """Of the construction."""
+        return self.meaning.name
 
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""
