@@ -18,6 +18,7 @@ from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.euclid import UP, divided
 from graphcam.drafting.ink import Construction, Step, reading, say
 from graphcam.drafting.marks import Dimension, Dots, Line, Points, Role, Segments
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats, Side
@@ -38,6 +39,21 @@ class AccelerationGivens:
 
 
 AccelerationDiagram = Construction[AccelerationGivens]
+
+
+MEANING = Meaning(
+    "acceleration",
+    say("Acceleration diagram"),
+    say(
+        "The laws of the motion give the shape of the acceleration. Its scale stays open: the first ordinate is "
+        "chosen, the others follow so that the displacement comes back to the axis."
+    ),
+    {
+        "greatest": ReadingMeaning(say("greatest ordinates"), "y", "mm of paper"),
+        "middles": ReadingMeaning(say("middle ordinates"), "yₘ", "mm of paper"),
+        "base": ReadingMeaning(say("length of the axis"), "b", "rad"),
+    },
+)
 
 
 def acceleration_diagram(
@@ -77,7 +93,7 @@ def acceleration_diagram(
     readings["base"] = reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad")
     givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
     points = {"axis": pencil.sheets(axis + 0j)}
-    return Construction("acceleration", givens, pencil, readings, points, _draw)
+    return Construction(MEANING, givens, pencil, readings, points, _draw)
 
 
 def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:

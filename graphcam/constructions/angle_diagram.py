@@ -14,6 +14,7 @@ from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Dimension, Dots, Label, Line, Role
+from graphcam.drafting.meaning import DEGREES, Converges, Meaning, ReadingMeaning, greatest
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 
@@ -24,6 +25,32 @@ class AngleDiagramGivens:
 
     measured: MeasuredAngles
     mu_alpha: Scale
+
+
+MEANING = Meaning(
+    "angle_diagram",
+    say("Greatest pressure angles"),
+    say("The angles of all stations over the cam angle; the greatest lie between stations, on the curve."),
+    {
+        "max_rise": ReadingMeaning(
+            say("greatest α on the rise"),
+            "max α",
+            "rad",
+            (greatest("max_pressure_angle_rise_deg", say("pressure angle, rise"), "rise_candidates", DEGREES, "deg"),),
+            Converges("greatest angle, rise", "max_pressure_angle_rise"),
+        ),
+        "max_return": ReadingMeaning(
+            say("greatest α on the return"),
+            "max α",
+            "rad",
+            (
+                greatest(
+                    "max_pressure_angle_return_deg", say("pressure angle, return"), "return_candidates", DEGREES, "deg"
+                ),
+            ),
+        ),
+    },
+)
 
 
 def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> Construction[AngleDiagramGivens]:
@@ -45,7 +72,7 @@ def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> 
     rise, return_ = (at_greatest(places, np.abs(places.imag)) for places in (rises, returns))
     candidates = {"rise_candidates": rises.imag, "return_candidates": returns.imag}
     return Construction(
-        "angle_diagram",
+        MEANING,
         AngleDiagramGivens(measured, mu_alpha),
         pencil,
         hand.readings(mu_alpha.per_mm, "rad", max_rise=rise.imag, max_return=return_.imag, **candidates),

@@ -15,6 +15,7 @@ from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Construction, Reading, Step, View, reading, say
 from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.meaning import DEGREES, Meaning, ReadingMeaning, greatest
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.laws import Floats
@@ -36,6 +37,33 @@ class ArcDiagramsGivens:
     rolled: RollerOnArcs
     mu_phi: Scale
     heights: Mapping[str, float]
+
+
+MEANING = Meaning(
+    "arc_diagrams",
+    say("Motion of the follower"),
+    say("What was read at the stations, over the cam angle. Where the arcs change, the acceleration jumps."),
+    {
+        "lift": ReadingMeaning(say("lift h"), "h", "mm"),
+        "max_v": ReadingMeaning(
+            say("greatest v"), "max v", "mm/rad", (greatest("max_v", say("greatest v"), "v_candidates"),)
+        ),
+        "max_a": ReadingMeaning(
+            say("greatest a"), "max a", "mm/rad²", (greatest("max_a", say("greatest a"), "a_candidates"),)
+        ),
+        "max_alpha": ReadingMeaning(
+            say("greatest α"),
+            "max α",
+            "rad",
+            (
+                greatest("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", DEGREES, "deg"),
+                greatest(
+                    "max_pressure_angle_return_deg", say("greatest α, return"), "alpha_candidates", -DEGREES, "deg"
+                ),
+            ),
+        ),
+    },
+)
 
 
 def arc_diagrams(
@@ -68,7 +96,7 @@ def arc_diagrams(
         readings[f"max_{name}"] = reading(np.max(greatest, axis=-1), scale, source.unit)
         readings[f"{name}_candidates"] = reading(greatest, scale, source.unit)
     givens = ArcDiagramsGivens(rolled, mu_phi, heights)
-    return Construction("arc_diagrams", givens, pencil, readings, points, _draw)
+    return Construction(MEANING, givens, pencil, readings, points, _draw)
 
 
 def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:

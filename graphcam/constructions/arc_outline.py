@@ -14,6 +14,7 @@ import numpy as np
 from graphcam.drafting.euclid import UP, along_to_circle, meet, perpendicular_bisector, turned, unit
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.laws import Floats
@@ -41,6 +42,37 @@ class ThreeArcsGivens:
 
 
 ArcOutline = Construction[ThreeArcsGivens]
+
+
+MEANING = Meaning(
+    "three_arcs",
+    say("The arcs"),
+    say(
+        "Where two circles touch, their centres and the point of touch lie on one line. From this alone the centres "
+        "of the three arcs follow with ruler and compass."
+    ),
+    {
+        "base": ReadingMeaning(say("radius of the base circle"), "OA", "mm"),
+        "outer": ReadingMeaning(say("radius of the outer circle"), "OD", "mm"),
+        **{
+            f"{point}_{axis}": ReadingMeaning(
+                sequence([point, axis]),
+                f"{point} {axis}",
+                "mm",
+                (Compared(f"{point}_{axis}", sequence([point, axis])),),
+            )
+            for point in ("C1", "C2", "C3", "F")
+            for axis in "xy"
+        },
+        "rho2": ReadingMeaning(say("radius ρ₂"), "ρ₂", "mm", (Compared("rho2", say("ρ₂")),)),
+        "rho3": ReadingMeaning(say("radius ρ₃"), "ρ₃", "mm", (Compared("rho3", say("ρ₃")),)),
+        **{
+            f"other_{point}_{axis}": ReadingMeaning(sequence([f"{point}′", axis]), f"{point}′ {axis}", "mm")
+            for point in ("C3", "F")
+            for axis in "xy"
+        },
+    },
+)
 
 
 def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> ArcOutline:
@@ -83,7 +115,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
         lengths |= {f"{name}_x": points[name].real, f"{name}_y": points[name].imag}
     readings = hand.readings(mu_l.per_mm, "mm", **lengths)
-    return Construction("three_arcs", ThreeArcsGivens(given, dwell, mu_l), pencil, readings, points, _draw)
+    return Construction(MEANING, ThreeArcsGivens(given, dwell, mu_l), pencil, readings, points, _draw)
 
 
 def _dividers(hand: Hand) -> Floats:

@@ -19,6 +19,7 @@ from graphcam.constructions.arc_outline import ArcOutline, mirrored, outline, ru
 from graphcam.drafting.euclid import UP, along_to_circle, meet, turned, unit
 from graphcam.drafting.ink import Construction, Step, View, Words, reading, say
 from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.meaning import DEGREES, Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
@@ -77,6 +78,57 @@ class ArcRollerGivens:
 RollerOnArcs = Construction[ArcRollerGivens]
 
 
+ENDS = {
+    "a_A": say("a in {point}", point="A"),
+    "a_G_before": say("a in {point}, {side}", point="G", side=say("before")),
+    "a_G_after": say("a in {point}, {side}", point="G", side=say("after")),
+    "a_F_before": say("a in {point}, {side}", point="F", side=say("before")),
+    "a_F_after": say("a in {point}, {side}", point="F", side=say("after")),
+    "a_D": say("a in {point}", point="D"),
+}
+"""The accelerations at both ends of every arc."""
+MEANING = Meaning(
+    "arc_roller",
+    say("The roller on the arcs"),
+    say(
+        "As long as the roller runs on one arc, cam and follower move as a crank mechanism: the crank from the cam "
+        "centre to the arc's centre, the rod from there to the roller. Its plans give velocity and acceleration."
+    ),
+    {
+        "s": ReadingMeaning(say("displacement s"), "s", "mm"),
+        "v": ReadingMeaning(say("velocity v"), "v", "mm/rad"),
+        "a": ReadingMeaning(say("acceleration a"), "a", "mm/rad²"),
+        "alpha": ReadingMeaning(say("pressure angle α"), "α", "rad"),
+        "x": ReadingMeaning(say("x"), "x", "mm"),
+        "y": ReadingMeaning(say("y"), "y", "mm"),
+        "rho": ReadingMeaning(
+            say("least radius of curvature ρ"), "ρ", "mm", (Compared("min_pitch_curvature_radius", say("least ρ")),)
+        ),
+        "roller_radius": ReadingMeaning(
+            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius")),)
+        ),
+        "lift": ReadingMeaning(say("lift h"), "h", "mm", (Compared("lift", say("lift")),)),
+        "prime_radius": ReadingMeaning(
+            say("prime radius r₀"), "r₀", "mm", (Compared("prime_radius", say("prime radius r₀")),)
+        ),
+        **{
+            name: ReadingMeaning(
+                title,
+                f"φ({point})",
+                "rad",
+                (Compared(f"phi_{point}_deg", say("φ at {point}", point=point), unit="deg", factor=DEGREES),),
+            )
+            for name, point, title in (
+                ("phi_G", "G", say("φ at G")),
+                ("phi_F", "F", say("φ at F")),
+                ("rise", "D", say("angle of the rise")),
+            )
+        },
+        **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name, title),)) for name, title in ENDS.items()},
+    },
+)
+
+
 def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pencil: Pencil) -> RollerOnArcs:
     """Put the roller on the arcs at every station of the rise, and find s, v and a there.
 
@@ -132,7 +184,7 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     }
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace, "ray": ray}
     givens = ArcRollerGivens(arcs, roller_radius, stations)
-    return Construction("arc_roller", givens, pencil, readings, points, _draw)
+    return Construction(MEANING, givens, pencil, readings, points, _draw)
 
 
 def _stacked(arcs: ArcOutline, names: Iterable[str]) -> Points:

@@ -12,6 +12,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Circle, Dots, Label, Role, Segments
+from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
@@ -23,6 +24,17 @@ class ArmInversionGivens(profile_view.InvertedGivens):
 
     arm: float
     distance: float
+
+
+MEANING = Meaning(
+    "inversion",
+    say("Pitch curve by inversion"),
+    say(
+        "The cam is held still and the frame is turned round it, against its rotation. From each place of the pivot "
+        "the arm is turned by its displacement: the places that its end takes make the cam."
+    ),
+    profile_view.CURVE,
+)
 
 
 def arm_inversion(
@@ -48,7 +60,7 @@ def arm_inversion(
     starts = circles_meet(np.asarray(0j), prime_radius / mu_l.per_mm, pivots, arm / mu_l.per_mm)
     pitch = stepped_off(starts, pivots, -(s.value + hand.protractor(count))) + hand.point(count)
     return Construction(
-        "inversion",
+        MEANING,
         ArmInversionGivens(integrated, rotation, prime_radius, mu_l, arm, distance),
         pencil,
         profile_view.curve_readings(pitch, mu_l, hand),

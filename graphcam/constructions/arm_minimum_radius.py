@@ -14,12 +14,13 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, numbers, pieces_of
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import ON_THE_LINE, Boundary, nearest_of_many, permitted_part
+from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
@@ -57,6 +58,26 @@ class ArmLeastRadiusGivens:
 
 
 ArmRegion = Construction[ArmLeastRadiusGivens]
+
+
+MEANING = Meaning(
+    "minimum_radius",
+    say("Least prime radius"),
+    say(
+        "The least radius is found before there is a cam: the velocity, as a length, is laid off along the arm in "
+        "every position, and from its end the cam centre is seen under the pressure angle that it would cause. A line "
+        "at the permitted angle cuts off the places that it may not take."
+    ),
+    {
+        "prime_radius": LEAST_RADIUS,
+        "distance": ReadingMeaning(
+            say("centre distance c"),
+            "c",
+            "mm",
+            (Compared("minimum_distance", say("its centre distance c"), exact="minimum_place", unit="mm"),),
+        ),
+    },
+)
 
 
 def arm_positions(integrated: Integrated, arm: float, mu_l: Scale, hand: Hand) -> ArmPositions:
@@ -98,7 +119,7 @@ def arm_least_radius(
     else:
         centre = _nearest_on_arc(touches, inwards, distance / mu_l.per_mm)
     return Construction(
-        "minimum_radius",
+        MEANING,
         ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l),
         pencil,
         hand.readings(mu_l.per_mm, "mm", prime_radius=np.abs(centre - start), distance=np.abs(centre)),

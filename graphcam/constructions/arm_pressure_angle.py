@@ -16,6 +16,7 @@ from graphcam.constructions.arm_minimum_radius import arm_positions
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import (
+    ANGLES,
     MeasuredGivens,
     angle_at,
     angle_readings,
@@ -26,6 +27,7 @@ from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.euclid import UP, circles_meet, unit
 from graphcam.drafting.ink import Construction, Step, reading, say
 from graphcam.drafting.marks import Dots, Label, Line, Mark, Role
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
@@ -38,6 +40,17 @@ class ArmPressureAngleGivens(MeasuredGivens):
     arm: float
     distance: float
     mu_l: Scale
+
+
+MEANING = Meaning(
+    "pressure_angle",
+    say("Pressure angle"),
+    say(
+        "The velocity plan and the mechanism contain similar triangles. So the velocity of the arm's end, l·ds/dφ, is "
+        "a length along the arm, and the angle between normal and motion is found without the profile."
+    ),
+    {**ANGLES, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
+)
 
 
 def arm_pressure_angle(
@@ -68,7 +81,7 @@ def arm_pressure_angle(
     alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
     psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
     return Construction(
-        "pressure_angle",
+        MEANING,
         ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l),
         pencil,
         {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},

@@ -19,6 +19,7 @@ from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.euclid import UP, centre_of_circle, crossing, perpendicular_bisector, stepped_off
 from graphcam.drafting.ink import Caption, Construction, Step, reading, say
 from graphcam.drafting.marks import Arc, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
@@ -38,6 +39,36 @@ class CurvatureGivens:
 
 
 Curved = Construction[CurvatureGivens]
+
+
+LEAST_CURVATURE = {
+    "rho": ReadingMeaning(
+        say("least radius of curvature ρ"),
+        "ρ",
+        "mm",
+        (
+            Compared(
+                "min_pitch_curvature_radius", say("least curvature radius ρ"), unit="mm", candidates="rho_candidates"
+            ),
+        ),
+    ),
+    "rho_candidates": ReadingMeaning(
+        say("least radii of the moving phases and of the rests"),
+        "ρ",
+        "mm",
+        converges=Converges("least curvature radius", "min_moving_curvature_radius"),
+    ),
+}
+"""The least radius of curvature, however it is found."""
+MEANING = Meaning(
+    "curvature",
+    say("Least radius of curvature"),
+    say(
+        "Three near points of a curve determine the circle that fits it best. The least radius of curvature limits "
+        "the roller."
+    ),
+    {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad")},
+)
 
 
 def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
@@ -65,7 +96,7 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     unread = np.isnan(rho)
     lengths = hand.readings(inverted.givens.mu_l.per_mm, "mm", rho=rho, rho_candidates=np.stack(candidates, axis=-1))
     return Construction(
-        "curvature",
+        MEANING,
         CurvatureGivens(inverted, corner),
         pencil,
         {**lengths, "phi": reading(np.where(unread[..., None], np.nan, turns), 1.0, "rad")},

@@ -18,6 +18,7 @@ from graphcam.drafting.curve import faired, farthest
 from graphcam.drafting.euclid import UP, divided
 from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
 from graphcam.drafting.marks import Dots, Line, Mark, Points, Role, Segments
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
@@ -52,6 +53,22 @@ class DifferentiationGivens:
     poles: tuple[float, float]
     turn: float | None
     by: By
+
+
+MEANING = Meaning(
+    "differentiation",
+    say("Velocity and acceleration by differentiation"),
+    say(
+        "The measured displacement, differentiated: a parallel to each chord through the pole cuts off the velocity "
+        "in the middle of the interval. Differentiation enlarges every error of the hand."
+    ),
+    {
+        "v": ReadingMeaning(say("velocity v"), "v", "lift/rad"),
+        "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
+        "max_v": ReadingMeaning(say("greatest v"), "max v", "lift/rad"),
+        "max_a": ReadingMeaning(say("greatest a"), "max a", "lift/rad²"),
+    },
+)
 
 
 def measured_differentiation(
@@ -123,7 +140,7 @@ def differentiation(
     }
     points = {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y}
     givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by)
-    return Construction("differentiation", givens, pencil, readings, points, _draw)
+    return Construction(MEANING, givens, pencil, readings, points, _draw)
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:

@@ -15,12 +15,39 @@ from graphcam.drafting.curve import highest_and_lowest
 from graphcam.drafting.euclid import UP, turned
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Role, Segments
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
 
 FACE_BEYOND = 6.0
 """How far a face is drawn beyond the place where it is touched, and to the other side of its ray [mm]."""
+
+
+MEANING = Meaning(
+    "inversion",
+    say("Pitch curve by inversion"),
+    say(
+        "The cam is held still and the frame is turned round it, against its rotation. In each position the face is "
+        "moved by its displacement and touches the cam beside its ray, where the velocity as a length puts it."
+    ),
+    {
+        "face_left": ReadingMeaning(
+            say("half-width of the face, left"),
+            "bₗ",
+            "mm",
+            (Compared("face_left", say("face to the left"), unit="mm"),),
+        ),
+        "face_right": ReadingMeaning(
+            say("half-width of the face, right"),
+            "bᵣ",
+            "mm",
+            (Compared("face_right", say("face to the right"), unit="mm"),),
+        ),
+        "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
+        **profile_view.CURVE,
+    },
+)
 
 
 def flat_inversion(
@@ -47,7 +74,7 @@ def flat_inversion(
     ends = highest_and_lowest(wander, stations.pieces).imag
     faces = {"face_left": -ends[..., 1], "face_right": ends[..., 0]}
     return Construction(
-        "inversion",
+        MEANING,
         profile_view.InvertedGivens(integrated, rotation, prime_radius, mu_l),
         pencil,
         profile_view.curve_readings(touch, mu_l, hand) | hand.readings(mu_l.per_mm, "mm", contact=contact, **faces),

@@ -14,12 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import OVERHANG, station_names
+from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
+from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import at_greatest, faired, farthest
 from graphcam.drafting.euclid import RIGHT, UP, meet
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Dwell
 from graphcam.plane import dot
@@ -50,6 +53,29 @@ class FlatCurvatureGivens:
 FlatCurved = Construction[FlatCurvatureGivens]
 
 
+LEAST_RADIUS_MEANING = Meaning(
+    "minimum_radius",
+    say("Least prime radius"),
+    say(
+        "Under a flat face the profile has the radius of curvature ρ = r₀ + s + a, and no pressure angle limits it. "
+        "Drawn over the acceleration, the displacement shows where s + a is least: a tangent at 45° touches it there."
+    ),
+    {
+        "prime_radius": LEAST_RADIUS,
+        "need": ReadingMeaning(say("greatest −(s + a)"), "−(s + a)", "mm"),
+    },
+)
+CURVATURE_MEANING = Meaning(
+    "curvature",
+    say("Least radius of curvature"),
+    say(
+        "The prime radius is adopted, and s + a is drawn already: their sum is the radius of curvature of the profile. "
+        "The least of it tells how sharp the cam is."
+    ),
+    LEAST_CURVATURE,
+)
+
+
 def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pencil) -> FlatRegion:
     """Find the least prime radius at which the profile is nowhere sharper than permitted.
 
@@ -78,7 +104,7 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     # Where s + a is never negative any radius will do that the permitted curvature itself needs.
     prime_radius = np.maximum(least_curvature / mu - zero.imag, 0.0)
     return Construction(
-        "minimum_radius",
+        LEAST_RADIUS_MEANING,
         FlatLeastRadiusGivens(integrated, least_curvature),
         pencil,
         hand.readings(mu, "mm", prime_radius=prime_radius, need=0.0 - zero.imag),
@@ -105,7 +131,7 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     hand, need = pencil.hand("curvature"), region.readings["need"]
     rho = prime_radius / np.asarray(need.scale) - need.paper
     return Construction(
-        "curvature",
+        CURVATURE_MEANING,
         FlatCurvatureGivens(region, prime_radius),
         pencil,
         hand.readings(need.scale, "mm", rho=rho, rho_candidates=rho[..., None]),

@@ -21,6 +21,7 @@ from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import UP, meet, turned
 from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
@@ -46,6 +47,24 @@ class ForcePlanGivens:
     guide: Guide | None
     station: int
     mu_force: Scale
+
+
+MEANING = Meaning(
+    "force_plan",
+    say("Force plan"),
+    say(
+        "Load, contact force and the reaction of the guide are in balance. Three directions and one size are known: "
+        "a triangle."
+    ),
+    {
+        "load": ReadingMeaning(say("load Q"), "Q", "N"),
+        "normal": ReadingMeaning(say("contact force F"), "F", "N"),
+        "along": ReadingMeaning(say("F cos α"), "F cos α", "N"),
+        "side": ReadingMeaning(say("F sin α"), "F sin α", "N"),
+        "friction": ReadingMeaning(say("friction in the guide"), "T", "N"),
+        "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
+    },
+)
 
 
 def force_plan(
@@ -86,7 +105,7 @@ def force_plan(
     contact = {"normal": np.abs(corner - foot), "along": (corner - foot).imag, "side": np.abs(corner.real)}
     bearing = {"friction": np.abs(corner.imag), "reaction": np.abs(corner)}
     return Construction(
-        "force_plan",
+        MEANING,
         ForcePlanGivens(measured, load, guide, k, mu),
         pencil,
         hand.readings(mu.per_mm, "N", load=-foot.imag, **contact, **bearing),

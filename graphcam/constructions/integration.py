@@ -18,6 +18,7 @@ from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, climb_along
 from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
 from graphcam.drafting.marks import Dimension, Line, Points, Role, Segments
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
@@ -61,6 +62,40 @@ class IntegrationGivens:
 
 
 Integrated = Construction[IntegrationGivens]
+
+
+MEANING = Meaning(
+    "integration",
+    say("Velocity, displacement and the scales"),
+    say(
+        "A ray from the pole to an ordinate y has the slope y/H; a chord parallel to it across a part Δx climbs by "
+        "y·Δx/H: the area of the part, divided by the pole distance. Twice, and the known lift fixes the scales: "
+        "μᵥ = μₛ/(μᵩ·H₂), μₐ = μᵥ/(μᵩ·H₁)."
+    ),
+    {
+        "s": ReadingMeaning(
+            say("displacement s"), "s", "lift", converges=Converges("displacement", "s", "at stations")
+        ),
+        "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
+        "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
+        "max_v": ReadingMeaning(
+            say("greatest v"),
+            "max v",
+            "lift/rad",
+            (Compared("max_v", say("greatest v")),),
+            Converges("greatest velocity", "max_v"),
+        ),
+        "max_a": ReadingMeaning(
+            say("greatest a"),
+            "max a",
+            "lift/rad²",
+            (Compared("max_a", say("greatest a")),),
+            Converges("greatest acceleration", "max_a"),
+        ),
+        "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
+        "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
+    },
+)
 
 
 def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil) -> Integrated:
@@ -113,7 +148,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     }
     first = {"a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v}
     second = {"v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s}
-    return Construction("integration", givens, pencil, readings, first | second, _draw)
+    return Construction(MEANING, givens, pencil, readings, first | second, _draw)
 
 
 def _polygons(rises: Floats, stations: Stations) -> Floats:

@@ -12,6 +12,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, along_to_circle, stepped_off, turned
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Circle, Role, Segments
+from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
@@ -25,6 +26,17 @@ class InversionGivens(profile_view.InvertedGivens):
 
 
 OffsetInverted = Construction[InversionGivens]
+
+
+MEANING = Meaning(
+    "inversion",
+    say("Pitch curve by inversion"),
+    say(
+        "The cam is held still and the frame is turned round it, against its rotation. In each position the follower "
+        "is moved by its displacement: the places that it takes make the cam."
+    ),
+    profile_view.CURVE,
+)
 
 
 def inversion(
@@ -53,7 +65,7 @@ def inversion(
     givens = InversionGivens(integrated, rotation, prime_radius, mu_l, offset)
     points = {"feet": feet, "starts": starts, "pitch": pitch, "motion": along}
     readings = profile_view.curve_readings(pitch, mu_l, hand)
-    return Construction("inversion", givens, pencil, readings, points, _draw)
+    return Construction(MEANING, givens, pencil, readings, points, _draw)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

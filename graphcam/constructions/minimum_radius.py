@@ -13,12 +13,21 @@ import numpy as np
 
 from graphcam.constructions.axes import OVERHANG, degrees, numbers, pieces_of, turning
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import ON_THE_LINE, Boundary, binding, lowest_on, nearest, permitted_part
+from graphcam.constructions.region import (
+    LEAST_RADIUS,
+    ON_THE_LINE,
+    Boundary,
+    binding,
+    lowest_on,
+    nearest,
+    permitted_part,
+)
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import faired, farthest_of
 from graphcam.drafting.euclid import UP, foot, meet, turned
 from graphcam.drafting.ink import Caption, Construction, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
@@ -39,6 +48,26 @@ class LeastRadiusGivens:
 
 
 LeastRadius = Construction[LeastRadiusGivens]
+
+
+MEANING = Meaning(
+    "minimum_radius",
+    say("Least prime radius"),
+    say(
+        "The least radius is found before there is a cam, from displacement and velocity alone: every place of the "
+        "cam centre sees them under the pressure angles that it would cause."
+    ),
+    {
+        "prime_radius": LEAST_RADIUS,
+        "offset": ReadingMeaning(
+            say("offset e"),
+            "e",
+            "mm",
+            (Compared("minimum_offset", say("its offset e"), exact="minimum_place", unit="mm"),),
+        ),
+        "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
+    },
+)
 
 
 def least_radius(
@@ -64,7 +93,7 @@ def least_radius(
     lines = boundaries(ends, integrated, rotation, limits)
     centre = nearest(lines, START) if offset is None else lowest_on(lines, -offset / mu)
     return Construction(
-        "minimum_radius",
+        MEANING,
         LeastRadiusGivens(integrated, rotation, limits, offset),
         pencil,
         hand.readings(mu, "mm", prime_radius=np.abs(centre), offset=-centre.real, s0=-centre.imag),

@@ -19,6 +19,7 @@ from graphcam.constructions.views import COMBINED, PLAN, at_scale
 from graphcam.drafting.euclid import UP, along_to_circle
 from graphcam.drafting.ink import Construction, Reading, Step, Words, reading, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import standard_scale
 from graphcam.given.follower import Rotation, sense
@@ -44,6 +45,24 @@ class PressureAngleGivens(MeasuredGivens):
     offset: float
 
 
+ANGLES = {
+    "alpha": ReadingMeaning(
+        say("pressure angle α"), "α", "rad", converges=Converges("pressure angle", "pressure_angle", "at stations")
+    ),
+    "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad"),
+}
+"""The angles at the stations, of any follower."""
+MEANING = Meaning(
+    "pressure_angle",
+    say("Pressure angle"),
+    say(
+        "The velocity plan and the mechanism contain similar triangles. So the velocity ds/dφ is a length of the "
+        "mechanism, and the angle between normal and motion is found without the profile."
+    ),
+    {**ANGLES, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
+)
+
+
 def pressure_angle(
     integrated: Integrated, rotation: Rotation, prime_radius: float, offset: float, pencil: Pencil
 ) -> Construction[PressureAngleGivens]:
@@ -64,7 +83,7 @@ def pressure_angle(
     ray = ends - centre[..., None]
     alpha = sigma * np.arctan2(-ray.real, ray.imag) + hand.protractor(count)
     return Construction(
-        "pressure_angle",
+        MEANING,
         PressureAngleGivens(integrated, rotation, prime_radius, offset),
         pencil,
         angle_readings(alpha) | hand.readings(mu, "mm", s0=-centre.imag),

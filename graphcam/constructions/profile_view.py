@@ -15,6 +15,7 @@ from graphcam.drafting.curve import faired
 from graphcam.drafting.euclid import UP, stepped_off, turned
 from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, reading, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.meaning import Converges, ReadingMeaning
 from graphcam.drafting.pencil import Hand
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
@@ -38,6 +39,15 @@ Inverted = Construction[InvertedGivens]
 
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
+
+
+CURVE = {
+    "x": ReadingMeaning(say("x"), "x", "mm", converges=Converges("pitch curve", "pitch_curve", "from the pitch curve")),
+    "y": ReadingMeaning(say("y"), "y", "mm"),
+    "radius": ReadingMeaning(say("polar radius"), "R", "mm"),
+    "polar_angle": ReadingMeaning(say("polar angle"), "θ", "rad"),
+}
+"""What is read of the points of any follower's inverted motion."""
 
 
 CURVE_READINGS = ("x", "y", "radius", "polar_angle")

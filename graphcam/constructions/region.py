@@ -14,12 +14,24 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.curve import at_greatest
 from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot, meet
+from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Points
+from graphcam.drafting.meaning import Compared, Converges, ReadingMeaning
 from graphcam.given.laws import Floats
 from graphcam.plane import dot
 
 ON_THE_LINE = 1e-9
 """A point of the paper this near to a boundary [mm] lies on it: rounding of the arithmetic."""
+
+
+LEAST_RADIUS = ReadingMeaning(
+    say("prime radius r₀"),
+    "r₀",
+    "mm",
+    (Compared("minimum_prime_radius", say("least radius r₀"), unit="mm"),),
+    Converges("least prime radius", "minimum_prime_radius"),
+)
+"""The least prime radius, however it is found."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
 from graphcam.drafting.ink import Caption, Construction, Step, reading, say
 from graphcam.drafting.marks import AngleMark, Circle, Dots, Line, Mark, Points, Role
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
@@ -47,6 +48,32 @@ class ProfileGivens:
 Profile = Construction[ProfileGivens]
 
 
+ROLLER_MEANING = Meaning(
+    "roller",
+    say("Roller radius"),
+    say("The roller must stay below the least radius of curvature, and is chosen by a rule."),
+    {
+        "candidates": ReadingMeaning(say("proposals"), "r", "mm"),
+        "roller_radius": ReadingMeaning(
+            say("roller radius r"),
+            "r",
+            "mm",
+            (Compared("roller_radius", say("roller radius"), unit="mm", candidates="candidates"),),
+        ),
+    },
+)
+PROFILE_MEANING = Meaning(
+    "working_profile",
+    say("Working profile"),
+    say("The profile is what touches all positions of the follower: the inner envelope."),
+    {
+        "radius": ReadingMeaning(
+            say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
+        )
+    },
+)
+
+
 def roller_radius(
     curved: Curved, rule: tuple[Candidate, ...], given: float | None, pencil: Pencil
 ) -> Construction[RollerGivens]:
@@ -68,7 +95,7 @@ def roller_radius(
     # Where no bend is readable, rho limits nothing.
     least = np.fmin.reduce(candidates, axis=-1)
     return Construction(
-        "roller",
+        ROLLER_MEANING,
         RollerGivens(curved, rule, given),
         pencil,
         {"candidates": reading(candidates, mu_l, "mm"), "roller_radius": reading(least, mu_l, "mm")},
@@ -94,7 +121,7 @@ def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profil
     covered = _covered(touch, pitch, radius * (1 - TOUCHING) - tremble)
     kept = np.where(covered, np.nan, touch)
     return Construction(
-        "working_profile",
+        PROFILE_MEANING,
         ProfileGivens(inverted, roller),
         pencil,
         {"radius": reading(hand.read(np.abs(kept)), mu_l.per_mm, "mm")},

@@ -12,6 +12,7 @@ from graphcam.constructions.roller import Profile
 from graphcam.constructions.views import SCHEME, at_scale
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Circle, Label, Line, Role, Segments
+from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
 
@@ -27,12 +28,15 @@ class SchemeGivens:
     follower: DrawnFollower
 
 
+MEANING = Meaning("scheme", say("Scheme of the mechanism"), say("The mechanism at the start of the turn."))
+
+
 def scheme(profile: Profile, follower: DrawnFollower) -> Construction[SchemeGivens]:
     """Cam, follower and frame at the start of the turn.
 
     profile : from :func:`~graphcam.constructions.roller.working_profile`
     """
-    return Construction("scheme", SchemeGivens(profile, follower), profile.pencil, {}, {}, _draw)
+    return Construction(MEANING, SchemeGivens(profile, follower), profile.pencil, {}, {}, _draw)
 
 
 def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:

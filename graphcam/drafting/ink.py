@@ -13,6 +13,7 @@ from typing_extensions import TypeVar
 
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
+from graphcam.drafting.meaning import Meaning
 from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 
 # A construction says what it draws, so both come from here.
@@ -156,7 +157,7 @@ class Construction(Shown, Generic[G]):
 
     Attributes
     ----------
-    name : of the construction
+    meaning : what the construction says of itself
     givens : what lay on the board, among it the constructions it started from: a small frozen dataclass
     pencil : the hand that drew
     readings : what was read off the paper, by name
@@ -175,13 +176,18 @@ class Construction(Shown, Generic[G]):
 
     _drawn_in = "construction_drawing"
 
-    name: str
+    meaning: Meaning
     givens: G
     pencil: Pencil
     readings: Mapping[str, Reading]
     points: Mapping[str, Points]
     draw: Callable[[Construction[G]], list[Step]]
     acts: Mapping[str, Drawn] = field(default_factory=dict[str, Drawn])
+
+    @property
+    def name(self) -> str:
+        """Of the construction."""
+        return self.meaning.name
 
     def steps(self) -> list[Step]:
         """The construction step by step, drawn when asked for; with a sampled pencil the first sample is shown."""

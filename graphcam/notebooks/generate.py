@@ -5,8 +5,9 @@ from __future__ import annotations
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.units import unit
-from graphcam.notebooks.backgrounds import BACKGROUNDS, CHECKED, ERRORS, FIRST, MOVED, QUESTIONS
+from graphcam.notebooks.backgrounds import CHECKED, ERRORS, FIRST, MOVED, QUESTIONS
 from graphcam.notebooks.kernel import PYTHON
 from graphcam.report import markdown
 from graphcam.report.sheet_contents import UNNAMED, title_name
@@ -52,7 +53,7 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
         _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
         _hidden(SETUP),
         *(_text(f"> {tell(warning)}") for warning in warned),
-        *(cell for name in solution.drawn for cell in _chapter(name, f'solution.drawn["{name}"]', tell)),
+        *(cell for name, c in solution.drawn.items() for cell in _chapter(c, f'solution.drawn["{name}"]', tell)),
         *_spring(solution),
         _section(tell, say("Try it yourself"), CHECKED),
         *(cell for name in _asked(solution) for cell in _question(solution, name)),
@@ -89,19 +90,21 @@ def _hidden(source: str) -> NotebookNode:
     return nb.new_code_cell(source, metadata={"tags": ["remove-input"], "jupyter": {"source_hidden": True}})
 
 
-def _chapter(name: str, construction: str, tell: Tell) -> list[NotebookNode]:
-    """Title, background and steps of a construction, which stands in the notebook's code as an expression."""
-    title, background = BACKGROUNDS[name]
+def _chapter(drawn: Construction, construction: str, tell: Tell) -> list[NotebookNode]:
+    """Title, why and steps of a construction, which stands in the notebook's code as an expression."""
     # Its rays are drawn in the combined diagram.
-    on = ', on=solution.drawn["minimum_radius"]' * (name == "pressure_angle")
-    return [_section(tell, title, background), _hidden(f"show_steps({construction}, tell=tell{on})")]
+    on = ', on=solution.drawn["minimum_radius"]' * (drawn.name == "pressure_angle")
+    return [
+        _section(tell, drawn.meaning.title, drawn.meaning.why),
+        _hidden(f"show_steps({construction}, tell=tell{on})"),
+    ]
 
 
 def _spring(solution: AnySolution) -> list[NotebookNode]:
     """The force plan of a follower that a spring holds on its cam."""
     if isinstance(solution, ArcsSolution) or not solution.spring or not solution.spring.force_plan:
         return []
-    return _chapter("force_plan", "solution.spring.force_plan", solution.tell)
+    return _chapter(solution.spring.force_plan, "solution.spring.force_plan", solution.tell)
 
 
 def _asked(solution: AnySolution) -> list[str]:

@@ -10,9 +10,11 @@ from numpy.testing import assert_array_equal
 
 from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
 from graphcam.drafting.marks import Line, Role
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 
 BOARD = View("board", say("Board"), across="x", up="y")
+LINE = Meaning("line", say("Line"), say("The shortest way."), {"length": ReadingMeaning(say("length"), "l", "mm")})
 
 
 def one_line(construction: Construction) -> list[Step]:
@@ -22,7 +24,7 @@ def one_line(construction: Construction) -> list[Step]:
 
 def drawn(pencil: Pencil) -> Construction:
     length = pencil.sheets(20.0) + pencil.hand("line").line(1)[..., 0]
-    return Construction("line", None, pencil, {"length": reading(length, 0.5, "mm")}, {}, one_line)
+    return Construction(LINE, None, pencil, {"length": reading(length, 0.5, "mm")}, {}, one_line)
 
 
 def test_a_value_is_scale_times_paper():

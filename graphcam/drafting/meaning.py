@@ -1,0 +1,96 @@
+"""What a construction says of itself: what it is called, why it is drawn, and what its readings are.
+
+Whoever shows, compares or asks for a construction goes by this alone.  Exact counterparts and ways of measuring are
+named here, not computed: the drawn and the exact side meet in the comparison.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.words import Caption
+
+DEGREES = math.degrees(1.0)
+"""Degrees in a radian."""
+Rank = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+"""Which of several candidates is taken: the one of highest rank."""
+Measured = Literal["value", "at stations", "from the pitch curve", "from the profile"]
+"""How far a reading is off: itself, the greatest at the stations, or the greatest distance of points from a curve."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A reading as a quantity of the results, where it stands beside its exact counterpart.
+
+    name, title : of the quantity
+    exact : the exact counterpart's name, where it is not that of the quantity
+    unit, factor : of the quantity, where they are not the reading's: so many ``unit`` in one of the reading's
+    candidates, rank : the reading that holds what it was chosen from, and how; by default the least is taken
+    """
+
+    name: str
+    title: Caption
+    exact: str = ""
+    unit: str = ""
+    factor: float = 1.0
+    candidates: str = ""
+    rank: Rank = np.negative
+
+
+@dataclass(frozen=True)
+class Converges:
+    """A reading whose error is followed over the number of parts, under the title ``quantity``.
+
+    exact : the exact counterpart's name
+    """
+
+    quantity: str
+    exact: str
+    measured: Measured = "value"
+
+
+@dataclass(frozen=True)
+class ReadingMeaning:
+    """What a reading is, for who reads it, compares it or asks for it.
+
+    unit : of the value, in which ``lift`` stands for the unit of the lift, such as ``lift/rad``
+    compared : the quantities of the results that it is, if any
+    converges : how its convergence is measured, if it is
+    """
+
+    title: Caption
+    symbol: str
+    unit: str
+    compared: tuple[Compared, ...] = ()
+    converges: Converges | None = None
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a construction says of itself.
+
+    title : of its chapter
+    why : the paragraph that stands before its steps
+    readings : those that a reader takes, by name; what else it reads is an aid of the draughtsman
+    """
+
+    name: str
+    title: Caption
+    why: Caption
+    readings: Mapping[str, ReadingMeaning] = field(default_factory=dict[str, ReadingMeaning])
+
+
+def greatest(name: str, title: Caption, candidates: str, factor: float = 1.0, unit: str = "") -> Compared:
+    """The greatest of a quantity, read off its diagram.
+
+    >>> from graphcam.words import say
+    >>> greatest("max_v", say("greatest v"), "v_candidates").candidates
+    'v_candidates'
+    """
+    return Compared(name, title, unit=unit, factor=factor, candidates=candidates, rank=np.abs)
