@@ -15,9 +15,11 @@ import numpy as np
 from graphcam.constructions.axes import numbers, phase_ends, phase_title, phi_axes
 from graphcam.constructions.law_names import law_name
 from graphcam.constructions.views import ACCELERATION
-from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.ink import Construction, Step, reading, say
-from graphcam.drafting.marks import Dimension, Dots, Line, Points, Role, Segments
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Dimension, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -37,6 +39,9 @@ class AccelerationGivens:
     mu_phi: Scale
     unit: str
 
+
+PAPER = "mm of paper"
+"""The unit of a reading that stands for nothing but its own length."""
 
 AccelerationDiagram = Construction[AccelerationGivens]
 
@@ -70,30 +75,49 @@ def acceleration_diagram(
     on the near side of a jump) and at the ``middles`` of the parts, and the ``base``, the length of the axis.
     Points: the stations on the ``axis``.
     """
-    phases = moving_phases(motion, stations)
+    hand, phases = Hand(pencil, MEANING), moving_phases(motion, stations)
     steepness = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
     first_rise = next(k for k, phase in enumerate(phases) if phase.direction > 0)
     greatest = ordinate * steepness / steepness[first_rise]
 
-    # On the paper the phases are laid off, and each of their stretches is divided into equal parts.
-    axis = np.empty(stations.u.size)
-    for stretch in stations.stretches:
-        start, end = stations.phi[[stretch.start, stretch.stop - 1]] / mu_phi.per_mm + 0j
-        axis[stretch] = divided(start, end, stretch.stop - stretch.start - 1).real
-    u = stations.u
-    middle = (u[stations.left] + u[stations.left + 1]) / 2
+    origin, u, left = hand.given("origin"), stations.u, stations.left
+    turn = hand.lay_off("turn", origin, RIGHT, FULL_TURN / mu_phi.per_mm)
+    axis, begins = _divided(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, spans: tuple[slice, ...], side: Side = "right") -> Floats:
         """The given ordinates of all phases, one phase after another."""
         return np.concatenate([y * _shape(p, u[s], side) for p, y, s in zip(phases, greatest, spans, strict=True)])
 
-    lengths = {"greatest": greatest, "stations": ordinates(u, stations.phases)}
-    lengths |= {"before": ordinates(u, stations.phases, "left"), "middles": ordinates(middle, stations.parts)}
-    readings = {name: reading(pencil.sheets(length), 1.0, "mm of paper") for name, length in lengths.items()}
-    readings["base"] = reading(pencil.sheets(FULL_TURN / mu_phi.per_mm), mu_phi.per_mm, "rad")
+    tops = hand.lay_off("greatest", axis[begins], UP, greatest)
+    after, before = ordinates(u, stations.phases), ordinates(u, stations.phases, "left")
+    plotted = hand.lay_off("stations", axis, UP, after)
+    # Where the acceleration jumps a second ordinate stands on the near side.
+    jumps = np.flatnonzero(after != before)
+    near = hand.lay_off("before the jumps", axis[jumps], UP, before[jumps])
+    which = np.arange(u.size)
+    which[jumps] = u.size + np.arange(jumps.size)
+    middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
+    middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.parts))
+    hand.read("greatest", between(axis[begins], tops, UP), 1.0, rounded=False)
+    hand.read("stations", between(axis, plotted, UP), 1.0, PAPER, rounded=False)
+    nearer = hand.take("before", plotted, near, which=which)
+    hand.read("before", between(axis, nearer, UP), 1.0, PAPER, rounded=False)
+    hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
+    hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
     givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
-    points = {"axis": pencil.sheets(axis + 0j)}
-    return Construction(MEANING, givens, pencil, readings, points, _draw)
+    return hand.finished(givens, _draw, {"axis": axis})
+
+
+def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:
+    """The stations on the axis: the phases are laid off, and each of their stretches is divided into equal parts."""
+    bounds = np.array([[stretch.start, stretch.stop - 1] for stretch in stations.stretches])
+    places, at = np.unique(stations.phi[bounds], return_inverse=True)
+    cuts = hand.lay_off("cuts", origin, RIGHT, places / mu_phi.per_mm)
+    station = np.arange(stations.u.size)
+    stretch = np.searchsorted(bounds[:, 0], station, side="right") - 1
+    start, end = at.reshape(bounds.shape)[stretch].T
+    share = (station - bounds[stretch, 0]) / (bounds[:, 1] - bounds[:, 0])[stretch]
+    return hand.divide("axis", cuts[start], cuts[end], share)
 
 
 def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:
@@ -119,21 +143,21 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     phases, greatest = moving_phases(motion, stations), diagram.first("greatest")
     x = diagram.first("axis").real
     ends = [(x[span.start], x[span.stop - 1]) for span in stations.phases]
-    curves = [_curve(p, y, *between) for p, y, between in zip(phases, greatest, ends, strict=True)]
+    curves = [_curve(diagram, k, *given) for k, given in enumerate(zip(phases, greatest, ends, strict=True))]
     chosen = next(k for k, phase in enumerate(phases) if phase.direction > 0)
     ordinates = say(
         "The greatest ordinate of the first rise is chosen, {ordinate:.1f} mm, in a scale that is not yet known. So "
         "that the displacement comes back to the axis, the others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²): {greatest} "
         "mm."
     ).where(ordinate=greatest[chosen], greatest=sequence([say("{y:.1f}", y=y) for y in greatest]))
-    dimensions = tuple(_ordinate(line, y) for line, y in zip(curves, greatest, strict=True))
+    dimensions = tuple(_ordinate(diagram, curve.shown, y) for curve, y in zip(curves, greatest, strict=True))
     plotted = say("In each moving phase the acceleration is plotted by its law: {laws}.", laws=_laws(motion, stations))
-    lines = tuple(Line(line, Role.RESULT) for line in curves)
+    lines = tuple(curve.line(Role.RESULT) for curve in curves)
     return [
-        _axis(diagram, np.concatenate([line.imag for line in curves])),
+        _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
         Step(say("Ordinates of the phases"), ordinates, ACCELERATION, dimensions, reads=("greatest",)),
         Step(say("Acceleration by the law"), plotted, ACCELERATION, lines),
-        _middle_ordinates(diagram, x),
+        _middle_ordinates(diagram),
     ]
 
 
@@ -147,7 +171,7 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     """The axes, for ordinates of these ``heights`` [mm]."""
     motion, mu_phi = diagram.givens.motion, diagram.givens.mu_phi
     ends = phase_ends(motion, mu_phi)
-    axes = (*phi_axes(motion, mu_phi, heights, "a"), Line(np.array([0, ends[-1]]) + 0j, Role.RESULT))
+    axes = (*phi_axes(motion, mu_phi, heights, "a"), diagram.acts["turn"].line_from(0j, Role.RESULT))
     told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
     said = say(
         "One revolution is laid off as {length:.1f} mm, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
@@ -156,50 +180,54 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     return Step(say("Axis of the cam angle"), said, ACCELERATION, axes, ("base",), given=axes)
 
 
-def _middle_ordinates(diagram: AccelerationDiagram, x: Floats) -> Step:
-    """The ordinates between the stations, which stand at ``x`` [mm] on the axis."""
-    stations = diagram.givens.stations
-    middle_x, middle_y = (x[stations.left] + x[stations.left + 1]) / 2, diagram.first("middles")
-    middles = (
-        Segments(middle_x + 0j, middle_x + UP * middle_y, Role.CONSTRUCTION),
-        Dots(middle_x + UP * middle_y, Role.CONSTRUCTION),
-        Segments(x - UP, x + UP, Role.SCALE),
+def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
+    """The ordinates between the stations."""
+    stations, axis, middles = diagram.givens.stations, diagram.acts["axis"], diagram.acts["middles"]
+    ordinates, x = diagram.first("middles"), axis.shown
+    marks = (
+        middles.from_(diagram.acts["middles of the parts"], Role.CONSTRUCTION),
+        middles.dots(Role.CONSTRUCTION),
+        Segments(x - UP, x + UP, Role.SCALE, of=axis.act),
         # On the side of the axis where no ordinates stand.
-        *numbers(x + 0j, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
+        *numbers(axis, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
-    parts, third = joined([f"{s.stop - s.start}" for s in stations.parts]), middle_y[min(2, middle_y.size - 1)]
+    parts, third = joined([f"{s.stop - s.start}" for s in stations.parts]), ordinates[min(2, ordinates.size - 1)]
     said = say(
         "The moving phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle of each "
         "part; the third of them measures {third:.1f} mm."
     ).where(parts=parts, equal=equal_parts(stations), third=third)
-    return Step(say("Middle ordinates"), said, ACCELERATION, middles, ("middles",), given=middles)
+    return Step(say("Middle ordinates"), said, ACCELERATION, marks, ("middles",), given=marks)
 
 
-def _curve(phase: Moving, greatest: float, start: float, end: float) -> Points:
-    """The law over its phase on the paper, from the axis and back to it, upright where the acceleration jumps."""
-    cuts = (0.0, *phase.normalised.jumps, 1.0)
-    ordinates: list[Points] = []
-    for first, last in pairwise(cuts):
+def _curve(diagram: AccelerationDiagram, k: int, phase: Moving, greatest: float, ends: tuple[float, float]) -> Drawn:
+    """The law over the k-th phase, from the axis and back to it, upright where the acceleration jumps."""
+    hand, law = showing(diagram), phase.normalised
+    places: list[Floats] = [np.zeros(1)]
+    heights: list[Floats] = [np.zeros(1)]
+    for first, last in pairwise((0.0, *law.jumps, 1.0)):
         u = np.linspace(first, last, 97)
-        height = phase.normalised(u)[2]
-        height[-1] = phase.normalised(u[-1], side="left")[2]
-        scaled = greatest * phase.direction * height / phase.normalised.peak_acceleration
-        ordinates.append(start + (end - start) * u + UP * scaled)
-    return np.concatenate([[start + 0j], *ordinates, [end + 0j]])
+        height = law(u)[2]
+        height[-1] = law(u[-1], side="left")[2]
+        places.append(u)
+        heights.append(greatest * phase.direction * height / law.peak_acceleration)
+    u = np.concatenate([*places, np.ones(1)])
+    feet = hand.given("feet of the law", ends[0] + (ends[1] - ends[0]) * u)
+    return hand.lay_off(f"law {k}", feet, UP, np.concatenate([*heights, np.zeros(1)]))
 
 
 BESIDE = 6.0
 """The dimension of the greatest ordinate stands so far beyond the part of the curve that is on its side [mm]."""
 
 
-def _ordinate(line: Points, greatest: float) -> Dimension:
+def _ordinate(diagram: AccelerationDiagram, line: Points, greatest: float) -> Dimension:
     """The dimension of a phase's greatest ordinate, beyond where the curve crosses the axis: clear of the others."""
     height = np.sign(line.imag[np.argmax(np.abs(line.imag))]) * line.imag
     top = complex(line[np.flatnonzero(height >= (1 - LEVEL) * height.max())[-1]])
     crossing = float(line.real[np.flatnonzero(height > LEVEL * height.max())[-1]])
     by = crossing + min(BESIDE, (float(line.real[-1]) - crossing) / 2) - top.real
     # To the right of an ordinate that points up is on the negative side of its dimension.
-    return Dimension(complex(top.real), top, say("{y:.1f}", y=greatest), aside=-by if top.imag > 0 else by)
+    aside, of = -by if top.imag > 0 else by, diagram.readings["greatest"].act
+    return Dimension(complex(top.real), top, say("{y:.1f}", y=greatest), aside, of)
 
 
 LEVEL = 1e-6

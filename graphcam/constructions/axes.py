@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, say
-from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.marks import Arrow, Dimension, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
@@ -136,12 +137,12 @@ def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tup
     return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *names)
 
 
-def pole_marks(distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
+def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
     """A pole to the left on the axis, its distance [mm] set down below the lowest of the rays' ``heights`` there."""
-    pole, named = -distance + 0j, say("H{index} = {pole:.6g}", index=index, pole=distance)
+    named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + reach(heights)[0]
     return (
-        *(Line(np.array([pole, 0j]), Role.SCALE), Dots(np.array([pole])), Label(pole, f"P{index}", towards=-1 + 1j)),
-        Dimension(pole, 0j, named, aside=-5.0 + reach(heights)[0]),
+        *(Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act), pole.dots(), pole.label(f"P{index}", -1 + 1j)),
+        Dimension(pole.place, 0j, named, below, pole.act),
     )
 
 
@@ -184,12 +185,14 @@ def numbered(points: Points, stations: Stations) -> list[int]:
 
 
 def numbers(
-    points: Points, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
+    points: Drawn | Points, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
 ) -> tuple[Mark, ...]:
     """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""
-    names, (ways, kept) = station_names(stations), (np.broadcast_to(each, points.shape) for each in (towards, shown))
-    named = [k for k in numbered(points, stations) if kept[k]]
-    return tuple(Label(complex(points[k]), names[k], complex(ways[k]), small=True) for k in named)
+    of, places = (points.act, points.shown) if isinstance(points, Drawn) else (None, points)
+    names = station_names(stations)
+    ways, kept = (np.broadcast_to(each, places.shape) for each in (towards, shown))
+    named = [k for k in numbered(places, stations) if kept[k]]
+    return tuple(Label(complex(places[k]), names[k], complex(ways[k]), small=True, of=of) for k in named)
 
 
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:

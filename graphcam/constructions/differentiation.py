@@ -16,6 +16,7 @@ import numpy as np
 from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, levels, pole_marks
 from graphcam.drafting.curve import faired, farthest
 from graphcam.drafting.euclid import UP, divided
+from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
 from graphcam.drafting.marks import Dots, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
@@ -266,7 +267,7 @@ def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str,
     title, traced = (said.where(source=source, count=derived.size) for said in _TRACED[by])
     traces = (_traces(c, c.first(source), derived, pole),)
     joined = say("Pole and rays, {source} to {target}", source=source, target=target)
-    axes = (*_axes(c, derived, target), *pole_marks(pole, index, heights))
+    axes = (*_axes(c, derived, target), *pole_marks(showing(c).given("pole", -pole + 0j), pole, index, heights))
     rays = (
         Segments(np.full(heights.size, -pole + 0j), UP * heights, Role.CONSTRUCTION),
         Segments(UP * derived.imag, derived, Role.CONSTRUCTION),

@@ -8,16 +8,18 @@ scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s f
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from graphcam.constructions.acceleration import AccelerationDiagram
 from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
-from graphcam.drafting.curve import faired, farthest_of
-from graphcam.drafting.euclid import UP, climb_along
-from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
-from graphcam.drafting.marks import Dimension, Line, Points, Role, Segments
+from graphcam.drafting.acts import Drawn, Setting
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Step, View, say
+from graphcam.drafting.marks import Dimension, Line, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -108,73 +110,104 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     In mm of paper the closing errors: ``closing_v`` (one a moving phase, taken up by turning its base line) and
     ``closing_s`` (shared out by the returns).
     """
-    hand = pencil.hand("integration")
     givens = IntegrationGivens(diagram, poles)
-    motion, stations, mu_phi, lift_unit = givens.motion, givens.stations, givens.mu_phi, givens.unit
-    x = diagram.points["axis"].real
-    width = x[..., stations.left + 1] - x[..., stations.left]
-    middle = x[..., stations.left] + width / 2
-    count = stations.left.size
+    hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
+    axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
+    middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
 
-    # First integration.  The hand errs where it projects an ordinate and where it ends a chord; the next chord starts
-    # from that end.  Every phase starts and ends at rest, so a velocity left at its end is taken up by the base line.
-    a_projected = diagram.readings["middles"].paper + hand.line(count)
-    v_chords = _polygons(climb_along(poles[0] + UP * a_projected, width) + hand.line(count), stations)
-    closing_v = v_chords[..., stations.last]
-    v = v_chords - closing_v[..., stations.moving] * stations.u
+    # First integration.  Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the
+    # base line.
+    a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
+    v_chords = hand.take("v_chords", polygons)
+    bases = hand.join("base lines of v", axis[[span.start for span in stations.phases]], v_chords[stations.last])
+    rests = hand.cross("rests of v", bases[stations.moving], hand.erect("ordinates of v", axis))
+    v = hand.lay_off("v_curve", axis, UP, between(rests, v_chords, UP))
 
-    # Second integration: the middle ordinate is read from the polygon, halfway between the chord's ends.
-    v_projected = (v[..., stations.left] + v[..., stations.left + 1]) / 2 + hand.line(count)
-    s_chords, s, closing_s = _stacked(
-        _polygons(climb_along(poles[1] + UP * v_projected, width) + hand.line(count), stations), motion, stations
-    )
-    top = _top(motion, stations)
+    # Second integration: the middle ordinate is read from the curve's chord, halfway between its ends.
+    halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
+    v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
+    heights = between(axis, polygons, UP)
+    s_chords = hand.raised("s_chords", polygons, reckoned(partial(_set_on, givens), heights))
+    s = hand.lay_off("s_curve", axis, UP, reckoned(partial(_shared_out, givens), heights))
+
+    x, top = axis.points.real, _top(motion, stations)
     span = stations.phases[stations.moving[top]]
     # A phase may be as narrow as it likes: what counts is whether it has risen by what its own ordinates give.
     full = diagram.readings["greatest"].paper[..., stations.moving[top]] * (x[..., top] - x[..., span.start]) ** 2
-    mu_s = motion.lift / _measurable(s[..., top], full / (poles[0] * poles[1]), pencil)
+    mu_s = motion.lift / _measurable(s.points[..., top].imag, full / (poles[0] * poles[1]), pencil)
     mu_v = mu_s / (mu_phi.per_mm * poles[1])
     mu_a = mu_v / (mu_phi.per_mm * poles[0])
-    fastest = [farthest_of(x + UP * side * v, stations.pieces, UP).imag for side in (1, -1)]
-    a, before, greatest = (diagram.readings[name].paper for name in ("stations", "before", "greatest"))
-    readings = {
-        **hand.readings(mu_s, lift_unit, s=s),
-        **hand.readings(mu_v, f"{lift_unit}/rad", v=v),
-        **hand.readings(mu_a, f"{lift_unit}/rad²", a=a, a_before=before),
-        **hand.readings(mu_v, f"{lift_unit}/rad", max_v=np.maximum(*fastest)),
-        **hand.readings(mu_a, f"{lift_unit}/rad²", max_a=greatest.max(axis=-1)),
-        "closing_v": reading(closing_v, mu_v, f"{lift_unit}/rad"),
-        "closing_s": reading(closing_s, mu_s, lift_unit),
+    hand.read("s", between(axis, s, UP), mu_s)
+    hand.read("v", between(axis, v, UP), mu_v)
+    hand.read("a", hand.carry(diagram.readings["stations"]), mu_a)
+    hand.read("a_before", hand.carry(diagram.readings["before"]), mu_a, f"{givens.unit}/rad²")
+    down = hand.tangent("lowest v", v, stations.pieces, -UP)
+    ends = (between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP), between(down, origin, UP))
+    hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
+    hand.read("max_a", reckoned(_greatest, hand.carry(diagram.readings["greatest"])), mu_a)
+    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
+    hand.read("closing_s", reckoned(partial(_closing, givens), heights), mu_s, rounded=False)
+    places = {
+        "a_projected": middles.points.real + a_heights.points,
+        "v_chords": v_chords,
+        "v_curve": v,
+        "v_projected": middles.points.real + v_heights.points,
+        "s_chords": s_chords,
+        "s_curve": s,
     }
-    first = {"a_projected": middle + UP * a_projected, "v_chords": x + UP * v_chords, "v_curve": x + UP * v}
-    second = {"v_projected": middle + UP * v_projected, "s_chords": x + UP * s_chords, "s_curve": x + UP * s}
-    return Construction(MEANING, givens, pencil, readings, first | second, _draw)
+    return hand.finished(givens, _draw, places)
 
 
-def _polygons(rises: Floats, stations: Stations) -> Floats:
-    """Chords set end to end from zero, in every phase anew: heights at the stations (..., m) from rises (..., p)."""
-    heights = np.zeros((*rises.shape[:-1], stations.u.size))
-    for span, parts in zip(stations.phases, stations.parts, strict=True):
-        heights[..., span.start + 1 : span.stop] = np.cumsum(rises[..., parts], axis=-1)
-    return heights
+def _integrated(
+    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, axis: Drawn, origin: Drawn
+) -> tuple[Drawn, Drawn]:
+    """The middle ordinates carried to the vertical axis, and the chords parallel to the rays to them from the pole."""
+    stations, target = givens.stations, "vs"[index - 1]
+    pole = hand.lay_off(f"P{index}", hand.given("origin"), -RIGHT, givens.poles[index - 1])
+    heights = hand.project(f"heights for {target}", ordinates, origin)
+    rays = hand.join(f"rays of {target}", pole, heights)
+    chains = tuple(zip(stations.phases, stations.parts, strict=True))
+    return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
 
 
-def _stacked(polygons: Floats, motion: Motion, stations: Stations) -> tuple[Floats, Floats, Floats]:
-    """Set each phase's polygon on the end of the one before, and share out what is left at the end of the turn.
+def _closing(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """What is left of the displacement at the end of the turn, (...)."""
+    return polygons[..., givens.stations.last].sum(axis=-1)
 
-    returns : heights (..., m) above the lowest rest as drawn and as shared out, and the closing error (...)
-    """
-    ends = polygons[..., stations.last]
-    closing = ends.sum(axis=-1)
-    # The returns bring the follower back, so they take up the error, each in proportion to its length.
-    phases = [motion.phases[k] for k in stations.phase[stations.last]]
+
+def _set_on(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """How much each station's chords (..., m) rise when every phase is set on the end of the one before."""
+    stations, ends = givens.stations, polygons[..., givens.stations.last]
+    return (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - _lowest(givens, polygons)
+
+
+def _shared_out(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """Heights (..., m) above the lowest rest, with the closing error shared out."""
+    stations, turned = givens.stations, _turned(givens, polygons)
+    starts = _starts(givens, polygons)[..., stations.moving]
+    return polygons - turned[..., stations.moving] * stations.u + starts - _lowest(givens, polygons)
+
+
+def _turned(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """By how much each phase takes up the closing error: the returns, each in proportion to its length."""
+    phases = [givens.motion.phases[k] for k in givens.stations.phase[givens.stations.last]]
     share = np.array([phase.angle if phase.direction < 0 else 0.0 for phase in phases])
-    turned = closing[..., None] * share / share.sum()
-    drawn = polygons + (np.cumsum(ends, axis=-1) - ends)[..., stations.moving]
-    starts = np.cumsum(ends - turned, axis=-1) - (ends - turned)
-    shared = polygons - turned[..., stations.moving] * stations.u + starts[..., stations.moving]
-    lowest = np.minimum(starts.min(axis=-1), 0.0)[..., None]
-    return drawn - lowest, shared - lowest, closing
+    return _closing(givens, polygons)[..., None] * share / share.sum()
+
+
+def _starts(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """Where each phase starts when the closing error is shared out."""
+    climbs = polygons[..., givens.stations.last] - _turned(givens, polygons)
+    return np.cumsum(climbs, axis=-1) - climbs
+
+
+def _lowest(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """The lowest rest, (..., 1)."""
+    return np.minimum(_starts(givens, polygons).min(axis=-1), 0.0)[..., None]
+
+
+def _greatest(heights: Floats) -> Floats:
+    return heights.max(axis=-1)
 
 
 def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
@@ -224,22 +257,25 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     motion, stations, mu_phi = c.givens.motion, c.givens.stations, c.givens.mu_phi
     distance, index = c.givens.poles[run.index - 1], f"{run.index}".translate(SUBSCRIPTS)
     source, target = run.symbols
-    projected, chords = c.first(f"{source}_projected"), c.first(f"{target}_chords")
-    curve, left = c.first(f"{target}_curve"), float(np.max(np.abs(c.first(f"closing_{target}"))))
+    pole, levelled, polygon = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"{target}_chords"))
+    curve, left = c.acts[f"{target}_curve"], float(np.max(np.abs(c.first(f"closing_{target}"))))
     # Projections that fall on one another are drawn once, from the farthest ordinate.
-    heights = levels(projected.imag)
-    reach = np.array([projected.real[np.abs(projected.imag - y) < SAME_HEIGHT].max() for y in heights])
-    laid_out = pole_marks(distance, index, heights)
+    height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
+    kept = [int(np.argmin(np.abs(height - y))) for y in levels(height)]
+    reach = np.array([farthest[np.abs(height - height[k]) < SAME_HEIGHT].max() for k in kept])
+    laid_out = pole_marks(pole, distance, index, height[kept])
+    once = levelled.first[kept]
     rays = (
-        Segments(UP * heights, reach + UP * heights, Role.CONSTRUCTION),
-        Segments(np.full(heights.size, -distance + 0j), UP * heights, Role.CONSTRUCTION),
+        Segments(once.points, reach + once.points, Role.CONSTRUCTION, of=levelled.act),
+        once.from_(pole, Role.CONSTRUCTION),
     )
-    axes = phi_axes(motion, mu_phi, curve.imag, target)
+    axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
     polygons = (
-        *(Line(chords[span], Role.CONSTRUCTION) for span in stations.phases),
-        Segments(curve.real + 0j, curve, Role.CONSTRUCTION),
+        *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
+        curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
     )
-    curves = tuple(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces)
+    smooth = showing(c)
+    curves = tuple(smooth.fair(f"{target}", curve.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
     return [
         Step(
             say("Pole and rays, {source} to {target}", source=source, target=target),
@@ -270,24 +306,26 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     ]
 
 
-def _rests(c: Integrated, curve: Points) -> list[Line]:
+def _rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    level, turn = UP * curve[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
-    moving = [curve[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
+    places = curve.shown
+    level, turn = UP * places[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
+    moving = [places[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     ends = [level, *moving, turn + level]
-    return [Line(np.array(pair), Role.RESULT) for pair in zip(ends[::2], ends[1::2], strict=True)]
+    pairs = zip(ends[::2], ends[1::2], strict=True)
+    return [Line(np.array(pair), Role.RESULT, of=curve.act) for pair in pairs]
 
 
 def _draw_scales(c: Integrated) -> Step:
-    motion, stations, curve = c.givens.motion, c.givens.stations, c.first("s_curve")
-    top = complex(curve[_top(motion, stations)])
-    named = numbers(curve.real + 0j, stations, -UP)
+    motion, stations, curve = c.givens.motion, c.givens.stations, c.acts["s_curve"]
+    top = curve.first[_top(motion, stations)].place
+    named = numbers(c.acts["acceleration: axis"], stations, -UP)
     mu_s, mu_v, mu_a = (c.readings[name].per_mm for name in ("s", "v", "a"))
     said = say(
         "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
         "{mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = "
         "μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm."
     ).where(paper=top.imag, unit=unit(c.givens.unit), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a)
-    height = Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), aside=-6.0)
+    height = Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), -6.0, c.readings["s"].act)
     reads = ("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s")
     return Step(say("The scales"), said, DISPLACEMENT, (height, *named), reads, given=named)

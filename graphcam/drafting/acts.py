@@ -7,7 +7,7 @@ Later acts take it, whole or in part, and marks are made of it, so that every ma
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -40,9 +40,8 @@ class Kind(StrEnum):
     CROSS = "cross"  # where two lines meet
     FAIR = "fair"  # curve template
     TAKE = "take"  # of what lies there, what one goes on with
-    ENLARGE = "enlarge"  # the same places once more, at another scale
-    READ = "read"  # ruler or protractor: a length, an angle
-    RECKON = "reckon"  # in the head, from readings
+    ENLARGE = "enlarge"  # the same places once more, in another view
+    READ = "read"  # ruler or protractor: a length, an angle; or in the head, from others
 
 
 INSTRUMENTS: Mapping[Kind, str] = {
@@ -65,18 +64,22 @@ INSTRUMENTS: Mapping[Kind, str] = {
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """What dividers or a protractor are set to, and where that comes from.
+    """What dividers or a protractor are set to, or what is read, and where that comes from.
 
     amount : ([samples,] ...) [mm of paper, or rad]
-    reading : (construction, reading) that it is carried over from, times ``factor``
     ends : the two places that it is taken between, ``along`` a direction if one is given
+    reading : that it is carried over from, times ``factor``; or in whose scale the machine ``value`` is laid off
+    formula, given : what is reckoned in the head, and from what
     """
 
     amount: Floats
-    reading: tuple[str, str] | None = None
-    factor: Floats | float = 1.0
     ends: tuple[Drawn, Drawn] | None = None
     along: complex | None = None
+    reading: Any = None
+    factor: Floats | float = 1.0
+    value: float | None = None
+    formula: Callable[..., Floats] | None = None
+    given: tuple[Setting, ...] = ()
     sampled: bool = False
 
 
@@ -164,6 +167,10 @@ class Drawn:
         begin = start.shown if isinstance(start, Drawn) else np.asarray(start)
         ends = self.shown
         return Segments(np.broadcast_to(begin, ends.shape), ends, role, of=self.act)
+
+    def line_from(self, start: Drawn | complex, role: Role) -> Line:
+        """The line to the one place."""
+        return Line(np.array([start.place if isinstance(start, Drawn) else start, self.place]), role, of=self.act)
 
     def arrow(self, start: Drawn | complex, role: Role) -> Arrow:
         """An arrow to the place."""

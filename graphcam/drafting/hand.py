@@ -16,6 +16,7 @@ from graphcam.drafting import curve, euclid
 from graphcam.drafting.acts import Act, Drawn, Floats, Index, Kind, Setting
 from graphcam.drafting.ink import Construction, G, Reading, Step
 from graphcam.drafting.marks import Points
+from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.plane import dot
 
@@ -28,24 +29,17 @@ Direction = Drawn | Points | complex
 Length = Setting | ArrayLike
 
 
-def carried(construction: Construction, name: str, factor: Floats | float = 1.0) -> Setting:
-    """The lengths on paper, or the angles, of a reading times a factor: one a drawing, or one a sample.
-
-    >>> import graphcam as gc
-    >>> carried(gc.solve(gc.builtin_task()).drawn["minimum_radius"], "prime_radius", 0.6).amount.round(2).item()
-    43.28
-    """
-    paper, sampled = construction.readings[name].paper, construction.pencil.samples is not None
-    each = np.asarray(factor)
-    by = each[..., None] if sampled and each.ndim and paper.ndim > 1 else each
-    return Setting(paper * by, (construction.name, name), factor, sampled=sampled)
-
-
 def between(start: Drawn, end: Drawn, along: complex | None = None) -> Setting:
-    """The distance of two places, or the signed part of the way along a direction, taken up with dividers."""
+    """The distance of two places, or the signed part of the way along a direction: taken up with dividers, or read."""
     a, b = _aligned(_places(start), _places(end))
     amount = np.abs(b - a) if along is None else dot(np.asarray(along), b - a)
     return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
+
+
+def reckoned(formula: Callable[..., Floats], *given: Setting) -> Setting:
+    """What a formula makes, in the head, of lengths or angles that were read or are taken up."""
+    amount = formula(*(each.amount for each in given))
+    return Setting(amount, formula=formula, given=given, sampled=any(each.sampled for each in given))
 
 
 def _aligned(*given: tuple[Any, bool]) -> list[Any]:
@@ -78,22 +72,30 @@ def _amount(length: Length) -> tuple[Floats, bool]:
 class Hand:
     """A pencil at work on one construction.
 
+    meaning : what the construction says of itself
+    lift : the unit of the lift, in those of its readings
     acts : what was done so far, by the name of what it left
     readings : what was read
 
     >>> import graphcam as gc
-    >>> hand = Hand(gc.Pencil(), "example")
+    >>> from graphcam.drafting.ink import say
+    >>> hand = Hand(gc.Pencil(), Meaning("triangle", say("Triangle"), say("Three sides are given.")))
     >>> a, b = hand.given("A", 0j), hand.given("B", 6 + 0j)
     >>> above = hand.cross("C", hand.circle("about A", a, 5.0), hand.circle("about B", b, 5.0))
     >>> above.place, [str(left.act.kind) for left in hand.acts.values()]
     ((3+4j), ['given', 'given', 'circle', 'circle', 'cross'])
     """
 
-    def __init__(self, pencil: Pencil, construction: str) -> None:
-        self.pencil, self.construction = pencil, construction
+    def __init__(self, pencil: Pencil, meaning: Meaning, lift: str = "mm") -> None:
+        self.pencil, self.meaning, self.lift = pencil, meaning, lift
         self.acts: dict[str, Drawn] = {}
         self.readings: dict[str, Reading] = {}
         self._stream: np.random.Generator | None = None
+
+    @property
+    def construction(self) -> str:
+        """The name of the construction that is drawn."""
+        return self.meaning.name
 
     # --- what lies there ---------------------------------------------------------------------------------------------
 
@@ -107,9 +109,9 @@ class Hand:
 
     def found(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
-        return self._left(
-            Kind.GIVEN, f"{construction.name}: {name}", {"place": (construction.name, name)}, construction.points[name]
-        )
+        acts, place = construction.acts, (construction.name, name)
+        along = acts[name].along if name in acts else None
+        return self._left(Kind.GIVEN, ": ".join(place), {"place": place}, construction.points[name], along)
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
@@ -130,9 +132,13 @@ class Hand:
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
         """The same places in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
-        return self._left(
-            Kind.ENLARGE, name, {"of": drawn, "origin": origin, "times": times, "to": to}, to + (points - about) * times
-        )
+        takes = {"of": drawn, "origin": origin, "times": times, "to": to}
+        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times)
+
+    def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
+        """The same places, each so much higher: on an axis that was found only later."""
+        points, height = _aligned(_places(drawn), _amount(by))
+        return self._left(Kind.ENLARGE, name, {"of": drawn, "by": by}, points + euclid.UP * height)
 
     # --- dividers ----------------------------------------------------------------------------------------------------
 
@@ -152,7 +158,7 @@ class Hand:
             d = euclid.unit(d)
         points = a + d * mm
         if self.pencil.dividers:
-            points = points + d * self._dividers(points)
+            points = points + d * (mm != 0) * self._dividers(points)  # nothing is set where there is nothing to lay off
         return self._left(Kind.LAY_OFF, name, {"start": start, "along": along, "length": length}, points)
 
     # --- ruler, T-square and set squares -----------------------------------------------------------------------------
@@ -192,10 +198,14 @@ class Hand:
         a, b = np.broadcast_arrays(*_aligned(_places(start), _places(end)))
         return self._left(Kind.JOIN, name, {"start": start, "end": end}, a, b - a)
 
-    def project(self, name: str, points: Drawn, onto: Drawn) -> Drawn:
-        """The feet of places on lines, off along the line by a line's offset."""
-        p, q, d = _aligned(_places(points), _places(onto), _way(onto))
-        feet = euclid.foot(p, q, d)
+    def project(self, name: str, points: Drawn | Setting, onto: Drawn) -> Drawn:
+        """The feet of places, or of given heights along them, on lines: off along the line by a line's offset."""
+        if isinstance(points, Setting):
+            q, d, height = _aligned(_places(onto), _way(onto), _amount(points))
+            feet = q + euclid.unit(d) * height
+        else:
+            p, q, d = _aligned(_places(points), _places(onto), _way(onto))
+            feet = euclid.foot(p, q, d)
         if self.pencil.line:
             feet = feet + euclid.unit(d) * self._line(feet)
         return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
@@ -310,18 +320,25 @@ class Hand:
 
     # --- readings ----------------------------------------------------------------------------------------------------
 
-    def length(self, name: str, start: Drawn, end: Drawn, scale: Floats | float, unit: str) -> Reading:
-        """A distance on paper, read off a rule."""
-        a, b = _aligned(_places(start), _places(end))
-        return self._read(name, {"start": start, "end": end}, self._rounded(np.abs(b - a)), scale, unit)
+    def carry(self, reading: Reading, factor: Floats | float = 1.0) -> Setting:
+        """The lengths on paper, or the angles, of a reading times a factor, which may be one a sample."""
+        paper, by = reading.paper, np.asarray(factor)
+        own = self.pencil.samples is not None
+        by = by[..., None] if own and by.ndim and paper.ndim > 1 else by
+        return Setting(paper * by, reading=reading, factor=factor, sampled=own)
 
-    def along(
-        self, name: str, start: Drawn, end: Drawn, direction: complex, scale: Floats | float, unit: str
+    def at_scale(self, value: float, reading: Reading) -> Setting:
+        """A machine value as a length on paper, in the scale of a reading."""
+        scale = np.asarray(reading.scale)
+        return Setting(value / scale, reading=reading, value=value, sampled=bool(scale.ndim))
+
+    def read(
+        self, name: str, length: Setting, scale: Floats | float, unit: str = "", *, rounded: bool = True
     ) -> Reading:
-        """The signed part of a distance along a given direction: a height, an abscissa."""
-        a, b = _aligned(_places(start), _places(end))
-        paper = self._rounded(dot(np.asarray(direction), b - a))
-        return self._read(name, {"start": start, "end": end, "direction": direction}, paper, scale, unit)
+        """A length on paper, read off a rule, or reckoned from others; its unit by what the construction says of it."""
+        division = self.pencil.division if rounded else 0.0
+        paper = np.round(length.amount / division) * division if division else length.amount
+        return self._read(name, {"length": length}, paper, scale, unit)
 
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
@@ -331,13 +348,6 @@ class Hand:
             paper = paper + self._protractor(paper)
         return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
 
-    def reckon(
-        self, name: str, formula: Callable[..., Floats], *given: str, scale: Floats | float, unit: str, **data: Any
-    ) -> Reading:
-        """What is found in the head: a formula of readings, by their names, and of data of the task."""
-        paper = formula(*(self.readings[each].paper for each in given), **data)
-        return self._read(name, {"formula": formula, "given": given, "data": data}, paper, scale, unit, Kind.RECKON)
-
     def finished(
         self,
         givens: G,
@@ -346,23 +356,12 @@ class Hand:
     ) -> Construction[G]:
         """The construction with all that was read, the acts, and the places that later ones go on from."""
         places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
-        return Construction(self.construction, givens, self.pencil, self.readings, places, draw, self.acts)
+        return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
-    def _rounded(self, paper: Floats) -> Floats:
-        division = self.pencil.division
-        return np.round(paper / division) * division if division else paper
-
-    def _read(
-        self,
-        name: str,
-        takes: Mapping[str, Any],
-        paper: Floats,
-        scale: Floats | float,
-        unit: str,
-        kind: Kind = Kind.READ,
-    ) -> Reading:
-        act = Act(kind, self.construction, name, takes)
-        self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, unit, act)
+    def _read(self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str) -> Reading:
+        act = Act(Kind.READ, self.construction, name, takes)
+        of = unit or self.meaning.readings[name].unit.replace("lift", self.lift)
+        self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, of, act)
         return self.readings[name]
 
     # --- errors ------------------------------------------------------------------------------------------------------
@@ -396,6 +395,11 @@ class Hand:
         left = Drawn(Act(kind, self.construction, name, takes), points, along, radius, self.pencil.samples is not None)
         self.acts[name] = left
         return left
+
+
+def showing(construction: Construction) -> Hand:
+    """A hand for what is only shown in the steps, such as an enlarged detail: without an error of its own."""
+    return Hand(Pencil(), construction.meaning)
 
 
 def _chosen(values: Points, which: Index) -> Points:
