@@ -119,9 +119,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     # base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
     v_chords = hand.take("v_chords", polygons)
-    bases = hand.join("base lines of v", axis[[span.start for span in stations.phases]], v_chords[stations.last])
-    rests = hand.cross("rests of v", bases[stations.moving], hand.erect("ordinates of v", axis))
-    v = hand.lay_off("v_curve", axis, UP, between(rests, v_chords, UP))
+    v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
     # Second integration: the middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
@@ -168,6 +166,12 @@ def _integrated(
     rays = hand.join(f"rays of {target}", pole, heights)
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
     return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
+
+
+def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """Heights (..., m) of chords above the base lines, turned to join the ends of every phase."""
+    stations = givens.stations
+    return polygons - polygons[..., stations.last[stations.moving]] * stations.u
 
 
 def _closing(givens: IntegrationGivens, polygons: Floats) -> Floats:
