@@ -271,7 +271,7 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     once = levelled.first[kept]
     rays = (
         Segments(once.points, reach + once.points, Role.CONSTRUCTION, of=levelled.act),
-        once.from_(pole, Role.CONSTRUCTION),
+        c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
     polygons = (
@@ -312,12 +312,14 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
 
 def _rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    places = curve.shown
-    level, turn = UP * places[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
-    moving = [places[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
-    ends = [level, *moving, turn + level]
-    pairs = zip(ends[::2], ends[1::2], strict=True)
-    return [Line(np.array(pair), Role.RESULT, of=curve.act) for pair in pairs]
+    ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
+    level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)
+    x, y = level.points.real, level.points.imag
+    reach = [0.0, *x[:-1], FULL_TURN / c.givens.mu_phi.per_mm]
+    heights = [y[-1], *y[:-1], y[-1]]
+    places = [complex(*place) for place in zip(reach, heights, strict=True)]
+    pairs = zip(places[::2], places[1::2], strict=True)
+    return [Line(np.array(pair), Role.RESULT, of=level.act) for pair in pairs]
 
 
 def _draw_scales(c: Integrated) -> Step:
