@@ -108,6 +108,9 @@ class Comparison:
             "roller_radius": by_rule if board.roller_radius is None else board.roller_radius,
             "face_left": face.left,
             "face_right": face.right,
+            # Of these the errors are followed over the number of parts; they are not told.
+            "max_pressure_angle_rise": extremes.pressure_angle_rise[0],
+            "min_moving_curvature_radius": extremes.min_convex_radius_moving[0],
         }
 
     def phases(self, speed_rpm: float | None) -> list[PhaseAtSpeed]:

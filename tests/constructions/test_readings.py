@@ -105,7 +105,7 @@ def test_the_unit_of_a_reading_is_the_one_that_its_meaning_says(task):
 def test_a_reading_of_which_nothing_is_said_is_refused_by_its_name():
     construction = Chain(coursework())["minimum_radius"]
     step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("height",))
-    with pytest.raises(gc.DesignError, match="reading of minimum_radius is .height., but must be told"):
+    with pytest.raises(gc.DesignError, match=r"reading of minimum_radius is .*, but must be told"):
         rows(replace(construction, readings={"height": reading(1.0, 1.0, "mm")}), step)
 
 
