@@ -97,6 +97,7 @@ MEANING = Meaning(
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
+    "report.paragraphs.integration",
 )
 
 
