@@ -61,8 +61,8 @@ ROOMS = {
         ("graphcam/exercises/marking",),
         (
             *("graphcam/exercises/marking", "tests/exercises/test_diagnosis.py", "tests/exercises/test_comparing.py"),
-            *("tests/exercises/test_follow_through.py", "tests/exercises/test_marking.py"),
-            "tests/exercises/test_simulation.py",
+            *("tests/exercises/test_follow_through.py", "tests/exercises/test_feedback.py"),
+            *("tests/exercises/test_simulated_counts.py", "tests/exercises/test_marking.py"),
         ),
     ),
     "sheets": Room(("graphcam/sheets",), ("graphcam/sheets", "tests/sheets")),

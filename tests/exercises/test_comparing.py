@@ -23,7 +23,15 @@ def places(name: str, answer: object, exercise: str = "inversion-translating") -
 
 def test_a_number_is_read_up_to_a_thousand_million_millions():
     every = list(range(len(issued("integration")[0].answers)))
-    for given, readable in ((1e15, True), (-1e15, True), (1.0000001e15, False), (10**15, True), (10**16, False)):
+    more = math.nextafter(1e15, math.inf)
+    for given, readable in (
+        (1e15, True),
+        (-1e15, True),
+        (more, False),
+        (-more, False),
+        (10**15, True),
+        (10**16, False),
+    ):
         assert places("v_2", given, "integration") == (every if readable else every[1:])
 
 

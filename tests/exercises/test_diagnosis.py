@@ -146,6 +146,30 @@ def test_who_answers_nought_does_not_make_the_mistake_that_makes_an_answer_small
         assert (found is not None) == named
 
 
+def test_an_answer_that_is_right_by_a_wide_tolerance_costs_no_more_than_one_that_is_anywhere():
+    # Seven deviations, which are right here: as probable as five, for something else as for the mistake.
+    right, wrong = answer(0, 7.0, at(0.0), wrong=False), answer(1, 15.0, at(30.0))
+    told, _ = diagnose(key_with(slip=[at(0.0), at(10.0)]), [right, wrong])
+    assert told.confidence == 0.5
+    told, _ = diagnose(key_with(slip=[at(7.0), at(10.0)]), [right, wrong])
+    assert told.confidence == pytest.approx(1 / (1 + math.exp(-12.5)), rel=1e-12)
+
+
+@pytest.mark.parametrize(("part", "alike"), [(0.11, ("other",)), (0.09, ())])
+def test_a_tenth_as_probable_as_the_best_is_not_told_from_it(part, alike):
+    off = math.sqrt(-2 * math.log(part))
+    told, _ = diagnose(key_with(one=[at(10.0)], other=[at(10.0 + off)]), [answer(0, 10.0, at(30.0))])
+    assert told.alike == alike
+
+
+def test_a_tenth_of_the_best_is_meant_also_where_something_else_is_more_probable_than_that():
+    # All five deviations off, so that only the scatters count: 0.8, 0.8 and 0.1 to 1 for something else.
+    brought = {"one": [at(193.75, 1.25)], "two": [at(193.75, 1.25)], "third": [at(150.0, 10.0)]}
+    told, _ = diagnose(key_with(**brought), [answer(0, 200.0, at(30.0))])
+    assert (told.misconception, told.alike) == ("one", ("two", "third"))
+    assert told.confidence == pytest.approx(0.8 / 2.7, rel=1e-12)
+
+
 def test_right_answers_are_no_sign_of_a_mistake():
     both = [at(10.0), at(10.0)]
     assert diagnose(key_with(slip=both), [answer(k, 10.0, at(10.0)) for k in range(2)]) is None

@@ -38,15 +38,20 @@ def twice(own: Mapping[str, float]) -> float:
 
 
 def three(
-    second: float = 20.0, rule: Rule | None = None, *, unit: str = "mm", **mistakes: list[float]
+    second: float = 20.0,
+    rule: Rule | None = None,
+    *,
+    unit: str = "mm",
+    scatter: float = 0.5,
+    **mistakes: list[float],
 ) -> tuple[Exercise, AnswerKey]:
-    """Three answers: 10, and the second and third that follow from it; a careful hand scatters by 0.5, 1 is right."""
+    """Three answers: 10, and the second and third that follow from it; twice the scatter is right."""
     exercise, answer_key = issued("integration")
     keys = {
-        asked.name: Key(Expected(value, 0.5), 1.0, 1.0, drawn=True)
+        asked.name: Key(Expected(value, scatter), 2 * scatter, 2 * scatter, drawn=True)
         for asked, value in zip((FIRST, SECOND, THIRD), (10.0, second, 40.0), strict=True)
     }
-    hypotheses = {name: Hypothesis.of(Expected(each, 0.5) for each in values) for name, values in mistakes.items()}
+    hypotheses = {name: Hypothesis.of(Expected(each, scatter) for each in values) for name, values in mistakes.items()}
     dependences = {"second": rule or Rule(twice), "third": Rule(lambda own: 2 * own["second"])}
     return replace(exercise, answers=(FIRST, replace(SECOND, unit=unit), THIRD)), replace(
         answer_key, bound=2.0, keys=keys, hypotheses=hypotheses, dependences=dependences, too_exact=0.25
@@ -77,6 +82,8 @@ def test_the_tolerance_of_a_short_key_grows_only_from_eight_tolerances_on():
     for share, expected in ((1.0, "follow-through"), (1.001, "wrong")):
         assert outcome({"first": 30.0, "second": 60.0 + 7.5 * share}, three(2.0)) == expected
         assert outcome({"first": 30.0, "second": 60.0 - 7.5 * share}, three(-2.0)) == expected
+        # Eight tolerances of a half are four.
+        assert outcome({"first": 32.0, "second": 64.0 + 8.0 * share}, three(2.0, scatter=0.25)) == expected
 
 
 @pytest.mark.parametrize("of", [three(rule=Rule(twice, "sum")), three(unit="deg"), three(unit="deg/mm")])
