@@ -97,6 +97,7 @@ MEANING = Meaning(
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
+    "report.paragraphs.integration",
 )
 
 
@@ -119,16 +120,14 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     # base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
     v_chords = hand.take("v_chords", polygons)
-    bases = hand.join("base lines of v", axis[[span.start for span in stations.phases]], v_chords[stations.last])
-    rests = hand.cross("rests of v", bases[stations.moving], hand.erect("ordinates of v", axis))
-    v = hand.lay_off("v_curve", axis, UP, between(rests, v_chords, UP))
+    v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
     # Second integration: the middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
     v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
     heights = between(axis, polygons, UP)
-    s_chords = hand.raised("s_chords", polygons, reckoned(partial(_set_on, givens), heights))
-    s = hand.lay_off("s_curve", axis, UP, reckoned(partial(_shared_out, givens), heights))
+    raised, shared_out, closing = (reckoned(partial(_stacked, givens, part), heights) for part in range(3))
+    s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
 
     x, top = axis.points.real, _top(motion, stations)
     span = stations.phases[stations.moving[top]]
@@ -146,7 +145,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
     hand.read("max_a", reckoned(_greatest, hand.carry(diagram.readings["greatest"])), mu_a)
     hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
-    hand.read("closing_s", reckoned(partial(_closing, givens), heights), mu_s, rounded=False)
+    hand.read("closing_s", closing, mu_s, rounded=False)
     places = {
         "a_projected": middles.points.real + a_heights.points,
         "v_chords": v_chords,
@@ -170,40 +169,29 @@ def _integrated(
     return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
 
 
-def _closing(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """What is left of the displacement at the end of the turn, (...)."""
-    return polygons[..., givens.stations.last].sum(axis=-1)
+def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """Heights (..., m) of chords above the base lines, turned to join the ends of every phase."""
+    stations = givens.stations
+    return polygons - polygons[..., stations.last[stations.moving]] * stations.u
 
 
-def _set_on(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """How much each station's chords (..., m) rise when every phase is set on the end of the one before."""
+def _stacked(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
+    """Set each phase's polygon (..., m) on the end of the one before, and share out what is left after the turn.
+
+    part : 0 for how much each station rises by that, 1 for the heights as shared out, both above the lowest rest, 2
+        for the closing error (...)
+    """
     stations, ends = givens.stations, polygons[..., givens.stations.last]
-    return (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - _lowest(givens, polygons)
-
-
-def _shared_out(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """Heights (..., m) above the lowest rest, with the closing error shared out."""
-    stations, turned = givens.stations, _turned(givens, polygons)
-    starts = _starts(givens, polygons)[..., stations.moving]
-    return polygons - turned[..., stations.moving] * stations.u + starts - _lowest(givens, polygons)
-
-
-def _turned(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """By how much each phase takes up the closing error: the returns, each in proportion to its length."""
-    phases = [givens.motion.phases[k] for k in givens.stations.phase[givens.stations.last]]
+    closing = ends.sum(axis=-1)
+    # The returns bring the follower back, so they take up the error, each in proportion to its length.
+    phases = [givens.motion.phases[k] for k in stations.phase[stations.last]]
     share = np.array([phase.angle if phase.direction < 0 else 0.0 for phase in phases])
-    return _closing(givens, polygons)[..., None] * share / share.sum()
-
-
-def _starts(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """Where each phase starts when the closing error is shared out."""
-    climbs = polygons[..., givens.stations.last] - _turned(givens, polygons)
-    return np.cumsum(climbs, axis=-1) - climbs
-
-
-def _lowest(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """The lowest rest, (..., 1)."""
-    return np.minimum(_starts(givens, polygons).min(axis=-1), 0.0)[..., None]
+    turned = closing[..., None] * share / share.sum()
+    starts = np.cumsum(ends - turned, axis=-1) - (ends - turned)
+    lowest = np.minimum(starts.min(axis=-1), 0.0)[..., None]
+    raised = (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - lowest
+    heights = polygons - turned[..., stations.moving] * stations.u + starts[..., stations.moving] - lowest
+    return (raised, heights, closing)[part]
 
 
 def _greatest(heights: Floats) -> Floats:
@@ -267,7 +255,7 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     once = levelled.first[kept]
     rays = (
         Segments(once.points, reach + once.points, Role.CONSTRUCTION, of=levelled.act),
-        once.from_(pole, Role.CONSTRUCTION),
+        c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
     polygons = (
@@ -308,12 +296,14 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
 
 def _rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    places = curve.shown
-    level, turn = UP * places[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
-    moving = [places[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
-    ends = [level, *moving, turn + level]
-    pairs = zip(ends[::2], ends[1::2], strict=True)
-    return [Line(np.array(pair), Role.RESULT, of=curve.act) for pair in pairs]
+    ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
+    level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)
+    x, y = level.points.real, level.points.imag
+    reach = [0.0, *x[:-1], FULL_TURN / c.givens.mu_phi.per_mm]
+    heights = [y[-1], *y[:-1], y[-1]]
+    places = [complex(*place) for place in zip(reach, heights, strict=True)]
+    pairs = zip(places[::2], places[1::2], strict=True)
+    return [Line(np.array(pair), Role.RESULT, of=level.act) for pair in pairs]
 
 
 def _draw_scales(c: Integrated) -> Step:
