@@ -226,7 +226,7 @@ def _result(region: LeastRadius) -> Step:
     ).where(place=place, binding=_bound_by(active(region)), paper=float(region.first("prime_radius")), **values)
     shown, read = say("r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
     marks = (
-        centre.line_from(start, Role.LIMIT),
+        showing(region).join("r₀", start, centre).way(Role.LIMIT),
         region.acts["centre"].dots(Role.RESULT),
         centre.label("A", towards=-1j + np.sign(centre.place.real)),
         Dimension(start.place, centre.place, shown, aside=0.0, of=read),
