@@ -174,8 +174,8 @@ class Drawn:
         return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, of=self.act)
 
     def way(self, role: Role) -> Line:
-        """Of a line that joins two places: from the one to the other."""
-        return Line(self.place + np.array([0, complex(self.first.directions)]), role, of=self.act)
+        """Of the line that joins two places: from one to the other."""
+        return Line(self.place + np.array([0j, complex(self.first.directions)]), role, of=self.act)
 
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""
