@@ -289,12 +289,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
             say("Curve of {target}", target=target),
             say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
             run.target,
-            (*curves, *_rests(c, curve)),
+            (*curves, *rests(c, curve)),
         ),
     ]
 
 
-def _rests(c: Integrated, curve: Drawn) -> list[Line]:
+def rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
     ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)

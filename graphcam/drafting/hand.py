@@ -117,7 +117,7 @@ class Hand:
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
-        if len(drawn) == 1:
+        if len(drawn) == 1 and which is None:
             points, along = drawn[0].points, drawn[0].along
         else:
             points = self._row([each.points for each in drawn])
