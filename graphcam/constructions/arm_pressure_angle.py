@@ -71,23 +71,25 @@ def arm_pressure_angle(
     Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
     start of the lift [rad].
     """
-    hand, sigma, count = pencil.hand("pressure_angle"), sense(rotation), integrated.givens.stations.u.size
-    positions = arm_positions(integrated, arm, mu_l, hand)
+    hand = Hand(pencil, MEANING)
+    drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
-    start = np.asarray(-arm / mu_l.per_mm + 0j)
-    centre = circles_meet(np.asarray(0j), distance / mu_l.per_mm, start, prime_radius / mu_l.per_mm)
-    tips = positions.tips(sigma)
-    seen = (centre - tips) / unit(positions.ends)  # along the arm outwards, and square to it
-    alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
-    psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
-    return Construction(
-        MEANING,
-        ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l),
-        pencil,
-        {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},
-        {"ends": positions.ends, "tips": tips, "centre": pencil.sheets(centre)},
-        _draw,
+    circles = (
+        hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm),
+        hand.circle("prime circle", drawn.start, prime_radius / mu_l.per_mm),
     )
+    centre = hand.cross("centre", *circles)
+    normals = hand.perpendicular("normals", drawn.arms, drawn.tips)
+    alpha = hand.angle("alpha", normals, hand.join("rays", drawn.tips, centre))
+    hand.read("transmission", reckoned(_transmission, hand.carry(alpha)), 1.0, rounded=False)
+    hand.angle("psi0", drawn.rest, hand.join("line of centres", drawn.pivot, centre))
+    givens = ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l)
+    return hand.finished(givens, _draw, {"ends": drawn.ends, "tips": drawn.tips, "centre": centre})
+
+
+def _transmission(alpha: Floats) -> Floats:
+    """90 degrees - |alpha|, which some schools read instead."""
+    return np.pi / 2 - np.abs(alpha)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
