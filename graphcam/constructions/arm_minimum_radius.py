@@ -8,7 +8,7 @@ is drawn, and A may lie where no line cuts it off.  Between the positions the li
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -232,7 +232,6 @@ def _draw(region: ArmRegion) -> list[Step]:
     stations, shown = integrated.givens.stations, at_scale(REGION, mu_l)
     pivot, start, ends, tips = (region.acts[name] for name in ("pivot", "start", "ends", "tips"))
     given, lengths, smooth = (pivot.dots(), pivot.label("C", 1 + 0j)), np.abs(tips.shown - ends.shown), showing(region)
-    drawn = Segments(np.zeros_like(ends.shown), ends.shown, Role.CONSTRUCTION, of=region.acts["arms"].act)
     laid_off = (
         tips.from_(ends, Role.CURVE),
         *(smooth.fair("curve of the tips", tips.first, [piece]).line(Role.RESULT) for piece in stations.pieces),
@@ -251,7 +250,7 @@ def _draw(region: ArmRegion) -> list[Step]:
                 "displacements up to {most:.2f}°."
             ).where(ratio=ratio_text(mu_l.per_mm), arm=abs(start.place), most=np.degrees(integrated.value("s").max())),
             shown,
-            (drawn, ends.dots(Role.CONSTRUCTION), *given, start.label("B₀", -UP)),
+            (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION), *given, start.label("B₀", -UP)),
             given=given,
         ),
         Step(
@@ -270,7 +269,7 @@ def _draw(region: ArmRegion) -> list[Step]:
                 "centre may lie where no line cuts it off."
             ).where(limits=permitted),
             shown,
-            (*_lines(region), Region(_shown_region(region), of=region.acts["lines"].act)),
+            (*_lines(region), _shown_region(region)),
         ),
         _result(region),
     ]
@@ -295,17 +294,19 @@ def _lines(region: ArmRegion) -> tuple[Mark, ...]:
     return tuple(marks)
 
 
-def _shown_region(region: ArmRegion) -> Points:
+def _shown_region(region: ArmRegion) -> Region:
     """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
     centre, start = complex(region.first("centre")), complex(region.first("start"))
     bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
     corners = [complex(1.3 * start.real, bottom), complex(0, bottom), 0j, complex(1.3 * start.real, 0)]
+    hand, sides = showing(region), np.diff([*corners, corners[0]])
+    bounds = hand.take("bounds", region.acts["lines"].first, hand.given("edges of the picture", corners, sides))
     lines = [
         Boundary(family.name, touch, inward)
         for family in _families(region)
         for touch, inward in zip(family.touch, family.inward, strict=True)
     ]
-    return permitted_part(lines, corners)
+    return Region(permitted_part(lines, corners), of=bounds.act)
 
 
 def _result(region: ArmRegion) -> Step:
@@ -329,8 +330,12 @@ def _result(region: ArmRegion) -> Step:
         "pivot, so c = {c:.3f} mm."
     ).where(place=place, paper=abs(centre.place - start.place), away=abs(centre.place), r0=r0, c=c)
     marks = (
-        replace(centre.line_from(start, Role.LIMIT), of=region.acts["prime radius"].act),
-        *(centre.line_from(0j, Role.AXIS), centre.dots(Role.RESULT), centre.label("A", -UP)),
+        *(
+            region.acts["prime radius"].way(Role.LIMIT),
+            centre.line_from(0j, Role.AXIS),
+            centre.dots(Role.RESULT),
+            centre.label("A", -UP),
+        ),
         Dimension(start.place, centre.place, say("r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=c), -8.0, region.readings["distance"].act),
     )

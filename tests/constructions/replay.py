@@ -228,7 +228,9 @@ class SecondBoard:
             raised = [complex(p.real, p.imag + h) for p, h in _rows(shown.points, heights)]
             return Figure(raised, single=shown.single and one)
         scale, moved = _one(times), _one(to)
-        return Figure([(p - q) * scale + moved for p, q in _pairs(shown, self._taken(origin))], single=shown.single)
+        points = [(p - q) * scale + moved for p, q in _pairs(shown, self._taken(origin))]
+        along = None if shown.along is None else [way * scale for way in shown.along]
+        return Figure(points, along, single=shown.single)
 
     def _divide(self, start: Any, end: Any, share: Any) -> Figure:
         a, b = self._taken(start), self._taken(end)
@@ -332,8 +334,17 @@ class SecondBoard:
         return Figure([touch], [way * 1j], None, single=True)
 
     def _fair(self, points: Any, pieces: Any, parts: int) -> Figure:
-        shown = self._taken(points).points
-        return Figure([p for piece in pieces for p in _smooth(shown[slice(*piece["slice"])], parts)])
+        plotted = self._taken(points)
+
+        def smooth(places: list[complex]) -> list[complex]:
+            return [p for piece in pieces for p in _smooth(places[slice(*piece["slice"])], parts)]
+
+        if plotted.along is None:
+            return Figure(smooth(plotted.points))
+        angles = [cmath.phase(way) for way in plotted.along]
+        turned = [angles[0] + math.remainder(angle - angles[0], math.tau) for angle in angles]
+        ways = [cmath.rect(1.0, angle.real) for angle in smooth([complex(angle) for angle in turned])]
+        return Figure(smooth(plotted.points), ways)
 
     def _read(self, length: Any = None, base: Any = None, line: Any = None, sense: int = 1) -> tuple[list[float], bool]:
         if length is not None:
