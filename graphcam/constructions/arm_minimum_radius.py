@@ -330,12 +330,8 @@ def _result(region: ArmRegion) -> Step:
         "pivot, so c = {c:.3f} mm."
     ).where(place=place, paper=abs(centre.place - start.place), away=abs(centre.place), r0=r0, c=c)
     marks = (
-        *(
-            region.acts["prime radius"].way(Role.LIMIT),
-            centre.line_from(0j, Role.AXIS),
-            centre.dots(Role.RESULT),
-            centre.label("A", -UP),
-        ),
+        *(region.acts["prime radius"].way(Role.LIMIT), centre.line_from(0j, Role.AXIS)),
+        *(centre.dots(Role.RESULT), centre.label("A", -UP)),
         Dimension(start.place, centre.place, say("r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=c), -8.0, region.readings["distance"].act),
     )
