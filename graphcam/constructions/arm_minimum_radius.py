@@ -20,7 +20,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, circles_meet, turned, unit
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Dimension, Mark, Points, Region, Role, Segments
+from graphcam.drafting.marks import Dimension, Points, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
@@ -141,16 +141,16 @@ def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
         """The lines at the limit to the normals of arms."""
-        return hand.protractor(name, ends, arms.turned(UP), side * limit).turned(side)
+        return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)
 
     def family(name: str, direction: int, limit: float, side: int) -> Drawn:
         """The lines at the limit of all arms of one direction of motion, faired between the positions."""
         at = np.flatnonzero(directions == direction)
-        lines = at_limit(f"limits of the {name}", drawn.tips[at], drawn.arms[at], limit, side)
+        lines = at_limit(name, drawn.tips[at], drawn.arms[at], limit, side)
         pieces = pieces_of(motion, stations, direction)
         begins = np.searchsorted(at, [piece.start for piece in pieces]).tolist()
         faired = [slice(k, k + piece.stop - piece.start) for k, piece in zip(begins, pieces, strict=True)]
-        return hand.fair(f"lines: {name}", lines, faired)
+        return hand.fair(name, lines, faired)
 
     top = np.argmax(givens.integrated.readings["s"].paper, axis=-1)[..., None]
     both = np.concatenate([np.zeros_like(top), 1 + top], axis=-1)
@@ -160,11 +160,11 @@ def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -
     if limits.return_ is not None:
         lines["return"] = family("return", -1, limits.return_, -sigma)
     if limits.rest:
-        lines["rest"] = at_limit("lines: rest", ends, arms, limits.rise, -sigma)
+        lines["rest"] = at_limit("rest", ends, arms, limits.rise, -sigma)
         if limits.return_ is not None:
-            lines["rest after the return"] = at_limit("lines: rest after the return", ends, arms, limits.return_, sigma)
+            lines["rest after the return"] = at_limit("rest after the return", ends, arms, limits.return_, sigma)
     else:  # the arm stays above the line of centres in its lowest and its highest position
-        lines["reach"] = hand.take("lines: reach", arms.turned(-1))
+        lines["reach"] = hand.take("limits: reach", arms.turned(-1))
     return lines
 
 
@@ -204,8 +204,8 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
     """
     arm, mu = region.givens.arm / region.givens.mu_l.per_mm, region.givens.mu_l.per_mm
     start, radius = -arm + 0j, prime_radius / mu
-    touches = np.concatenate([family.touch for family in _families(region)])
-    inwards = np.concatenate([family.inward for family in _families(region)])
+    lines = region.acts["lines"].first
+    touches, inwards = lines.points, _inward(lines)
     # A line cuts the circle about the start in two points, equally far from the foot of the perpendicular from there.
     with np.errstate(invalid="ignore"):
         half = np.arccos(dot(inwards, touches - start) / radius)
@@ -223,7 +223,7 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
 
 BELOW = 30.0
 """How far below the cam centre the region is shown [mm]."""
-SHOWN_LINE = 0.35
+SHOWN_LINE = 0.77
 """Length of the thin line at the limit through each end, as a fraction of the arm."""
 
 
@@ -248,7 +248,11 @@ def _draw(region: ArmRegion) -> list[Step]:
             say(
                 "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the "
                 "displacements up to {most:.2f}°."
-            ).where(ratio=ratio_text(mu_l.per_mm), arm=abs(start.place), most=np.degrees(integrated.value("s").max())),
+            ).where(
+                ratio=ratio_text(mu_l.per_mm),
+                arm=region.givens.arm / mu_l.per_mm,
+                most=np.degrees(integrated.value("s").max()),
+            ),
             shown,
             (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION), *given, start.label("B₀", -UP)),
             given=given,
@@ -269,44 +273,33 @@ def _draw(region: ArmRegion) -> list[Step]:
                 "centre may lie where no line cuts it off."
             ).where(limits=permitted),
             shown,
-            (*_lines(region), _shown_region(region)),
+            (*_lines(region), _shaded(region)),
         ),
         _result(region),
     ]
 
 
-def _families(region: ArmRegion) -> list[Boundary]:
-    """The families of lines of the first sample."""
-    names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
-    return [Boundary(n, region.first(f"touch of {n}"), region.first(f"inward of {n}")) for n in names]
+def _lines(region: ArmRegion) -> list[Segments]:
+    """The lines at the limits as far as they matter: from the ends D down towards the region."""
+    length, marks = SHOWN_LINE * abs(region.acts["start"].place), list[Segments]()
+    for name in region.acts:
+        if name.startswith("limits: "):
+            lines = region.acts[name].first
+            along = unit(lines.directions)
+            down = np.where(along.imag < 0, along, -along)
+            marks.append(Segments(lines.points, lines.points + length * down, Role.CONSTRUCTION, of=lines.act))
+    return marks
 
 
-def _lines(region: ArmRegion) -> tuple[Mark, ...]:
-    """The lines at the stations, as far as they matter: from their ends down towards the region."""
-    length = SHOWN_LINE * abs(complex(region.first("start")))
-    marks: list[Mark] = []
-    for family in _families(region):
-        # Between two stations the faired family has more lines than are drawn.
-        step = 8 if family.touch.size > 2 else 1
-        touch, along = family.touch[::step], unit(family.along[::step])
-        of = region.acts[f"lines: {family.name}"].act
-        marks.append(Segments(touch, touch + length * 2.2 * along, Role.CONSTRUCTION, of=of))
-    return tuple(marks)
-
-
-def _shown_region(region: ArmRegion) -> Region:
+def _shaded(region: ArmRegion) -> Region:
     """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
-    centre, start = complex(region.first("centre")), complex(region.first("start"))
+    centre, start, lines = region.acts["centre"][0].place, region.acts["start"].place, region.acts["lines"].first
     bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
     corners = [complex(1.3 * start.real, bottom), complex(0, bottom), 0j, complex(1.3 * start.real, 0)]
     hand, sides = showing(region), np.diff([*corners, corners[0]])
-    bounds = hand.take("bounds", region.acts["lines"].first, hand.given("edges of the picture", corners, sides))
-    lines = [
-        Boundary(family.name, touch, inward)
-        for family in _families(region)
-        for touch, inward in zip(family.touch, family.inward, strict=True)
-    ]
-    return Region(permitted_part(lines, corners), of=bounds.act)
+    bounds = hand.take("bounds", lines, hand.given("edges of the picture", corners, sides))
+    cuts = zip(lines.points, _inward(lines), strict=True)
+    return Region(permitted_part([Boundary("", *cut) for cut in cuts], corners), of=bounds.act)
 
 
 def _result(region: ArmRegion) -> Step:
