@@ -9,17 +9,17 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, TestScene, scene
+from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Construction
+from graphcam.drafting.meaning import Measured
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.mechanism.peaks import max_acceleration, max_velocity
 
 PARTS = (6, 8, 12, 16, 24, 32, 48, 64, 96)
 FITTED = (12, 24, 48, 96)
@@ -29,7 +29,6 @@ EXACT = 1e-12
 ROUNDS, SAMPLES, NARROWED = 6, 41, 10.0
 """Of the nested search for the nearest place of the profile: it ends within 1e-7 rad, which moves a distance across the
 profile by 1e-14 of a radius."""
-Measure = Callable[[TestScene, Chain], float]
 
 
 @dataclass(frozen=True)
@@ -76,37 +75,70 @@ def fitted_order(parts: Sequence[int], errors: Sequence[float]) -> float | None:
 
 def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = BENCH_LAWS) -> list[Series]:
     """The errors of all constructions of all scenes."""
-    found: list[Series] = []
-    for follower in FOLLOWERS:
-        for law in laws:
-            where = scene(follower, law)
-            chains = [where.chain(n) for n in parts]
-            for (construction, quantity), measure in MEASURES.items():
-                if construction in chains[0] and (follower, construction) != ("flat", "working_profile"):
-                    errors = tuple(measure(where, chain) for chain in chains)
-                    found.append(Series(follower, law, construction, quantity, tuple(parts), errors))
-    return found
+    scenes = (scene(follower, law) for follower in FOLLOWERS for law in laws)
+    return [series for where in scenes for series in series_of(where, {n: where.chain(n) for n in parts})]
+
+
+def series_of(where: TestScene, chains: Mapping[int, Chain]) -> list[Series]:
+    """The errors of every reading whose constructions say how its convergence is measured, by the number of parts."""
+    first, parts = next(iter(chains.values())), tuple(chains)
+    return [
+        Series(where.follower, where.law, name, said.quantity, parts, tuple(map(error, chains.values())))
+        for name, construction in first.items()
+        for reading, meaning in construction.meaning.readings.items()
+        # Without a roller the profile is not the envelope of its circles.
+        if (said := meaning.converges) and (said.measured != "from the profile" or where.sizes.roller_radius)
+        for error in [partial(error_of, where, name, reading)]
+    ]
 
 
 # --- the measures ----------------------------------------------------------------------------------------------------
 
 
-def displacement_error(where: TestScene, chain: Chain) -> float:
-    """The greatest error of s at the stations."""
-    return _at_stations("s", where, chain)
+def error_of(where: TestScene, construction: str, reading: str, chain: Chain) -> float:
+    """The relative error of a reading, measured as its meaning says.
+
+    >>> where = scene("translating", "cycloidal")
+    >>> error_of(where, "integration", "s", where.chain(24)) < error_of(where, "integration", "s", where.chain(12)) / 3
+    True
+    """
+    drawn = chain[construction]
+    said = drawn.meaning.reading(reading).converges
+    assert said is not None
+    return MEASURES[said.measured](where, chain, drawn, said.of or reading, said.exact)
 
 
-def least_radius_error(where: TestScene, chain: Chain) -> float:
-    """The error of the least prime radius."""
-    return _off(chain["minimum_radius"].value("prime_radius"), where.least().prime_radius)
+def _of_value(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
+    """Of several candidates the first."""
+    return abs(float(np.atleast_1d(drawn.value(reading))[0]) / where.exact[exact] - 1)
 
 
-def profile_error(where: TestScene, chain: Chain) -> float:
-    """The greatest distance of the touch points from the exact profile."""
-    profile = chain["working_profile"]
-    touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm
+def _at_stations(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
+    at = Comparison(chain, where.cam).exact_stations
+    s, v, a, _ = at.values
+    there = {"s": s, "v": v, "a": a, "pressure_angle": at.pressure_angle}[exact]
+    return float(np.nanmax(np.abs(drawn.value(reading) - there)) / np.abs(there).max())
+
+
+def _from_pitch_curve(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
+    there = where.cam.pitch_curve(chain.board.stations.phi)
+    distance = np.hypot(drawn.value("x") - there[:, 0], drawn.value("y") - there[:, 1])
+    return float(distance.max()) / where.sizes.prime_radius
+
+
+def _from_profile(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
+    touch = drawn.points["touch"] * drawn.readings[reading].per_mm
     distance = distance_from_profile(where.cam, touch, chain.board.stations.phi)
     return float(distance.max()) / where.sizes.prime_radius
+
+
+MEASURES: Mapping[Measured, Callable[[TestScene, Chain, Construction, str, str], float]] = {
+    "value": _of_value,
+    "at stations": _at_stations,
+    "from the pitch curve": _from_pitch_curve,
+    "from the profile": _from_profile,
+}
+"""The ways of measuring an error: of the scene's chain a construction's reading, and the exact counterpart's name."""
 
 
 def distance_from_profile(cam: Cam, points: Complexes, near: Floats, reach: float = math.radians(3)) -> Floats:
@@ -135,54 +167,3 @@ def nearest_angles(cam: Cam, points: Complexes) -> Floats:
 def as_complex(points: Floats) -> Complexes:
     """Points (..., 2) as complex numbers."""
     return points[..., 0] + 1j * points[..., 1]
-
-
-def _off(drawn: Any, exact: float) -> float:
-    return abs(float(drawn) / exact - 1)
-
-
-def _greatest(name: str, greatest: Callable[[Motion], float], where: TestScene, chain: Chain) -> float:
-    return _off(chain["integration"].value(name), greatest(where.board.motion))
-
-
-def _at_stations(name: str, where: TestScene, chain: Chain) -> float:
-    stations = chain.board.stations
-    exact = where.board.motion.at(stations.phase, stations.u)["sva".index(name)]
-    return float(np.abs(chain["integration"].value(name) - exact).max() / np.abs(exact).max())
-
-
-def _pressure_angle_error(where: TestScene, chain: Chain) -> float:
-    stations = chain.board.stations
-    exact = where.cam.at(stations.phase, stations.u).pressure_angle
-    return float(np.nanmax(np.abs(chain["pressure_angle"].value("alpha") - exact)) / np.abs(exact).max())
-
-
-def _greatest_angle_error(where: TestScene, chain: Chain) -> float:
-    return _off(chain["angle_diagram"].value("max_rise"), where.cam.extremes().pressure_angle_rise[0])
-
-
-def _pitch_error(where: TestScene, chain: Chain) -> float:
-    inverted, exact = chain["inversion"], where.cam.pitch_curve(chain.board.stations.phi)
-    distance = np.hypot(inverted.value("x") - exact[:, 0], inverted.value("y") - exact[:, 1])
-    return float(distance.max()) / where.sizes.prime_radius
-
-
-def _curvature_error(where: TestScene, chain: Chain) -> float:
-    curvature = chain["curvature"]
-    name = "rho_candidates" if "rho_candidates" in curvature.readings else "rho"
-    return _off(np.atleast_1d(curvature.value(name))[0], where.cam.extremes().min_convex_radius_moving[0])
-
-
-MEASURES: Mapping[tuple[str, str], Measure] = {
-    ("integration", "displacement"): displacement_error,
-    ("integration", "velocity"): partial(_at_stations, "v"),
-    ("integration", "greatest velocity"): partial(_greatest, "max_v", max_velocity),
-    ("integration", "greatest acceleration"): partial(_greatest, "max_a", max_acceleration),
-    ("minimum_radius", "least prime radius"): least_radius_error,
-    ("pressure_angle", "pressure angle"): _pressure_angle_error,
-    ("angle_diagram", "greatest angle, rise"): _greatest_angle_error,
-    ("inversion", "pitch curve"): _pitch_error,
-    ("curvature", "least curvature radius"): _curvature_error,
-    ("working_profile", "working profile"): profile_error,
-}
-"""The relative error of each quantity, by construction and quantity."""

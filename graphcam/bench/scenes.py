@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import radians
 
+from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.drawn_arm import DrawnOscillating
@@ -47,6 +50,11 @@ class TestScene:
         """The same cam, exact."""
         follower = self.board.follower.built(self.sizes.place, self.sizes.roller_radius)
         return Cam(self.board.motion, follower, self.sizes.prime_radius, self.board.rotation)
+
+    @cached_property
+    def exact(self) -> Mapping[str, float]:
+        """The exact counterparts of what is read, by name; they do not depend on the number of parts."""
+        return Comparison(self.chain(self.board.divisions), self.cam).exact
 
     def least(self) -> LeastRadius:
         """The exact least prime radius."""

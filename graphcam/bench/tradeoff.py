@@ -82,19 +82,20 @@ def _timed(way: Trial, timer: Timer, pair: float) -> Method:
     return Method(way.question, way.name, way.kind, way.counts, tuple(times), tuple(errors))
 
 
-def _drawn(question: str, counts: Parts, where: TestScene, construction: str, error: convergence.Measure) -> Trial:
+def _drawn(question: str, counts: Parts, where: TestScene, construction: str, reading: str) -> Trial:
     """By a construction, drawn anew with all that it starts from."""
 
     def work(n: int) -> object:
         """The construction in n parts."""
         return where.chain(n)[construction]
 
-    return Trial(question, "graphical", "graphical", counts, work, lambda n: error(where, where.chain(n)))
+    error = partial(convergence.error_of, where, construction, reading)
+    return Trial(question, "graphical", "graphical", counts, work, lambda n: error(where.chain(n)))
 
 
 def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     motion = where.board.motion
-    yield _drawn("displacement", sizes.graphical, where, "integration", convergence.displacement_error)
+    yield _drawn("displacement", sizes.graphical, where, "integration", "s")
     for name, method in rivals.INTEGRATORS.items():
 
         def work(n: int, method: rivals.Integrator = method) -> object:
@@ -107,7 +108,7 @@ def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
 
 def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     motion, exact = where.board.motion, where.least().prime_radius
-    yield _drawn("least radius", sizes.graphical, where, "minimum_radius", convergence.least_radius_error)
+    yield _drawn("least radius", sizes.graphical, where, "minimum_radius", "prime_radius")
     solvers = (
         ("HalfspaceIntersection", rivals.by_half_planes, sizes.half_planes),
         ("SLSQP", rivals.by_optimiser, sizes.optimiser),
@@ -123,7 +124,7 @@ def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
 
 def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     cam = where.cam
-    yield _drawn("profile", sizes.profile, where, "working_profile", convergence.profile_error)
+    yield _drawn("profile", sizes.profile, where, "working_profile", "radius")
 
     def work(n: int) -> Floats:
         """The corners of the profile about n points of the pitch curve [mm]."""

@@ -11,7 +11,6 @@ three standard deviations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -19,6 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from graphcam.drafting.ink import Construction
+from graphcam.drafting.meaning import Rank
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 from graphcam.showing import by_parts
@@ -33,8 +33,6 @@ HANDS = 400
 """How many hands draw for the scatter; its own relative error is 1/sqrt(2 HANDS), about 4 %."""
 ARITHMETIC = 1e-9
 """What rounding of the arithmetic may move on the paper [mm]."""
-Rank = Callable[[Floats], Floats]
-"""Which of several candidates is taken: the one of highest rank."""
 
 
 class Redrawable(Protocol):

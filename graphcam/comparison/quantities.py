@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.comparison.bounds import Bounds, Rank
+from graphcam.comparison.bounds import Bounds
 from graphcam.comparison.speed import PhaseAtSpeed, at_speed
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
+from graphcam.drafting.meaning import Compared
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
@@ -21,7 +22,7 @@ from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.peaks import max_acceleration, max_velocity
 from graphcam.showing import by_parts
-from graphcam.words import Caption, say
+from graphcam.words import Caption, sequence
 
 
 @dataclass(frozen=True)
@@ -85,14 +86,11 @@ class Comparison:
     @cached_property
     def quantities(self) -> dict[str, Quantity]:
         """The quantities by name; of a sampled pencil the first drawing is compared."""
-        exact = self._exact()
-        return {
-            name: source.quantity(name, self.drawn, self.bounds, exact[name])
-            for name, source in SOURCES.items()
-            if name in ALWAYS or source.stands_on(self.drawn)
-        }
+        return quantities_of(self.drawn, self.bounds, self.exact)
 
-    def _exact(self) -> Mapping[str, float]:
+    @cached_property
+    def exact(self) -> Mapping[str, float]:
+        """The exact counterparts by name, in the order in which they are told."""
         board, extremes = self.drawn.board, self.cam.extremes()
         least, place = self.least
         face = face_width(board.motion, board.rotation)
@@ -110,6 +108,9 @@ class Comparison:
             "roller_radius": by_rule if board.roller_radius is None else board.roller_radius,
             "face_left": face.left,
             "face_right": face.right,
+            # Of these the errors are followed over the number of parts; they are not told.
+            "max_pressure_angle_rise": extremes.pressure_angle_rise[0],
+            "min_moving_curvature_radius": extremes.min_convex_radius_moving[0],
         }
 
     def phases(self, speed_rpm: float | None) -> list[PhaseAtSpeed]:
@@ -134,60 +135,35 @@ class Comparison:
         }
 
 
-Drawings = Mapping[str, Construction]
+def quantities_of(drawn: Mapping[str, Construction], bounds: Bounds, exact: Mapping[str, float]) -> dict[str, Quantity]:
+    """What the constructions say that their readings are compared as, in the order of the exact counterparts."""
+    found = [
+        (said.exact or said.name, _quantity(construction, reading, said, bounds, exact))
+        for construction in drawn.values()
+        for reading, said in construction.meaning.compared
+    ]
+    nan, there = math.nan, {quantity.name for _, quantity in found}
+    missing = {name: Quantity(name, sequence([name]), nan, nan, unit, nan, nan) for name, unit in EVERYWHERE.items()}
+    found += [(name, quantity) for name, quantity in missing.items() if name not in there]
+    order = list(exact)
+    return {quantity.name: quantity for _, quantity in sorted(found, key=lambda pair: order.index(pair[0]))}
 
 
-@dataclass(frozen=True)
-class Source:
-    """Where on the paper a quantity is read, and its unit where it is not the reading's.
-
-    candidates, rank : the reading that holds what it was chosen from, and how; by default the least is taken
-    """
-
-    title: Caption
-    construction: str
-    reading: str
-    unit: str = ""
-    factor: float = 1.0
-    candidates: str = ""
-    rank: Rank = np.negative
-
-    def stands_on(self, chain: Drawings) -> bool:
-        """Whether the chain's follower has the quantity."""
-        return self.construction in chain and self.reading in chain[self.construction].readings
-
-    def quantity(self, name: str, chain: Drawings, bounds: Bounds, exact: float) -> Quantity:
-        """The drawn value beside the exact one; NaN where the follower has no such quantity."""
-        if not self.stands_on(chain):
-            return Quantity(name, self.title, math.nan, math.nan, self.unit, math.nan, math.nan)
-        construction, where = chain[self.construction], (self.construction, self.reading)
-        read, drawn = construction.readings[self.reading], self.factor * float(construction.value(self.reading))
-        bound = bounds.of_choice(*where, self.candidates, self.rank) if self.candidates else bounds.of(*where)
-        return Quantity(name, self.title, drawn, exact, self.unit or read.unit, self.factor * read.per_mm, bound)
+def _quantity(
+    construction: Construction, reading: str, said: Compared, bounds: Bounds, exact: Mapping[str, float]
+) -> Quantity:
+    """The drawn value beside the exact one."""
+    counterpart, where = said.exact or said.name, (construction.name, reading)
+    if counterpart not in exact:
+        raise DesignError("exact counterpart", counterpart, f"one of {', '.join(exact)}")
+    read, drawn = construction.readings[reading], said.factor * float(construction.value(reading))
+    bound = bounds.of_choice(*where, said.candidates, said.rank) if said.candidates else bounds.of(*where)
+    unit, per_mm = said.unit or read.unit, said.factor * read.per_mm
+    return Quantity(said.name, said.title, drawn, exact[counterpart], unit, per_mm, bound)
 
 
-DEGREES = math.degrees(1.0)
-
-
-def greatest(title: Caption, construction: str, name: str, factor: float = 1.0, unit: str = "") -> Source:
-    """The greatest of a quantity, read off its diagram."""
-    return Source(title, construction, f"max_{name}", unit, factor, f"{name}_candidates", np.abs)
-
-
-SOURCES: Mapping[str, Source] = {
-    "max_v": Source(say("greatest v"), "integration", "max_v"),
-    "max_a": Source(say("greatest a"), "integration", "max_a"),
-    "minimum_prime_radius": Source(say("least radius r₀"), "minimum_radius", "prime_radius", "mm"),
-    "minimum_offset": Source(say("its offset e"), "minimum_radius", "offset", "mm"),
-    "minimum_distance": Source(say("its centre distance c"), "minimum_radius", "distance", "mm"),
-    "max_pressure_angle_rise_deg": greatest(say("pressure angle, rise"), "angle_diagram", "rise", DEGREES, "deg"),
-    "max_pressure_angle_return_deg": greatest(say("pressure angle, return"), "angle_diagram", "return", DEGREES, "deg"),
-    "min_pitch_curvature_radius": Source(
-        say("least curvature radius ρ"), "curvature", "rho", "mm", candidates="rho_candidates"
-    ),
-    "roller_radius": Source(say("roller radius"), "roller", "roller_radius", "mm", candidates="candidates"),
-    "face_left": Source(say("face to the left"), "inversion", "face_left", "mm"),
-    "face_right": Source(say("face to the right"), "inversion", "face_right", "mm"),
+EVERYWHERE: Mapping[str, str] = {
+    **dict.fromkeys(("minimum_prime_radius", "minimum_offset", "roller_radius"), "mm"),
+    **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),
 }
-ALWAYS = tuple(name for name in SOURCES if name not in ("minimum_distance", "face_left", "face_right"))
-"""The quantities that every solution names, though a follower may not have them."""
+"""The quantities that every solution names, though its follower may not have them, and their units."""

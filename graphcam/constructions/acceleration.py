@@ -58,6 +58,7 @@ MEANING = Meaning(
         "middles": ReadingMeaning(say("middle ordinates"), "yₘ", "mm of paper"),
         "base": ReadingMeaning(say("length of the axis"), "b", "rad"),
     },
+    "report.paragraphs.acceleration",
 )
 
 

@@ -50,6 +50,7 @@ MEANING = Meaning(
             ),
         ),
     },
+    "report.paragraphs.greatest_angles",
 )
 
 

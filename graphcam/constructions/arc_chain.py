@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from textwrap import wrap
 
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_outline import three_arcs
 from graphcam.constructions.arc_roller import ArcStations, arc_roller, divide_arcs
+from graphcam.constructions.drawings import Drawings, Drawn
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.three_arcs import ThreeArcs
-from graphcam.showing import WIDTH, Shown, in_lines
-
-NAMES = ("three_arcs", "arc_roller", "arc_diagrams")
 
 
 @dataclass(frozen=True)
@@ -49,49 +46,32 @@ class ArcBoard:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ArcChain(Shown, Mapping[str, Construction]):
+class ArcChain(Drawings):
     """All constructions of one cam of three arcs by name, in the order in which they are drawn.
 
     pencil : the hand that draws
     """
 
-    _drawn_in = "construction_drawing"
-
     board: ArcBoard
     pencil: Pencil = field(default_factory=Pencil)
-
-    def __getitem__(self, name: str) -> Construction:
-        if name not in NAMES:
-            raise KeyError(name)
-        return getattr(self, name)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(NAMES)
-
-    def __repr__(self) -> str:
-        last = "chain[name] is a construction, drawn when it is first asked for"
-        return in_lines(f"ArcChain of {len(self)} constructions", wrap(", ".join(self), WIDTH), last)
-
-    def __len__(self) -> int:
-        return len(NAMES)
 
     @cached_property
     def stations(self) -> ArcStations:
         """The parts of the arcs."""
         return divide_arcs(self.board.divisions)
 
-    @cached_property
+    @Drawn
     def three_arcs(self) -> Construction:
         """Centres and points of touching."""
         board = self.board
         return three_arcs(board.given, board.dwell, board.mu_l, self.pencil)
 
-    @cached_property
+    @Drawn
     def arc_roller(self) -> Construction:
         """Lift, velocity and acceleration at the stations."""
         return arc_roller(self.three_arcs, self.board.roller_radius, self.stations, self.pencil)
 
-    @cached_property
+    @Drawn
     def arc_diagrams(self) -> Construction:
         """The same over the cam angle, and the greatest values."""
         return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil, self.board.heights)

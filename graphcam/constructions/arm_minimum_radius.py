@@ -74,7 +74,7 @@ MEANING = Meaning(
             say("centre distance c"),
             "c",
             "mm",
-            (Compared("minimum_distance", say("its centre distance c"), exact="minimum_place", unit="mm"),),
+            (Compared("minimum_distance", say("its centre distance c"), unit="mm"),),
         ),
     },
 )

@@ -6,16 +6,15 @@ A construction is drawn when it is first asked for, and with it only what it dep
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from textwrap import wrap
 
 from graphcam.constructions.acceleration import acceleration_diagram
 from graphcam.constructions.adoption import ROUNDING_SLACK, lies_in, multiple, nearest_multiple, steps_up
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
 from graphcam.constructions.differentiation import measured_differentiation
+from graphcam.constructions.drawings import Drawings, Drawn
 from graphcam.constructions.integration import integration
 from graphcam.constructions.roller import roller_radius, working_profile
 from graphcam.constructions.scheme import scheme
@@ -25,7 +24,6 @@ from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
-from graphcam.showing import WIDTH, Shown, in_lines
 
 PHASE_ANGLES = 48.0
 """What the phase angles and their texts need on both sides of the profile together [mm of paper]."""
@@ -33,6 +31,8 @@ FURTHER = 5
 """So many multiples of the rounding from the least radius on are tried: a round one is not worth a much larger cam."""
 FINER = (1.0, 0.1, 0.01, 0.001)
 """The parts of the rounding that a size is a multiple of, where the region has no room for a rounder one."""
+PERFECT = Pencil()
+"""The hand on whose drawing the decisions rest."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class AdoptedSizes:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Chain(Shown, Mapping[str, Construction]):
+class Chain(Drawings):
     """All constructions of one cam by name, in the order in which they are drawn.
 
     What the task leaves open is decided as in a design office: proposed by the drawing and adopted as a round number.
@@ -54,53 +54,32 @@ class Chain(Shown, Mapping[str, Construction]):
     board : the task and the choices
     pencil : the hand that draws
     decided : sizes that were decided before, in place of the proposals
-    done : constructions that lie on the board already, by name, and are not drawn again
     """
-
-    _drawn_in = "construction_drawing"
 
     board: Board
     pencil: Pencil = field(default_factory=Pencil)
     decided: AdoptedSizes | None = None
-    done: Mapping[str, Construction] = field(default_factory=dict[str, Construction])
-
-    def __post_init__(self) -> None:
-        # Where a cached property keeps what it has drawn.
-        self.__dict__.update(self.done)
-
-    def __getitem__(self, name: str) -> Construction:
-        if name not in self._names:
-            raise KeyError(name)
-        return getattr(self, name)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __repr__(self) -> str:
-        last = "chain[name] is a construction, drawn when it is first asked for"
-        return in_lines(f"Chain of {len(self)} constructions", wrap(", ".join(self), WIDTH), last)
-
-    def __len__(self) -> int:
-        return len(self._names)
+    _by_others: dict[Pencil, Chain] = field(default_factory=dict["Pencil", "Chain"], init=False)
 
     @property
-    def _names(self) -> tuple[str, ...]:
-        names = self.board.follower.constructions
-        return (*names, "differentiation") if isinstance(self.board.motion, MeasuredMotion) else names
+    def names(self) -> tuple[str, ...]:
+        """Of the constructions that the follower has, of a measured motion's differentiation, and of those added."""
+        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
+        return (*self.board.follower.constructions, *measured, *self.further)
 
-    @cached_property
+    @Drawn
     def acceleration(self) -> Construction:
         """The acceleration diagram."""
         board = self.board
         given = board.motion, board.stations, board.ordinate, board.mu_phi, board.follower.unit
         return acceleration_diagram(*given, self.pencil)
 
-    @cached_property
+    @Drawn
     def integration(self) -> Construction:
         """Velocity and displacement by two graphical integrations."""
         return integration(self.acceleration, self.board.poles, self.pencil)
 
-    @cached_property
+    @Drawn
     def differentiation(self) -> Construction:
         """Velocity and acceleration of a measured motion by graphical differentiation, at the scales of the others.
 
@@ -114,55 +93,58 @@ class Chain(Shown, Mapping[str, Construction]):
         mu_s = Scale(float(self.perfect.integration.readings["s"].scale), board.follower.unit)
         return measured_differentiation(board.motion, parts, board.mu_phi, mu_s, (second, first), self.pencil)
 
-    @cached_property
+    @Drawn
     def minimum_radius(self) -> Construction:
         """The least prime radius, and where the follower stands."""
         return self._least_radius(self.board.follower.place)
 
-    @cached_property
+    @Drawn
     def pressure_angle(self) -> Construction:
         """The pressure angle at every station of the adopted cam."""
         follower, rotation = self.board.follower, self.board.rotation
         return follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
 
-    @cached_property
+    @Drawn
     def angle_diagram(self) -> Construction:
         """The pressure angle over the cam angle."""
         return angle_diagram(self.pressure_angle, self.board.mu_phi, self.pencil)
 
-    @cached_property
+    @Drawn
     def inversion(self) -> Construction:
         """The pitch curve of the adopted cam."""
         follower, rotation, scale = self.board.follower, self.board.rotation, self.profile_scale
         return follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
 
-    @cached_property
+    @Drawn
     def curvature(self) -> Construction:
         """The least radius of curvature of the pitch curve."""
         return self.board.follower.curvature(self, self.pencil)
 
-    @cached_property
+    @Drawn
     def roller(self) -> Construction:
         """What the rule proposes for the roller."""
         return roller_radius(self.curvature, self.board.roller_rule, self.board.roller_radius, self.pencil)
 
-    @cached_property
+    @Drawn
     def working_profile(self) -> Construction:
         """The profile that the roller runs on."""
         return working_profile(self.inversion, self.roller_radius, self.pencil)
 
-    @cached_property
+    @Drawn
     def scheme(self) -> Construction:
         """The mechanism at the start of the turn."""
         return scheme(self.working_profile, self.board.follower)
 
     # --- decisions ---------------------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def perfect(self) -> Chain:
         """The same drawing by a hand without error."""
-        perfect = self.pencil.perfect and self.pencil.samples is None
-        return self if perfect and not self.done else replace(self, pencil=Pencil(), done={})
+        if self.pencil.perfect and self.pencil.samples is None and not self.done:
+            return self
+        if PERFECT not in self._by_others:
+            self._by_others[PERFECT] = replace(self, pencil=PERFECT, done={})
+        return self._by_others[PERFECT]
 
     def by(self, pencil: Pencil) -> Chain:
         """The same task, with the same decisions, drawn by another hand."""
@@ -178,16 +160,16 @@ class Chain(Shown, Mapping[str, Construction]):
 
         The adopted sizes stay as they were: decisions are those of a hand without error.
         """
-        later = self._names[self._names.index(construction.name) :] if construction.name in self._names else ()
+        later = self.names[self.names.index(construction.name) :] if construction.name in self.names else ()
         # What was drawn before stays; what comes later, or was not drawn yet, is drawn when it is asked for.
-        kept = {name: drawn for name, drawn in self.__dict__.items() if isinstance(drawn, Construction)}
-        done = {name: drawn for name, drawn in kept.items() if name not in later} | {construction.name: construction}
+        kept = {name: drawn for name, drawn in self.lying.items() if name not in later}
+        done = kept | {construction.name: construction}
         return self._deciding_alike(replace(self, done=done))
 
     def _deciding_alike(self, other: Chain) -> Chain:
         # The same board is drawn alike by a perfect hand, so what the decisions rest on is not drawn again.
         if other.perfect is not other:
-            other.__dict__["perfect"] = self.perfect
+            other._by_others[PERFECT] = self.perfect
         return other
 
     @property

@@ -51,12 +51,7 @@ LEAST_CURVATURE = {
                 "min_pitch_curvature_radius", say("least curvature radius ρ"), unit="mm", candidates="rho_candidates"
             ),
         ),
-    ),
-    "rho_candidates": ReadingMeaning(
-        say("least radii of the moving phases and of the rests"),
-        "ρ",
-        "mm",
-        converges=Converges("least curvature radius", "min_moving_curvature_radius"),
+        Converges("least curvature radius", "min_moving_curvature_radius", of="rho_candidates"),
     ),
 }
 """The least radius of curvature, however it is found."""
@@ -68,6 +63,7 @@ MEANING = Meaning(
         "the roller."
     ),
     {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad")},
+    "report.paragraphs.curvature",
 )
 
 

@@ -97,6 +97,7 @@ MEANING = Meaning(
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
+    "report.paragraphs.integration",
 )
 
 
@@ -119,9 +120,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     # base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
     v_chords = hand.take("v_chords", polygons)
-    bases = hand.join("base lines of v", axis[[span.start for span in stations.phases]], v_chords[stations.last])
-    rests = hand.cross("rests of v", bases[stations.moving], hand.erect("ordinates of v", axis))
-    v = hand.lay_off("v_curve", axis, UP, between(rests, v_chords, UP))
+    v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
     # Second integration: the middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
@@ -168,6 +167,12 @@ def _integrated(
     rays = hand.join(f"rays of {target}", pole, heights)
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
     return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
+
+
+def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
+    """Heights (..., m) of chords above the base lines, turned to join the ends of every phase."""
+    stations = givens.stations
+    return polygons - polygons[..., stations.last[stations.moving]] * stations.u
 
 
 def _closing(givens: IntegrationGivens, polygons: Floats) -> Floats:
@@ -267,7 +272,7 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     projected = levelled.first[kept]
     rays = (
         Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, of=levelled.act),
-        projected.from_(pole, Role.CONSTRUCTION),
+        c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
     polygons = (
@@ -308,12 +313,14 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
 
 def _rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    places = curve.shown
-    level, turn = UP * places[-1].imag, FULL_TURN / c.givens.mu_phi.per_mm
-    moving = [places[k] for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
-    ends = [level, *moving, turn + level]
-    pairs = zip(ends[::2], ends[1::2], strict=True)
-    return [Line(np.array(pair), Role.RESULT, of=curve.act) for pair in pairs]
+    ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
+    level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)
+    x, y = level.points.real, level.points.imag
+    reach = [0.0, *x[:-1], FULL_TURN / c.givens.mu_phi.per_mm]
+    heights = [y[-1], *y[:-1], y[-1]]
+    places = [complex(*place) for place in zip(reach, heights, strict=True)]
+    pairs = zip(places[::2], places[1::2], strict=True)
+    return [Line(np.array(pair), Role.RESULT, of=level.act) for pair in pairs]
 
 
 def _draw_scales(c: Integrated) -> Step:

@@ -36,6 +36,7 @@ MEANING = Meaning(
         "is moved by its displacement: the places that it takes make the cam."
     ),
     profile_view.CURVE,
+    "report.translating_paragraphs.inversion",
 )
 
 

@@ -63,10 +63,11 @@ MEANING = Meaning(
             say("offset e"),
             "e",
             "mm",
-            (Compared("minimum_offset", say("its offset e"), exact="minimum_place", unit="mm"),),
+            (Compared("minimum_offset", say("its offset e"), unit="mm"),),
         ),
         "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
     },
+    "report.translating_paragraphs.least_radius",
 )
 
 

@@ -60,6 +60,7 @@ MEANING = Meaning(
         "mechanism, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
+    "report.translating_paragraphs.pressure_angle",
 )
 
 

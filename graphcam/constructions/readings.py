@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,66 +12,11 @@ from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.units import unit
 from graphcam.given.laws import Floats
 from graphcam.given.stations import Stations
-from graphcam.words import sequence
 
 PAPER = "mm of paper"
 """The unit of a reading that stands for nothing but its own length."""
 NOTHING = 1e-9
 """A length or an angle of less [mm or degrees] is rounding of the arithmetic."""
-TITLES: Mapping[str, Caption] = {
-    "acceleration.base": say("length of the axis"),
-    "acceleration.greatest": say("greatest ordinates"),
-    "acceleration.middles": say("middle ordinates"),
-    "s": say("displacement s"),
-    "v": say("velocity v"),
-    "a": say("acceleration a"),
-    "max_v": say("greatest v"),
-    "max_a": say("greatest a"),
-    "closing_v": say("closing error of v"),
-    "closing_s": say("closing error of s"),
-    "prime_radius": say("prime radius r₀"),
-    "offset": say("offset e"),
-    "distance": say("centre distance c"),
-    "s0": say("distance s₀"),
-    "need": say("greatest −(s + a)"),
-    "alpha": say("pressure angle α"),
-    "transmission": say("transmission angle"),
-    "psi0": say("angle ψ₀"),
-    "max_rise": say("greatest α on the rise"),
-    "max_return": say("greatest α on the return"),
-    "x": say("x"),
-    "y": say("y"),
-    "radius": say("polar radius"),
-    "polar_angle": say("polar angle"),
-    "contact": say("contact beside the ray"),
-    "face_left": say("half-width of the face, left"),
-    "face_right": say("half-width of the face, right"),
-    "phi": say("cam angles φ"),
-    "rho": say("least radius of curvature ρ"),
-    "candidates": say("proposals"),
-    "roller_radius": say("roller radius r"),
-    "load": say("load Q"),
-    "normal": say("contact force F"),
-    "along": say("F cos α"),
-    "side": say("F sin α"),
-    "friction": say("friction in the guide"),
-    "reaction": say("reaction R"),
-    "three_arcs.base": say("radius of the base circle"),
-    "outer": say("radius of the outer circle"),
-    "rho2": say("radius ρ₂"),
-    "rho3": say("radius ρ₃"),
-    "lift": say("lift h"),
-    "max_alpha": say("greatest α"),
-    "phi_G": say("φ at G"),
-    "phi_F": say("φ at F"),
-    "rise": say("angle of the rise"),
-    **{f"{name}_{axis}": sequence([name, axis]) for name in ("C1", "C2", "C3", "F") for axis in "xy"},
-    **{f"other_{name}_{axis}": sequence([f"{name}′", axis]) for name in ("C3", "F") for axis in "xy"},
-    **{f"a_{point}": say("a in {point}", point=point) for point in "AD"},
-    **{f"a_{point}_before": say("a in {point}, {side}", point=point, side=say("before")) for point in "GF"},
-    **{f"a_{point}_after": say("a in {point}, {side}", point=point, side=say("after")) for point in "GF"},
-}
-"""What each reading is called; of a name that two constructions use, after the construction's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +73,7 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     # Not Construction.first: a place of the same name would come before the reading.
     paper = reading.paper[0] if construction.pencil.samples is not None else reading.paper
     paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
-    title = TITLES.get(f"{construction.name}.{name}") or TITLES[name]
+    title = construction.meaning.reading(name).title
     places = _places(construction, paper.size) if paper.ndim else ()
     mu = reading.per_mm
     if reading.unit == PAPER:

@@ -61,6 +61,7 @@ ROLLER_MEANING = Meaning(
             (Compared("roller_radius", say("roller radius"), unit="mm", candidates="candidates"),),
         ),
     },
+    "report.paragraphs.roller",
 )
 PROFILE_MEANING = Meaning(
     "working_profile",
@@ -71,6 +72,7 @@ PROFILE_MEANING = Meaning(
             say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
         )
     },
+    "report.paragraphs.working_profile",
 )
 
 

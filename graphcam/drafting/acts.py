@@ -168,6 +168,11 @@ class Drawn:
         ends = self.shown
         return Segments(np.broadcast_to(begin, ends.shape), ends, role, of=self.act)
 
+    def ways(self, role: Role) -> Segments:
+        """Of lines that join places: from each to the other."""
+        first = self.first
+        return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, of=self.act)
+
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""
         return Line(np.array([start.place if isinstance(start, Drawn) else start, self.place]), role, of=self.act)

@@ -111,7 +111,8 @@ class Hand:
         """Places of a drawing that was made before, by their name there."""
         acts, place = construction.acts, (construction.name, name)
         along = acts[name].along if name in acts else None
-        return self._left(Kind.GIVEN, ": ".join(place), {"place": place}, construction.points[name], along)
+        takes = {"place": place, "of": acts.get(name)}
+        return self._left(Kind.GIVEN, ": ".join(place), takes, construction.points[name], along)
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""

@@ -7,18 +7,19 @@ named here, not computed: the drawn and the exact side meet in the comparison.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.errors import DesignError
 from graphcam.words import Caption
 
 DEGREES = math.degrees(1.0)
 """Degrees in a radian."""
-Rank = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Rank = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 """Which of several candidates is taken: the one of highest rank."""
 Measured = Literal["value", "at stations", "from the pitch curve", "from the profile"]
 """How far a reading is off: itself, the greatest at the stations, or the greatest distance of points from a curve."""
@@ -48,11 +49,13 @@ class Converges:
     """A reading whose error is followed over the number of parts, under the title ``quantity``.
 
     exact : the exact counterpart's name
+    of : the reading that is measured, where it is not this one; of several values the first
     """
 
     quantity: str
     exact: str
     measured: Measured = "value"
+    of: str = ""
 
 
 @dataclass(frozen=True)
@@ -78,12 +81,31 @@ class Meaning:
     title : of its chapter
     why : the paragraph that stands before its steps
     readings : those that a reader takes, by name; what else it reads is an aid of the draughtsman
+    calculation : the function of a room above that puts its numbers into formulas for the note, such as
+        "report.paragraphs.roller"; without one the captions of its steps tell it
     """
 
     name: str
     title: Caption
     why: Caption
     readings: Mapping[str, ReadingMeaning] = field(default_factory=dict[str, ReadingMeaning])
+    calculation: str = ""
+
+    def reading(self, name: str) -> ReadingMeaning:
+        """What one of its readings is.
+
+        Raises
+        ------
+        DesignError : it says nothing of that reading
+        """
+        if name not in self.readings:
+            raise DesignError(f"reading of {self.name}", name, f"told by its meaning: {', '.join(self.readings)}")
+        return self.readings[name]
+
+    @property
+    def compared(self) -> Iterator[tuple[str, Compared]]:
+        """The names of the readings that are compared, with what they are compared as."""
+        return ((name, said) for name, reading in self.readings.items() for said in reading.compared)
 
 
 def greatest(name: str, title: Caption, candidates: str, factor: float = 1.0, unit: str = "") -> Compared:

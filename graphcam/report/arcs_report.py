@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphcam.comparison.arc_quantities import OF_ARCS
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
 from graphcam.drafting.scale import ratio_text
@@ -15,7 +14,15 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.report.contents import Contents
 from graphcam.report.markdown import blocks, number, table
-from graphcam.report.note import against_exact, as_drawn, drawn_how, heading, markdown_table, told_jumps, whole_note
+from graphcam.report.note import (
+    against_exact,
+    constructions,
+    drawn_how,
+    heading,
+    markdown_table,
+    told_jumps,
+    whole_note,
+)
 from graphcam.report.note_tables import station_table
 from graphcam.report.sheet_contents import diagram_titles, title_block, titled
 from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
@@ -29,11 +36,6 @@ CASES = {
     3: say("C2 is given, and C1 is found on the line OD"),
     4: say("C1 is found on the line OD and C2 on the line OA"),
 }
-TITLES = {
-    "three_arcs": say("The arcs"),
-    "arc_roller": say("The roller on the arcs"),
-    "arc_diagrams": say("Motion of the follower"),
-}
 IMPACT = say(
     "The arcs touch, so the velocity is continuous, and the acceleration jumps where one arc takes over from another: "
     "the impact is soft."
@@ -46,8 +48,9 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     titles, quantities = _titles(solution), solution.comparison.quantities
     steps = tuple((name, titled(step, titles)) for name, c in solution.drawn.items() for step in c.steps())
     # In two tables, so that they fit on the smallest format.
-    of_arcs = {name: q for name, q in quantities.items() if name in OF_ARCS}
-    of_motion = {name: q for name, q in quantities.items() if name not in OF_ARCS}
+    on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared}
+    of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
+    of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
     results = comparison(of_arcs), comparison(of_motion)
     title = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
     return Contents(solution, title, solution.drawn, steps, (_data(solution),), results)
@@ -123,7 +126,7 @@ def arcs_note(solution: ArcsSolution) -> str:
     head = blocks(heading(solution.task.title, tell), designed, data, pencil, tell=tell)
     jumps = told_jumps(solution.motion.jumps, "a", "mm/rad²", tell)
     chapters = [
-        *((TITLES[name], as_drawn(name, solution)) for name in solution.drawn),
+        *constructions(solution),
         (say("Both roots"), _roots(solution)),
         (say("Kind of impact"), f"{tell(IMPACT)} {jumps}"),
         (say("Values at the stations"), _stations(solution)),

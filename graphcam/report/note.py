@@ -3,48 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Sequence
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import degrees, phase_title
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
-from graphcam.report.paragraphs import OF_ALL, OF_ROLLERS, Paragraph, general, warning
+from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import title_name
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
-from graphcam.report.translating_paragraphs import OF_TRANSLATING
 from graphcam.sheets.tables import Table
+from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import SpringDesign, at_side
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
-
-OF_FOLLOWERS: Mapping[str, Mapping[str, Paragraph]] = {
-    "translating": {**OF_ALL, **OF_ROLLERS, **OF_TRANSLATING},
-    "oscillating": {**OF_ALL, **OF_ROLLERS},
-    "flat-faced": OF_ALL,
-}
-"""The paragraphs by the follower's kind; a construction without one is told by the captions of its steps."""
-TITLES = {
-    "acceleration": say("Acceleration diagram"),
-    "integration": say("Velocity, displacement and the scales"),
-    "minimum_radius": say("Least prime radius"),
-    "pressure_angle": say("Pressure angle"),
-    "angle_diagram": say("Greatest pressure angles"),
-    "inversion": say("Pitch curve by inversion"),
-    "curvature": say("Least radius of curvature"),
-    "roller": say("Roller radius"),
-    "working_profile": say("Working profile"),
-    "differentiation": say("Velocity and acceleration by differentiation"),
-}
-"""The constructions that the note tells, and how it calls them."""
 
 
 def note(solution: Solution) -> str:
@@ -54,9 +34,7 @@ def note(solution: Solution) -> str:
     >>> "the prime radius is adopted as $r_0 = 44$ mm" in note(gc.solve(gc.builtin_task()))
     True
     """
-    written = OF_FOLLOWERS[solution.task.follower.kind]
-    told = [name for name in solution.drawn if name in TITLES]
-    chapters = [(TITLES[name], written.get(name, partial(as_drawn, name))(solution)) for name in told]
+    chapters = constructions(solution)
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
     chapters.append((say("Kind of impact"), _impact(solution)))
@@ -86,9 +64,16 @@ def comparison_file(solution: AnySolution) -> str:
     return in_formulas(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
 
 
-def as_drawn(name: str, solution: AnySolution) -> str:
-    """What the steps of a construction say, where no paragraph puts the numbers into formulas."""
-    return " ".join(solution.tell(step.caption) for step in solution.drawn[name].steps())
+def constructions(solution: AnySolution) -> list[tuple[Caption, str]]:
+    """A chapter on each construction that reads something: why it is drawn, and its numbers."""
+    read = [drawn for drawn in solution.drawn.values() if drawn.meaning.readings]
+    return [(drawn.meaning.title, _told(drawn, solution)) for drawn in read]
+
+
+def _told(drawn: Construction, solution: AnySolution) -> str:
+    meaning = drawn.meaning
+    calculated = from_above(meaning.calculation)(solution) if meaning.calculation else as_drawn(drawn)
+    return blocks(meaning.why, calculated, tell=solution.tell)
 
 
 def heading(title: TitleTable, tell: Tell) -> str:

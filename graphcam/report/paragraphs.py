@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from graphcam.constructions.acceleration import equal_parts, moving_phases
 from graphcam.constructions.axes import degrees, phase_title, station_names
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
 from graphcam.given.motion import FULL_TURN, Moving
@@ -18,8 +19,6 @@ from graphcam.report.sheet_data import law_title
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, joined, say, sequence
 
-Paragraph = Callable[[Solution], str]
-"""Writes what stands under one heading."""
 FINEST_READING = 0.01
 """What is told of a length on paper [mm]."""
 LAST_DIGIT = 0.005
@@ -33,6 +32,11 @@ def digits(per_mm: float) -> int:
     (3, 2, 0)
     """
     return max(0, math.ceil(-math.log10(FINEST_READING * per_mm)))
+
+
+def as_drawn(drawn: Construction) -> Caption:
+    """What the steps of a construction say, where no paragraph puts the numbers into formulas."""
+    return sequence([step.caption for step in drawn.steps()], " ")
 
 
 def warning(sentence: Words) -> Caption:
@@ -301,6 +305,8 @@ def _rounded_down(rounding: float, adopted: float) -> Caption:
 def working_profile(solution: Solution) -> str:
     """The envelope's radii, and whether it is undercut."""
     profile, radius = solution.drawn["working_profile"], solution.chain.roller_radius
+    if "roller" not in solution.drawn:
+        return solution.tell(as_drawn(profile))
     radii = profile.value("radius")
     how = (
         say(
@@ -339,14 +345,3 @@ def _undercut(solution: Solution, radius: float) -> list[Caption]:
     if radius and math.isfinite(rho):
         return [say("The roller is smaller than ρ = {rho} mm, so the profile is not undercut.", rho=number(rho))]
     return []
-
-
-OF_ALL: Mapping[str, Paragraph] = {"acceleration": acceleration, "integration": integration}
-"""What every follower has, by the construction that each paragraph is about."""
-OF_ROLLERS: Mapping[str, Paragraph] = {
-    "angle_diagram": greatest_angles,
-    "curvature": curvature,
-    "roller": roller,
-    "working_profile": working_profile,
-}
-"""What a follower with a roller or a knife edge has too."""

@@ -28,13 +28,11 @@ UNNAMED = say("Cam mechanism")
 def motion_contents(solution: Solution) -> Contents:
     """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
     titles, spring, drawn = _titles(solution), solution.spring, dict(solution.drawn)
-    steps = [(name, _scaled(step, titles)) for name, c in drawn.items() for step in c.steps()]
     results = [comparison(solution.comparison.quantities)]
     if spring:
-        steps += spring.steps()
+        drawn |= spring.drawn
         results.append(spring.table())
-        if plan := spring.force_plan:
-            drawn["force_plan"] = plan
+    steps = [(name, _scaled(step, titles)) for name, c in drawn.items() for step in c.steps()]
     title = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
     return Contents(solution, title, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
 

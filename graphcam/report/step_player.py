@@ -2,28 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from itertools import groupby
 
 from graphcam.constructions.readings import ReadingRow, rows
-from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.drafting.ink import Construction, Step, say
 from graphcam.language import language
-from graphcam.report.arcs_report import TITLES as ARCS_TITLES
 from graphcam.report.documents import contents_of, scene_of
 from graphcam.report.mechanism_view import mechanism_view
-from graphcam.report.note import TITLES
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.player import WORDS, ReadingText, Slide, player
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Tell
-
-CHAPTERS: Mapping[str, Caption] = {
-    **TITLES,
-    **ARCS_TITLES,
-    "scheme": say("Scheme of the mechanism"),
-    "contact": say("Contact force"),
-    "force_plan": say("Force plan"),
-}
-"""What the constructions are called."""
 
 
 def player_of(solution: AnySolution, drawing: Drawing) -> str:
@@ -40,12 +29,19 @@ def player_of(solution: AnySolution, drawing: Drawing) -> str:
 def slides(solution: AnySolution, tell: Tell = str) -> list[Slide]:
     """What is said of each step of the sheet, in order."""
     sheets = contents_of(solution)
-    return [_slide(name, step, sheets.drawn.get(name), tell) for name, step in sheets.steps]
+    chapters = groupby(sheets.steps, key=lambda step: step[0])
+    return [
+        _slide(sheets.drawn[name], step, tell, opens=k == 0)
+        for name, steps in chapters
+        for k, (_, step) in enumerate(steps)
+    ]
 
 
-def _slide(name: str, step: Step, construction: Construction | None, tell: Tell) -> Slide:
-    read = [_reading(row, tell) for row in rows(construction, step)] if construction else []
-    return Slide(tell(CHAPTERS[name]), step.view.name, tell(step.title), tell(step.caption), tuple(read))
+def _slide(construction: Construction, step: Step, tell: Tell, *, opens: bool) -> Slide:
+    """What is said of a step; that which opens a chapter says why the construction is drawn."""
+    title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
+    read = tuple(_reading(row, tell) for row in rows(construction, step))
+    return Slide(title, step.view.name, tell(step.title), tell(step.caption), read, why if opens else "")
 
 
 def _reading(row: ReadingRow, tell: Tell) -> ReadingText:

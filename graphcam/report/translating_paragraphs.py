@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from graphcam.constructions.axes import degrees, station_names, turning
@@ -16,7 +16,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.limits import Limits
 from graphcam.report.markdown import blocks, formula, number, numbers
-from graphcam.report.paragraphs import LAST_DIGIT, Paragraph, general, warning
+from graphcam.report.paragraphs import LAST_DIGIT, general, warning
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
@@ -202,11 +202,3 @@ def _at_shown_station(solution: Solution) -> dict[str, Words]:
         "less": "-" if offset >= 0 else "+",
         "tan": TAN,
     }
-
-
-OF_TRANSLATING: Mapping[str, Paragraph] = {
-    "minimum_radius": least_radius,
-    "pressure_angle": pressure_angle,
-    "inversion": inversion,
-}
-"""By the construction that each is about."""

@@ -75,13 +75,17 @@ class ReadingText:
 
 @dataclass(frozen=True)
 class Slide:
-    """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing."""
+    """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing.
+
+    why : what is said of the construction before its first step
+    """
 
     chapter: str
     view: str
     title: str
     caption: str
     readings: tuple[ReadingText, ...] = ()
+    why: str = ""
 
 
 def player(
@@ -161,7 +165,7 @@ def _places(drawing: Drawing, slides: Sequence[Slide]) -> list[dict[str, Any]]:
 
 
 def _texts(slide: Slide) -> Iterable[str]:
-    yield from (slide.chapter, slide.title, slide.caption)
+    yield from (slide.chapter, slide.why, slide.title, slide.caption)
     for reading in slide.readings:
         yield from (reading.title, reading.taken, reading.value)
 

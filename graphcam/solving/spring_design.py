@@ -16,6 +16,7 @@ from graphcam.constructions.force_plan import round_scale
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Role, Segments
+from graphcam.drafting.meaning import Meaning
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
@@ -26,6 +27,11 @@ from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.words import sequence
 
+CONTACT_MEANING = Meaning(
+    "contact",
+    say("Contact force"),
+    say("A spring presses the follower on the cam, but no cam can pull: where it would have to, contact is lost."),
+)
 CONTACT = View("contact", say("Contact force ξ"), across="contact phi", up="contact force")
 WIDTH = 120.0
 """A turn is this long on paper [mm]."""
@@ -97,10 +103,11 @@ class SpringDesign:
             "contact_lost_deg": [[math.degrees(phi) for phi in interval] for interval in self.contact.lost()],
         }
 
-    def steps(self) -> list[tuple[str, Step]]:
-        """What is drawn of it: the contact function, and the force plan."""
-        plan = self.force_plan.steps() if self.force_plan else []
-        return [("contact", contact_view(self.contact)), *(("force_plan", step) for step in plan)]
+    @property
+    def drawn(self) -> dict[str, Construction]:
+        """What is drawn of it by name: the contact function, and the force plan."""
+        drawn = Construction(CONTACT_MEANING, self.contact, self.chain.pencil, {}, {}, contact_steps)
+        return {each.name: each for each in (drawn, self.force_plan) if each}
 
     def table(self) -> Table:
         """The load and its results for the sheet."""
@@ -130,8 +137,9 @@ def _newtons(force: float) -> Caption:
     return say("{force:.4g} N", force=force)
 
 
-def contact_view(contact: Contact) -> Step:
+def contact_steps(drawn: Construction[Contact]) -> list[Step]:
     """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
+    contact = drawn.givens
     curve, motion = contact.curve(), contact.motion
     mu_force, mu_phi = round_scale(float(np.abs(curve.force).max())), FULL_TURN / WIDTH
     points = curve.phi / mu_phi + UP * curve.force / mu_force.per_mm
@@ -160,7 +168,7 @@ def contact_view(contact: Contact) -> Step:
     )
     mu = {"mu": mu_force.per_mm}
     view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", **mu))
-    return Step(say("The contact function"), replace(LOST if lost else KEPT, values=mu), view, marks, given=axes)
+    return [Step(say("The contact function"), replace(LOST if lost else KEPT, values=mu), view, marks, given=axes)]
 
 
 LOST = say(

@@ -203,7 +203,7 @@ def test_of_other_followers_only_a_flat_face_draws_its_region_for_the_curvature(
     for name, board in OTHERS.items():
         chain = Chain(replace(board, prime_radius=50.0), decided=SIZES if name == "flat" else ARM_SIZES)
         _ = chain["curvature"]
-        assert ("minimum_radius" in vars(chain)) == (name == "flat")
+        assert ("minimum_radius" in chain.lying) == (name == "flat")
 
 
 ARM_SIZES = AdoptedSizes(50.0, 120.0, 10.0)

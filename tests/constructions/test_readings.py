@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
@@ -15,7 +16,7 @@ from boards import coursework
 import graphcam as gc
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import force_plan
-from graphcam.constructions.readings import TITLES, ReadingRow, rows
+from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step, View, reading, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.spring_load import SpringLoad
@@ -80,12 +81,32 @@ def test_every_construction_with_readings_says_where_they_are_taken(task):
         assert bool(taken) == bool(construction.readings), name
 
 
-def test_every_title_is_that_of_a_reading_that_some_step_takes():
-    used = set()
+def test_what_a_construction_says_of_its_readings_some_step_reads():
+    """And nothing is read that it does not speak of."""
+    taken = defaultdict(set)
     for task in TASKS:
         for construction, step in steps(task, HANDS[0]):
-            used |= {name if name in TITLES else f"{construction.name}.{name}" for name in step.reads}
-    assert used == set(TITLES)
+            # Constructions of different followers may have one name.
+            taken[construction.name, str(construction.meaning.why)].update(step.reads)
+    for task in TASKS:
+        for construction in drawn(task, HANDS[0]).values():
+            meaning = construction.meaning
+            assert taken[meaning.name, str(meaning.why)] == set(meaning.readings), meaning.name
+
+
+@each_task
+def test_the_unit_of_a_reading_is_the_one_that_its_meaning_says(task):
+    for construction in drawn(task, HANDS[0]).values():
+        for name, meaning in construction.meaning.readings.items():
+            lift = "rad" if task == "arm" else "mm"
+            assert construction.readings[name].unit == meaning.unit.replace("lift", lift), (construction.name, name)
+
+
+def test_a_reading_of_which_nothing_is_said_is_refused_by_its_name():
+    construction = Chain(coursework())["minimum_radius"]
+    step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("height",))
+    with pytest.raises(gc.DesignError, match=r"reading of minimum_radius is .*, but must be told"):
+        rows(replace(construction, readings={"height": reading(1.0, 1.0, "mm")}), step)
 
 
 def test_values_at_stations_bear_the_names_of_the_stations():

@@ -91,7 +91,8 @@ def test_what_cannot_be_read_is_told_as_such():
 def test_a_solution_is_told_without_drawing_it():
     solution = gc.solve(gc.builtin_task())
     repr(solution), repr(solution.chain)
-    assert "working_profile" not in solution.chain.__dict__
+    assert "working_profile" not in solution.chain.lying
+    assert solution.chain["working_profile"] is solution.chain.lying["working_profile"]
     assert "comparison" not in solution.__dict__
 
 

@@ -1,0 +1,236 @@
+"""What every construction owes to its acts: they suffice to draw it again, none is exact, no mark is without one."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from golden_random import TASKS as RANDOM
+from replay import Figure, SecondBoard, figure_of, followed, written
+
+import graphcam as gc
+from graphcam.drafting.acts import Act, Drawn, Kind
+from graphcam.drafting.ink import Construction, Step
+from graphcam.drafting.marks import (
+    AngleMark,
+    Arc,
+    Arrow,
+    Circle,
+    Dimension,
+    Dots,
+    Label,
+    Line,
+    Mark,
+    Region,
+    Role,
+    Segments,
+)
+from graphcam.errors import DesignError
+
+REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
+"""mm: how far the second board may land beside the first, and a mark beside what its act left."""
+HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
+BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
+TASKS = BUILT_IN | RANDOM
+EVERY = pytest.mark.parametrize("name", TASKS)
+SHOWN = pytest.mark.parametrize("name", [*BUILT_IN, *list(RANDOM)[::5]])
+
+
+@cache
+def drawn(name: str, pencil: gc.Pencil | None = None) -> dict[str, Construction]:
+    """All constructions of a task, the force plan of a spring among them; none where no cam solves it."""
+    try:
+        solution = gc.solve(TASKS[name], pencil)
+        found = dict(solution.drawn)
+    except DesignError:
+        return {}
+    spring = getattr(solution, "spring", None)
+    return found | ({"force plan": spring.force_plan} if spring and spring.force_plan else {})
+
+
+# --- the acts suffice ------------------------------------------------------------------------------------------------
+
+
+def off(here: Any, there: list[float] | list[complex]) -> float:
+    """The greatest difference [mm, or rad]; what neither board finds does not count."""
+    ours, theirs = np.ravel(np.asarray(here)), np.asarray(there)
+    assert ours.shape == theirs.shape
+    unknown = np.isnan(ours)
+    assert np.array_equal(unknown, np.isnan(theirs))
+    finite = np.isfinite(ours)
+    assert np.array_equal(ours[~finite & ~unknown], theirs[~finite & ~unknown])
+    return float(np.max(np.abs(ours - theirs)[finite], initial=0.0))
+
+
+@EVERY
+def test_a_second_board_follows_the_acts_to_the_same_readings_and_places(name):
+    for construction in drawn(name).values():
+        readings, lies = followed(construction)
+        assert set(readings) == set(construction.readings), construction.name
+        for key, read in construction.readings.items():
+            assert off(read.paper, readings[key]) < REPLAYED, (construction.name, key)
+        for key, left in construction.acts.items():
+            assert off(left.points, lies[key].points) < REPLAYED, (construction.name, key)
+
+
+def test_a_sense_taken_wrongly_would_be_found():
+    """The second board goes by what is written down: turned round there, it lands elsewhere."""
+    text, formulas = written(drawn("coursework")["integration"])
+    data = json.loads(text)
+    pole = next(row for row in data["rows"] if row["name"] == "P2")
+    pole["takes"]["length"] *= 1.001
+    s = SecondBoard(data["rows"], formulas).figure(data["readings"]["s"])[0]
+    assert off(drawn("coursework")["integration"].readings["s"].paper, s) > 0.01
+
+
+@SHOWN
+def test_no_act_takes_a_number_that_only_the_hand_could_know(name):
+    """Two hands that err differently do the same by the same numbers: what differs was found on their paper."""
+    hands = [gc.Pencil(line=0.02, dividers=0.02, protractor=math.radians(0.05), seed=seed) for seed in (1, 2)]
+    for one, other in zip(*(drawn(name, hand).values() for hand in hands), strict=True):
+        texts = [written(each, decisions=False)[0] for each in (one, other)]
+        if texts[0] != texts[1]:
+            rows = zip(*(json.loads(text)["rows"] for text in texts), strict=True)
+            raise AssertionError((one.name, next(pair for pair in rows if pair[0] != pair[1])))
+
+
+# --- none is exact ---------------------------------------------------------------------------------------------------
+
+
+def steady(construction: Construction) -> Iterator[str]:
+    """The readings that are the same for all hands."""
+    for key, read in construction.readings.items():
+        values = np.where(np.isfinite(read.paper), read.paper, np.nan)
+        known = np.isfinite(values).sum(axis=0) > 1
+        if known.any() and not np.nanstd(values[:, known] if known.ndim else values, axis=0).max() > 1e-9:
+            yield key
+
+
+@SHOWN
+def test_no_reading_is_without_scatter(name):
+    for construction in drawn(name, HANDS).values():
+        assert list(steady(construction)) == [], construction.name
+
+
+def test_a_reading_without_scatter_would_be_found():
+    assert list(steady(gc.solve(gc.builtin_task(), gc.Pencil(samples=3)).drawn["integration"])) != []
+
+
+# --- no mark stands without an act -----------------------------------------------------------------------------------
+
+GIVEN_ROLES = (Role.AXIS, Role.SCALE)
+"""Axes and centre lines are drawn before the first act."""
+
+
+def own_marks(step: Step) -> list[Mark]:
+    """The marks that are neither given nor axes."""
+    return [mark for mark in step.own if getattr(mark, "role", None) not in GIVEN_ROLES]
+
+
+@SHOWN
+def test_every_mark_names_the_act_that_left_it_or_the_reading_that_it_bears(name):
+    for construction in drawn(name).values():
+        for step in construction.steps():
+            for mark in own_marks(step):
+                assert isinstance(mark.of, Act), (construction.name, str(step.title), mark)
+
+
+def vertices(mark: Mark) -> list[list[complex]]:
+    """The places of a mark, line by line."""
+    match mark:
+        case Line(points=points):
+            return [[complex(p) for p in points]]
+        case Segments(starts=starts, ends=ends):
+            return [[complex(a), complex(b)] for a, b in zip(starts, ends, strict=True)]
+        case Dots(points=points):
+            return [[complex(p)] for p in points]
+        case Arrow(start=start, end=end):
+            return [[start, end]]
+        case Region(boundary=boundary):
+            return [[complex(p)] for p in boundary]
+        case _:
+            return []
+
+
+def traces(act: Act, figure: Figure) -> list[tuple[complex, complex]]:
+    """The segments that a pencil or a pair of dividers runs over in an act: from where it starts to what it leaves."""
+    found = list(pairwise(figure.points))
+    for key in ("start", "points", "cuts"):
+        if isinstance(source := act.takes.get(key), Drawn):
+            starts = whole_figure(source).points
+            n = len(figure.points)
+            found += zip(starts * n if len(starts) == 1 else starts, figure.points, strict=False)
+    return found
+
+
+def whole_figure(drawn: Drawn) -> Figure:
+    """What is taken, by the second board."""
+    taken = Act(Kind.TAKE, "test", "taken", {"of": (drawn,), "which": None})
+    return figure_of(taken)
+
+
+def from_segment(p: complex, a: complex, b: complex) -> float:
+    """How far a place lies from a segment."""
+    way = b - a
+    t = 0.0 if way == 0 else min(1.0, max(0.0, ((p - a) * way.conjugate()).real / abs(way) ** 2))
+    return abs(p - a - t * way)
+
+
+def from_line(p: complex, a: complex, d: complex) -> float:
+    """How far a place lies from a line."""
+    return abs(((p - a) * d.conjugate()).imag) / abs(d)
+
+
+def beside(mark: Mark, act: Act, figure: Figure) -> float:
+    """How far, at most, a mark lies beside what its act left: each of its lines beside one place, line or circle."""
+    if isinstance(mark, Circle | Arc):
+        circles = zip(figure.points, figure.radius or [], strict=True)
+        return min(abs(mark.centre - centre) + abs(mark.radius - radius) for centre, radius in circles)
+    ways = [(p, d) for p, d in zip(figure.points, figure.along or [], strict=False) if not np.isnan(p) and abs(d) > 0]
+    if act.kind is Kind.PROJECT:  # square to the line that it is projected on
+        onto = whole_figure(act.takes["onto"])
+        ways = [(p, (onto.along or [])[min(k, len(onto.points) - 1)] * 1j) for k, p in enumerate(figure.points)]
+    rounds = list(zip(figure.points, figure.radius or [], strict=False))
+    segments = traces(act, figure)
+
+    def near(p: complex) -> float:
+        """How far a place lies from the nearest of all."""
+        return min(
+            *(abs(p - q) for q in figure.points),
+            *(from_line(p, q, d) for q, d in ways),
+            *(abs(abs(p - c) - r) for c, r in rounds),
+            *(from_segment(p, a, b) for a, b in segments),
+            math.inf,
+        )
+
+    def along(line: list[complex]) -> float:
+        """How far a segment lies from the nearest line or trace, at its farther end."""
+        return min(
+            *(max(from_line(p, q, d) for p in line) for q, d in ways),
+            *(max(from_segment(p, a, b) for p in line) for a, b in segments),
+            max(min(abs(p - q) for q in figure.points) for p in line),
+            math.inf,
+        )
+
+    return max((along(line) if len(line) == 2 else max(map(near, line)) for line in vertices(mark)), default=0.0)
+
+
+@SHOWN
+def test_every_mark_lies_on_what_its_act_left(name):
+    """The figure is the second board's, so a mark that strays, or an act that would not be followed so, is found."""
+    for construction in drawn(name).values():
+        for step in construction.steps():
+            for mark in own_marks(step):
+                if isinstance(mark, Label | Dimension | AngleMark):
+                    continue  # a name stands beside its place, and a number beside what it measures
+                assert beside(mark, mark.of, figure_of(mark.of)) < ON_THE_FIGURE, (
+                    construction.name,
+                    str(step.title),
+                    mark,
+                )
