@@ -103,9 +103,10 @@ class Hand:
         """Places, or lines along a direction, that lie on the board before the first act: origin, axes, data."""
         places = np.asarray(points, dtype=np.complex128)
         direction = None if along is None else np.asarray(along, dtype=np.complex128)
-        return self._left(
-            Kind.GIVEN, name, {"points": places, "along": direction}, self.pencil.sheets(places), direction
-        )
+        if direction is not None:
+            places, direction = np.broadcast_arrays(places, direction)
+        takes = {"points": places, "along": direction}
+        return self._left(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
     def found(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
