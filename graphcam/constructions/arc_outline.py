@@ -93,13 +93,13 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
         points["C1"] = hand.lay_off("C1", d, hand.join("D O", d, o), rho1)
     if given.C2 is None:
         a = points["given_A"]
-        points["C2"] = hand.cross("C2", hand.bisect("bisector of A G", a, g), hand.join("O A", o, a))
+        points["C2"] = hand.cross("C2", _bisected(hand, "A G", a, g), hand.join("O A", o, a))
     c1, c2 = points["C1"], points["C2"]
     about_c1 = hand.circle("circle about C1", c1, rho1)
     line = hand.join("G C2", g, c2)
     for name, side in (("", 1), ("other_", -1)):
         p = hand.lay_off(f"{name}P", g, line.turned(side), rho1)
-        c3 = hand.cross(f"{name}C3", hand.bisect(f"{name}bisector", c1, p), line)
+        c3 = hand.cross(f"{name}C3", _bisected(hand, f"C1 {name}P", c1, p), line)
         centres = hand.join(f"{name}C1 C3", c1, c3)
         f = _touching(hand, f"{name}F", centres, about_c1, between(c3, g))
         points |= {f"{name}P": p, f"{name}C3": c3, f"{name}F": f}
@@ -127,6 +127,12 @@ def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, D
     acts = {name: f"given_{name}" if name in "AD" else name for name in names}
     found = {name: hand.take(act, plotted, which=k) for k, (name, act) in enumerate(acts.items())}
     return found | ({"given_A": found["A"]} if "A" in found else {})
+
+
+def _bisected(hand: Hand, chord: str, start: Drawn, end: Drawn) -> Drawn:
+    """The perpendicular bisector of a chord that is drawn."""
+    hand.join(chord, start, end)
+    return hand.bisect(f"bisector of {chord}", start, end)
 
 
 def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Setting) -> Drawn:
@@ -297,7 +303,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
             "The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the second arc: "
             "ρ₂ = C2 G = {rho2:.3f} mm."
         ).where(at=_at(arcs, "C2"), rho2=rho2)
-        bisector = _bisector(arcs, "bisector of A G", c2)
+        bisector = _bisector(arcs, "A G", c2)
     else:
         said = say(
             "The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches a "
@@ -316,13 +322,14 @@ def _second_centre(arcs: ArcOutline) -> Step:
     return Step(say("The second centre"), said, ARCS, marks, reads=(*_xy("C2"), "rho2"))
 
 
-def _bisector(arcs: ArcOutline, name: str, to: complex, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
+def _bisector(arcs: ArcOutline, chord: str, to: complex, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
     """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
-    act, middle = arcs.acts[name].act, arcs.acts[name].place
-    a, b = (end.place for end in (act.takes["start"], act.takes["end"]))
-    along = to - middle
-    start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
-    return Line(np.array([a, b]), role, of=act), Line(np.array([start, to]), role, of=act)
+    ends, middle = arcs.acts[chord].ways(role), arcs.acts[f"bisector of {chord}"]
+    along = to - middle.place
+    start = middle.place - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle.place
+    return Line(np.concatenate([ends.starts, ends.ends]), role, of=ends.of), Line(
+        np.array([start, to]), role, of=middle.act
+    )
 
 
 def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
@@ -348,7 +355,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
         prime=prime, f=_at(arcs, f"{name}F"), orders=_orders(at, prime)
     )
     found = (
-        *_bisector(arcs, f"{name}bisector", at["C3"], role),
+        *_bisector(arcs, f"C1 {name}P", at["C3"], role),
         _line(arcs, "G C2", at["G"], at["P"], at["C3"], role=role),
         *(_dots(arcs, f"{name}P", f"{name}C3"), _named(arcs, f"{name}P"), _named(arcs, f"{name}C3")),
     )

@@ -21,7 +21,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Step, View, Words, say
-from graphcam.drafting.marks import Circle, Label, Line, Mark, Role, Segments
+from graphcam.drafting.marks import Circle, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import DEGREES, Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
@@ -288,7 +288,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     station = stations.names[at]
     mu_l, sigma = arcs.givens.mu_l, run(arcs)
     names, upright = ("B", "C", "K", "right", "beyond", "N", "M"), UP / rolled.first("ray")[at]
-    places = np.array([0j, *(rolled.first(name)[at] * upright for name in names)])
+    places: Points = np.array([0j, *(rolled.first(name)[at] * upright for name in names)])
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, ())]
