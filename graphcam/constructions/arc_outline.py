@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -93,15 +94,16 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
         points["C1"] = hand.lay_off("C1", d, hand.join("D O", d, o), rho1)
     if given.C2 is None:
         a = points["given_A"]
-        points["C2"] = hand.cross("C2", _bisected(hand, "A G", a, g), hand.join("O A", o, a))
+        hand.join("given_A G", a, g)
+        points["C2"] = hand.cross("C2", hand.bisect("bisector of given_A G", a, g), hand.join("O A", o, a))
     c1, c2 = points["C1"], points["C2"]
     about_c1 = hand.circle("circle about C1", c1, rho1)
     line = hand.join("G C2", g, c2)
     for name, side in (("", 1), ("other_", -1)):
         p = hand.lay_off(f"{name}P", g, line.turned(side), rho1)
-        c3 = hand.cross(f"{name}C3", _bisected(hand, f"C1 {name}P", c1, p), line)
-        centres = hand.join(f"{name}C1 C3", c1, c3)
-        f = _touching(hand, f"{name}F", centres, about_c1, between(c3, g))
+        hand.join(f"C1 {name}P", c1, p)
+        c3 = hand.cross(f"{name}C3", hand.bisect(f"bisector of C1 {name}P", c1, p), line)
+        f = _touching(hand, name, hand.join(f"C1 {name}C3", c1, c3), about_c1, between(c3, g))
         points |= {f"{name}P": p, f"{name}C3": c3, f"{name}F": f}
     # The dwells' circles touch the arcs on the lines through the centres.
     about_c2, _ = (hand.circle(f"circle about {c}", points[c], between(points[c], g)) for c in ("C2", "C3"))
@@ -129,18 +131,12 @@ def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, D
     return found | ({"given_A": found["A"]} if "A" in found else {})
 
 
-def _bisected(hand: Hand, chord: str, start: Drawn, end: Drawn) -> Drawn:
-    """The perpendicular bisector of a chord that is drawn."""
-    hand.join(chord, start, end)
-    return hand.bisect(f"bisector of {chord}", start, end)
-
-
 def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Setting) -> Drawn:
     """F: of the two places where the line of centres meets the circle about C1 the one on the circle about C3."""
-    both = hand.cross(f"both {name}", hand.take(f"{name}: both ways", centres.turned(-1), centres), about_c1)
+    ends = hand.cross(f"{name}ends", hand.take(f"{name}both ways", centres.turned(-1), centres), about_c1)
     c3 = centres.points + centres.directions
-    off = np.abs(np.abs(both.points - c3[..., None]) - rho3.amount[..., None])
-    return hand.take(name, both, which=(off[..., :1] > off[..., 1:]).astype(int))[0]
+    off = np.abs(np.abs(ends.points - c3[..., None]) - rho3.amount[..., None])
+    return hand.take(f"{name}F", ends, which=np.argmin(off, axis=-1)[..., None])[0]
 
 
 def run(arcs: ArcOutline) -> int:
@@ -150,9 +146,8 @@ def run(arcs: ArcOutline) -> int:
 
 def middle_of_dwell(arcs: ArcOutline) -> Drawn:
     """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
-    hand, o = showing(arcs), arcs.acts["O"].first
-    to_d = hand.join("O D", o, arcs.acts["D"].first)
-    return hand.protractor("middle of the dwell", o, to_d, -run(arcs) * arcs.givens.dwell / 2)
+    turn = -run(arcs) * arcs.givens.dwell / 2
+    return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
 
 
 def outline(arcs: ArcOutline, circles: Sequence[Drawn], joints: Points, role: Role) -> list[Mark]:
@@ -185,13 +180,9 @@ def _arc(circle: Drawn, start: complex, turn: float, role: Role) -> Arc:
 
 def _draw(arcs: ArcOutline) -> list[Step]:
     steps = [_data(arcs), _first_centre(arcs), _second_centre(arcs)]
-    if np.isnan(arcs.first("C2")):
-        return steps
-    for name in ("", "other_"):
-        steps += _third_arc(arcs, name)
-    if np.isnan(arcs.first("C3")):
-        return steps
-    return [*steps, _profile(arcs)]
+    if not np.isnan(arcs.first("C2")):
+        steps += [*_third_arc(arcs, ""), *_third_arc(arcs, "other_")]
+    return steps if np.isnan(arcs.first("C3")) else [*steps, _profile(arcs)]
 
 
 def _profile(arcs: ArcOutline) -> Step:
@@ -230,10 +221,30 @@ def _dots(arcs: ArcOutline, *names: str) -> Dots:
     return showing(arcs).take(" ".join(names), *(arcs.acts[name].first for name in names)).dots()
 
 
+def _primed(name: str) -> str:
+    """What a point is called on the paper."""
+    return name.removeprefix("other_") + "′" * name.startswith("other_")
+
+
 def _named(arcs: ArcOutline, name: str, away: complex = 0j) -> Label:
     """The name of a point, on the side that is ``away`` from a place."""
-    way, text = _place(arcs, name) - away, name.removeprefix("other_") + "′" * name.startswith("other_")
-    return arcs.acts[name].label(text, way / abs(way) if abs(way) > SAME_RADIUS else 1 + 1j)
+    way = _place(arcs, name) - away
+    return arcs.acts[name].label(_primed(name), way / abs(way) if abs(way) > SAME_RADIUS else 1 + 1j)
+
+
+def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.CONSTRUCTION) -> Line:
+    """The part of a line between those two of its points that lie farthest apart."""
+    places = [_place(arcs, end) if isinstance(end, str) else end for end in ends]
+    pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
+    return Line(np.array(pair), role, of=arcs.acts[name].act)
+
+
+def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
+    """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
+    name, chord = f"bisector of {a} {b}", _line(arcs, f"{a} {b}", a, b, role=role)
+    middle, along = _place(arcs, name), _place(arcs, to) - _place(arcs, name)
+    start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
+    return chord, _line(arcs, name, start, to, role=role)
 
 
 def _at(arcs: ArcOutline, name: str) -> Caption:
@@ -287,14 +298,9 @@ def _first_centre(arcs: ArcOutline) -> Step:
     return Step(say("The first centre"), said, ARCS, marks, reads=_xy("C1"))
 
 
-def _line(arcs: ArcOutline, name: str, *ends: complex, role: Role = Role.CONSTRUCTION) -> Line:
-    """The part of a line between those two of its points that lie farthest apart."""
-    return Line(_whole(*ends), role, of=arcs.acts[name].act)
-
-
 def _second_centre(arcs: ArcOutline) -> Step:
-    given, c2, g, a = arcs.givens.given, *(_place(arcs, name) for name in ("C2", "G", "A"))
-    if np.isnan(c2):
+    given, a = arcs.givens.given, _place(arcs, "A")
+    if np.isnan(a):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
         return Step(say("The second centre"), said, ARCS, ())
     rho2 = float(arcs.value("rho2"))
@@ -303,7 +309,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
             "The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the second arc: "
             "ρ₂ = C2 G = {rho2:.3f} mm."
         ).where(at=_at(arcs, "C2"), rho2=rho2)
-        bisector = _bisector(arcs, "A G", c2)
+        bisector = _bisector(arcs, "given_A", "G", "C2")
     else:
         said = say(
             "The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches a "
@@ -311,8 +317,8 @@ def _second_centre(arcs: ArcOutline) -> Step:
         ).where(at=_told(given.C2), rho2=rho2)
         bisector = ()
     marks = (
-        _line(arcs, "O C2", a * (1 + OVERHANG / abs(a)), c2),
-        _line(arcs, "G C2", g, c2),
+        _line(arcs, "O C2", a * (1 + OVERHANG / abs(a)), "C2"),
+        _line(arcs, "G C2", "G", "C2"),
         arcs.acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
         *bisector,
         _dots(arcs, "C2", "A"),
@@ -322,47 +328,32 @@ def _second_centre(arcs: ArcOutline) -> Step:
     return Step(say("The second centre"), said, ARCS, marks, reads=(*_xy("C2"), "rho2"))
 
 
-def _bisector(arcs: ArcOutline, chord: str, to: complex, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
-    """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
-    ends, middle = arcs.acts[chord].ways(role), arcs.acts[f"bisector of {chord}"]
-    along = to - middle.place
-    start = middle.place - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle.place
-    return Line(np.concatenate([ends.starts, ends.ends]), role, of=ends.of), Line(
-        np.array([start, to]), role, of=middle.act
-    )
-
-
 def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     """The centre of the third arc and F, of the one root or the ``other_``."""
-    names = {point: name + point if point in ("P", "C3", "F") else point for point in ("G", "C1", "C2", "P", "C3", "F")}
-    at = {point: _place(arcs, of) for point, of in names.items()}
+    p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
     role, prime = (Role.HIDDEN, "′") if name else (Role.CONSTRUCTION, "")
     title = say("The third centre")
     laid_off = say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
     if name:
         title = say("The other root")
         laid_off = say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
-    if np.isnan(at["C3"]):
+    if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
-    rho3 = abs(at["C3"] - at["G"]) * arcs.givens.mu_l.per_mm
+    rho3 = abs(_place(arcs, c3) - _place(arcs, "G")) * arcs.givens.mu_l.per_mm
     found_centre = say(
         "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
         "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."
-    ).where(prime=prime, c3=_at(arcs, f"{name}C3"), rho3=rho3)
+    ).where(prime=prime, c3=_at(arcs, c3), rho3=rho3)
     centre = sequence([laid_off, found_centre], " ")
     touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
-        prime=prime, f=_at(arcs, f"{name}F"), orders=_orders(at, prime)
+        prime=prime, f=_at(arcs, f), orders=_orders(arcs, name)
     )
     found = (
-        *_bisector(arcs, f"C1 {name}P", at["C3"], role),
-        _line(arcs, "G C2", at["G"], at["P"], at["C3"], role=role),
-        *(_dots(arcs, f"{name}P", f"{name}C3"), _named(arcs, f"{name}P"), _named(arcs, f"{name}C3")),
+        *(*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role)),
+        *(_dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3)),
     )
-    line = (
-        _line(arcs, f"{name}C1 C3", at["C3"], at["C1"], at["F"], role=role),
-        *(arcs.acts[f"{name}F"].dots(), _named(arcs, f"{name}F")),
-    )
+    line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
     if name:
         reads = (*_xy("other_C3"), *_xy("other_F"))
         return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), reads)]
@@ -372,28 +363,17 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     ]
 
 
-def _whole(*points: complex) -> Points:
-    """The two of three points of a line that lie farthest apart."""
-    pairs = [np.array([a, b]) for k, a in enumerate(points) for b in points[k + 1 :]]
-    return max(pairs, key=lambda pair: abs(pair[0] - pair[1]))
-
-
-def _orders(at: dict[str, complex], prime: str) -> Caption:
+def _orders(arcs: ArcOutline, name: str) -> Caption:
     """What is read off the two lines of centres."""
-    first = _order({f"F{prime}": at["F"], "C1": at["C1"], f"C3{prime}": at["C3"]})
-    second = _order({"G": at["G"], f"C3{prime}": at["C3"], "C2": at["C2"]})
+    first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
     verdict = say("such a cam cannot be built")
-    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"] and not prime:
+    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"]:
         verdict = say("the arcs touch from inside, and the cam can be built")
     said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
     return said.where(first=sequence(first), second=sequence(second), verdict=verdict)
 
 
-def _order(points: dict[str, complex]) -> list[str]:
-    """The names of points of a line in their order, the first of the dictionary before the last."""
-    names = list(points)
-    ends = _whole(*points.values())
-    along: Points = np.asarray(ends[1] - ends[0])
-    place = {name: float(dot(along, np.asarray(at))) for name, at in points.items()}
-    order = sorted(names, key=lambda name: place[name])
-    return order if order.index(names[0]) < order.index(names[-1]) else order[::-1]
+def _order(arcs: ArcOutline, *names: str) -> list[str]:
+    """The names of points of a line in their order, the first before the last."""
+    places = np.array([_place(arcs, name) for name in names])
+    return [_primed(names[k]) for k in np.argsort(dot(places[-1] - places[0], places))]
