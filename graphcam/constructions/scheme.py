@@ -10,6 +10,7 @@ from graphcam.constructions.board import DrawnFollower
 from graphcam.constructions.profile_view import closed_curve, rotation_arrow
 from graphcam.constructions.roller import Profile
 from graphcam.constructions.views import SCHEME, at_scale
+from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Circle, Label, Line, Role, Segments
 from graphcam.drafting.meaning import Meaning
@@ -43,13 +44,14 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
     profile = drawn.givens.profile
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
     mu_l, sigma = inverted.givens.mu_l, sense(inverted.givens.rotation)
-    outline = closed_curve(inverted, profile.first("touch")) * mu_l.per_mm
-    scale = standard_scale(2 * float(np.nanmax(np.abs(outline))), SIZE)
+    hand, curve = showing(drawn), closed_curve("outline", inverted, profile.acts["touch"])
+    scale = standard_scale(2 * float(np.abs(curve.points).max()) * mu_l.per_mm, SIZE)
+    outline = hand.enlarged("outline", curve, hand.given("cam centre"), mu_l.per_mm / scale.per_mm)
     scheme = at_scale(SCHEME, scale)
     radius = 0.5 * inverted.givens.prime_radius / scale.per_mm
     ground = np.arange(-3, 3.1, 1.5) - 5j
     marks = (
-        Line(outline / scale.per_mm, Role.RESULT, closed=True),
+        outline.line(Role.RESULT, closed=True),
         *drawn.givens.follower.scheme(inverted, roller, scale),
         Circle(0j, 1.2, Role.CURVE),
         Line(np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),

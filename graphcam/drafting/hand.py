@@ -107,9 +107,10 @@ class Hand:
         """Places, or lines along a direction, that lie on the board before the first act: origin, axes, data."""
         places = np.asarray(points, dtype=np.complex128)
         direction = None if along is None else np.asarray(along, dtype=np.complex128)
-        return self._left(
-            Kind.GIVEN, name, {"points": places, "along": direction}, self.pencil.sheets(places), direction
-        )
+        if direction is not None:
+            places, direction = np.broadcast_arrays(places, direction)
+        takes = {"points": places, "along": direction}
+        return self._left(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
     def found(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
@@ -135,10 +136,12 @@ class Hand:
         return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
 
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
-        """The same places in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
+        """The same in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
-        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times)
+        along = None if drawn.along is None else drawn.along * times
+        radius = None if drawn.radius is None else drawn.radius * abs(times)
+        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
 
     def mirrored(self, name: str, drawn: Drawn, axis: Drawn) -> Drawn:
         """The same places, lines or circles on the other side of a line."""
