@@ -91,7 +91,7 @@ def test_it_is_drawn_last_and_once(solution):
 
 def test_a_board_that_knows_its_acts_alone_lands_on_its_reading(solution):
     if "integration" in solution.drawn:  # the drawing of arcs is followed where it is drawn by acts itself
-        length = followed(solution.drawn["toy"])[0]["length"]
+        (length,) = followed(solution.drawn["toy"])[0]["length"]
         assert length == pytest.approx(solution.drawn["toy"].readings["length"].paper, abs=1e-9)
 
 
