@@ -32,6 +32,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "add-a-law",
         "add-a-language",
         "add-a-construction",
+        "add-a-follower",
     ):
         assert f"how-to/{page}.md" in HOW_TO
     for page in HOW_TO:
@@ -85,7 +86,10 @@ def followed(page: str, folder: Path, script: str = "") -> str:
     for name, text in files(page).items():
         (folder / name).write_text(text, encoding="utf-8")
     command = [sys.executable, "-W", "error::UserWarning", "-c", script or (folder / [*files(page)][-1]).read_text()]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), str(folder)])}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests" / "constructions", folder))),
+    }
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=environment)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -114,6 +118,42 @@ chains = {n: where.chain(n).adding(MEANING, draw) for n in (12, 24, 48, 96)}
 print(next(s.order for s in series_of(where, chains) if s.construction == "steepest_chord"))
 """
     assert float(followed("how-to/add-a-construction.md", tmp_path, script)) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("page", "construction"),
+    [
+        ("add-a-construction", 'steepest_chord(chain["integration"], 40.0, gc.Pencil())'),
+        (
+            "add-a-follower",
+            'leaning_inversion(chain["integration"], "cw", 50.0, -10.0, 0.3, Scale(1.0, "mm"), gc.Pencil())',
+        ),
+    ],
+)
+def test_what_the_page_draws_can_be_drawn_again_from_its_acts(page, module, construction, tmp_path):
+    """By the board that shares no code with the acts."""
+    script = f"""
+import numpy as np
+import graphcam as gc
+from graphcam.drafting.scale import Scale
+from replay import followed
+from {module} import *
+s = gc.solve(gc.builtin_task()).chain.integration
+drawn = {construction}
+readings, _ = followed(drawn)
+print(max(np.abs(np.ravel(r.paper) - readings[name]).max() for name, r in drawn.readings.items()))
+"""
+    assert float(followed(f"how-to/{page}.md", tmp_path, script)) < 1e-9
+
+
+def test_the_follower_of_the_page_is_drawn_as_it_is_computed(tmp_path):
+    """Every quantity within its bound; the law is drawn exactly, and so is the pitch curve."""
+    *quantities, pitch, _ = followed("how-to/add-a-follower.md", tmp_path).splitlines()
+    assert len(quantities) == 8
+    for line in quantities:
+        _, _, _, error, bound = line.split()
+        assert abs(float(error)) <= float(bound), line
+    assert max(map(float, pitch.split()[1:])) < 1e-9
 
 
 @pytest.fixture(scope="module")
