@@ -121,13 +121,10 @@ print(next(s.order for s in series_of(where, chains) if s.construction == "steep
 
 
 @pytest.mark.parametrize(
-    ("page", "construction"),
+    ("page", "module", "construction"),
     [
-        ("add-a-construction", 'steepest_chord(chain["integration"], 40.0, gc.Pencil())'),
-        (
-            "add-a-follower",
-            'leaning_inversion(chain["integration"], "cw", 50.0, -10.0, 0.3, Scale(1.0, "mm"), gc.Pencil())',
-        ),
+        ("add-a-construction", "steepest_chord", "steepest_chord(s, 40.0, gc.Pencil())"),
+        ("add-a-follower", "drawn_leaning", 'leaning_inversion(s, "cw", 50, -10, 0.3, Scale(1.0, "mm"), gc.Pencil())'),
     ],
 )
 def test_what_the_page_draws_can_be_drawn_again_from_its_acts(page, module, construction, tmp_path):
