@@ -71,10 +71,7 @@ MEANING = Meaning(
     {
         "prime_radius": LEAST_RADIUS,
         "distance": ReadingMeaning(
-            say("centre distance c"),
-            "c",
-            "mm",
-            (Compared("minimum_distance", say("its centre distance c"), unit="mm"),),
+            say("centre distance c"), "c", "mm", (Compared("minimum_distance", say("its centre distance c")),)
         ),
     },
 )

@@ -81,18 +81,10 @@ MEANING = Meaning(
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("greatest v"),
-            "max v",
-            "lift/rad",
-            (Compared("max_v", say("greatest v")),),
-            Converges("greatest velocity", "max_v"),
+            say("greatest v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"),
-            "max a",
-            "lift/rad²",
-            (Compared("max_a", say("greatest a")),),
-            Converges("greatest acceleration", "max_a"),
+            say("greatest a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),

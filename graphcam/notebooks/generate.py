@@ -45,11 +45,20 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     ------
     DesignError : there is no such cam
     """
-    solution = solve(task)
-    toml, tell = task_files(task)[TASK_FILE], solution.tell
+    return notebook_of(solve(task))
+
+
+def notebook_of(solution: AnySolution) -> NotebookNode:
+    """The same of a task that is solved, with all that its chain draws.
+
+    >>> import graphcam as gc
+    >>> notebook_of(gc.solve(gc.builtin_task("flat"))) == write_notebook(gc.builtin_task("flat"))
+    True
+    """
+    toml, tell, title = task_files(solution.task)[TASK_FILE], solution.tell, notebook_title(solution.task)
     warned = (say("**Mind:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
     cells = [
-        _text(f"# {markdown.text(notebook_title(task))}\n\n{tell(FIRST)}"),
+        _text(f"# {markdown.text(title)}\n\n{tell(FIRST)}"),
         _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
         _hidden(SETUP),
         *(_text(f"> {tell(warning)}") for warning in warned),
@@ -69,7 +78,7 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     # Without random names a notebook that is written anew is the same.
     for k, cell in enumerate(cells):
         cell["id"] = f"cell-{k}"
-    return nb.new_notebook(cells=cells, metadata={"title": notebook_title(task), **PYTHON})
+    return nb.new_notebook(cells=cells, metadata={"title": title, **PYTHON})
 
 
 def notebook_title(task: Task | ArcsTask) -> str:
