@@ -140,6 +140,9 @@ def test_the_title_begins_over_the_left_end_of_the_drawing_or_at_the_axis_of_a_d
     assert VIEWS["line"].title_box.left == pytest.approx(4.0)
     assert VIEWS["star"].title_box.left == pytest.approx(VIEWS["star"].content.left)
     assert panel(line(10, 60 + 4j)).title_box.left == pytest.approx(7.0)
+    # An axis stands at the left if less than a quarter of the drawing lies beyond it.
+    assert panel(line(-6.9, 27 + 4j)).title_box.left == pytest.approx(4.0)
+    assert panel(line(-7, 27 + 4j)).title_box.left == -10.0
 
 
 def test_the_title_comes_down_beside_what_is_high():
