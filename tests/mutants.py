@@ -93,13 +93,16 @@ FUNCTIONS = [
 ]
 PARTS = [("real", "imag"), ("left", "right"), ("top", "bottom"), ("width", "height"), ("start", "end")]
 OPPOSITE = {a: b for pair in FUNCTIONS + PARTS for a, b in (pair, pair[::-1])}
-DISPLAYED = (ast.expr, ast.keyword, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)
+SHOWN = (ast.expr, ast.keyword, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)
 """What says more of a mutant than the changed expression alone, which may be a mere number."""
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One fault: what stands in a field of a node of the tree of a file, and what is put there instead."""
+    """One fault: what stands in a field of a node of the tree of a file, and what is put there instead.
+
+    shown : the part of the tree that says what was done; None if it is what is exchanged
+    """
 
     file: str
     tree: ast.Module
@@ -107,6 +110,7 @@ class Mutant:
     field: str
     place: int | None
     new: ast.AST
+    shown: ast.AST | None
 
     @property
     def old(self) -> ast.AST:
@@ -130,11 +134,9 @@ class Mutant:
 
     def difference(self) -> tuple[str, str]:
         """What stood there and what it became, with what stands about it."""
-        shown = isinstance(self.node, DISPLAYED)
-        return (
-            ast.unparse(self.node if shown else self.old),
-            self.source(self.node) if shown else ast.unparse(self.new),
-        )
+        if self.shown is None:
+            return ast.unparse(self.old), ast.unparse(self.new)
+        return ast.unparse(self.shown), self.source(self.shown)
 
     def _put(self, value: ast.AST) -> None:
         if self.place is None:
@@ -185,17 +187,19 @@ def _changed(node: ast.AST, **fields: object) -> ast.AST:
 def mutants(file: str, source: str) -> Iterator[Mutant]:
     """Every mutant of one file, in the order of its text."""
     tree = ast.parse(source)
-    waiting: list[ast.AST] = [tree]
+    waiting: list[tuple[ast.AST, ast.AST | None]] = [(tree, None)]
     while waiting:
-        node = waiting.pop()
-        below: list[ast.AST] = []
+        node, shown = waiting.pop()
+        if not isinstance(node, ast.Slice):
+            shown = node if isinstance(node, SHOWN) else None
+        below: list[tuple[ast.AST, ast.AST | None]] = []
         for field, place, child in _children(node):
-            below.append(child)
+            below.append((child, shown))
             for new in instead(child):
-                yield Mutant(file, tree, node, field, place, new)
+                yield Mutant(file, tree, node, field, place, new, shown)
             condition = field == "test" and isinstance(node, ast.If | ast.IfExp | ast.While)
             if condition and not isinstance(child, ast.Compare | ast.UnaryOp):
-                yield Mutant(file, tree, node, field, place, ast.UnaryOp(ast.Not(), child))
+                yield Mutant(file, tree, node, field, place, ast.UnaryOp(ast.Not(), child), shown)
         waiting += reversed(below)
 
 

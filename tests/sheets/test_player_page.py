@@ -97,3 +97,12 @@ def test_the_typeface_has_all_letters_that_are_shown_and_not_many_more(page):
 
 def test_the_same_page_is_written_twice(page):
     assert player(Drawing("The title", (FIRST, SECOND)), SLIDES, None, SAID, "en") == page
+
+
+def test_what_turns_brings_its_own_script_and_words_in_it_end_none(page):
+    mechanism = {"box": [0, 0, 1, 1], "about": "</script><i>", "live": [], "phases": [], "step": 1}
+    moving = player(Drawing("The title", (FIRST, SECOND)), SLIDES, mechanism, SAID, "en")
+    assert "<i>" not in moving
+    assert data(moving)["mechanism"] == mechanism
+    assert data(page)["mechanism"] is None
+    assert moving.count("<script") == page.count("<script") + 1
