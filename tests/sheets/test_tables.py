@@ -108,6 +108,9 @@ def test_a_long_name_is_broken_and_its_row_is_higher_by_its_lines():
     assert first.imag - second.imag == pytest.approx(1.5 * HEIGHT)
     assert (first.imag + second.imag + HEIGHT) / 2 == pytest.approx(middle)
     assert {first.real, second.real} == {0.75 * HEIGHT}
+    # As wide as the widest of its lines.
+    answers = max(width(cell, HEIGHT) for cell in ("answer", "30"))
+    assert block.box.width == pytest.approx(max(width(line, HEIGHT) for line in lines) + answers + 3 * HEIGHT)
     # What is just not longer than 40 letters are high stays whole.
     name = "n" * int(40 * HEIGHT / width("n", HEIGHT))
     assert name in texts(table_block(Table("T", ("", ""), ((name, "1"),)), HEIGHT))
