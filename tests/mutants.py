@@ -76,20 +76,20 @@ ROOMS = {
     ),
 }
 
-EXCHANGED: dict[type[ast.AST], tuple[type[ast.AST], ...]] = {
-    ast.Add: (ast.Sub,), ast.Sub: (ast.Add,), ast.Mult: (ast.Div,), ast.Div: (ast.Mult,), ast.FloorDiv: (ast.Mult,),
-    ast.Mod: (ast.Mult,), ast.Pow: (ast.Mult,), ast.MatMult: (ast.Mult,),
-    ast.Lt: (ast.LtE, ast.GtE), ast.LtE: (ast.Lt, ast.Gt), ast.Gt: (ast.GtE, ast.LtE), ast.GtE: (ast.Gt, ast.Lt),
-    ast.Eq: (ast.NotEq,), ast.NotEq: (ast.Eq,), ast.Is: (ast.IsNot,), ast.IsNot: (ast.Is,), ast.In: (ast.NotIn,),
-    ast.NotIn: (ast.In,), ast.And: (ast.Or,), ast.Or: (ast.And,), ast.BitAnd: (ast.BitOr,),
-}  # fmt: skip
+EXCHANGED = {
+    name: others.split()
+    for name, _, others in (
+        pair.partition(" ")
+        for pair in (
+            *("Add Sub", "Sub Add", "Mult Div", "Div Mult", "FloorDiv Mult", "Mod Mult", "Pow Mult", "MatMult Mult"),
+            *("Lt LtE GtE", "LtE Lt Gt", "Gt GtE LtE", "GtE Gt Lt", "Eq NotEq", "NotEq Eq", "Is IsNot", "IsNot Is"),
+            *("In NotIn", "NotIn In", "And Or", "Or And", "BitAnd BitOr"),
+        )
+    )
+}
+"""What is put in place of an operator, by the names that they have in a tree."""
 FUNCTIONS = [
-    ("min", "max"),
-    ("minimum", "maximum"),
-    ("argmin", "argmax"),
-    ("any", "all"),
-    ("floor", "ceil"),
-    ("sin", "cos"),
+    *(("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("any", "all"), ("floor", "ceil"), ("sin", "cos")),
 ]
 PARTS = [("real", "imag"), ("left", "right"), ("top", "bottom"), ("width", "height"), ("start", "end")]
 OPPOSITE = {a: b for pair in FUNCTIONS + PARTS for a, b in (pair, pair[::-1])}
@@ -153,12 +153,12 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
     """
     match node:
         case ast.BinOp(op=operator) | ast.AugAssign(op=operator) | ast.BoolOp(op=operator):
-            for other in EXCHANGED.get(type(operator), ()):
-                yield _changed(node, op=other())
+            for other in _exchanged(operator):
+                yield _changed(node, op=other)
         case ast.Compare(ops=operators):
             for k, operator in enumerate(operators):
-                for other in EXCHANGED.get(type(operator), ()):
-                    yield _changed(node, ops=[*operators[:k], other(), *operators[k + 1 :]])
+                for other in _exchanged(operator):
+                    yield _changed(node, ops=[*operators[:k], other, *operators[k + 1 :]])
         case ast.UnaryOp(op=ast.USub() | ast.Not(), operand=operand):
             yield operand
         case ast.Constant(value=bool(value)):
@@ -175,6 +175,10 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
             yield ast.Pass()
         case _:
             pass
+
+
+def _exchanged(operator: ast.AST) -> list[ast.AST]:
+    return [getattr(ast, name)() for name in EXCHANGED.get(type(operator).__name__, ())]
 
 
 def _changed(node: ast.AST, **fields: object) -> ast.AST:

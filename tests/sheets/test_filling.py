@@ -71,6 +71,13 @@ def test_everything_stands_once_inside_the_border_and_on_nothing_else(sheet):
                 assert not np.any(across & up & (there.imag < box.top))
 
 
+def test_tables_stand_six_millimetres_apart():
+    (leaf,) = fill(Format("A3", "gost"), [], [[block(70, 30), block(40, 30), block(60, 30)]])
+    column = sorted((b.box.moved(at) for b, at in leaf.blocks), key=lambda box: box.bottom)
+    assert [upper.bottom - lower.top for lower, upper in pairwise(column)] == [6.0, 6.0]
+    assert len({box.right for box in column}) == 1
+
+
 @pytest.mark.parametrize("sheet", EVERY, ids=repr)
 def test_views_that_share_an_axis_stand_in_line_wherever_they_stand_together(sheet):
     found = origins(fill(sheet, MANY, [[]]))
