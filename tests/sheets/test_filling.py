@@ -72,7 +72,7 @@ def test_everything_stands_once_inside_the_border_and_on_nothing_else(sheet):
 
 
 def test_tables_stand_six_millimetres_apart():
-    (leaf,) = fill(Format("A3", "gost"), [], [[block(70, 30), block(40, 30), block(60, 30)]])
+    (leaf,) = fill(Format("A3", "iso"), [], [[block(70, 30), block(40, 30), block(60, 30)]])
     column = sorted((b.box.moved(at) for b, at in leaf.blocks), key=lambda box: box.bottom)
     assert [upper.bottom - lower.top for lower, upper in pairwise(column)] == [6.0, 6.0]
     assert len({box.right for box in column}) == 1
