@@ -44,10 +44,10 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
     profile = drawn.givens.profile
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
     mu_l, sigma = inverted.givens.mu_l, sense(inverted.givens.rotation)
-    hand, curve = showing(drawn), closed_curve(inverted, profile.first("touch")) * mu_l.per_mm
-    scale = standard_scale(2 * float(np.nanmax(np.abs(curve))), SIZE)
+    hand, curve = showing(drawn), closed_curve("outline", inverted, profile.acts["touch"])
+    scale = standard_scale(2 * float(np.abs(curve.points).max()) * mu_l.per_mm, SIZE)
     centre, scheme = hand.given("A"), at_scale(SCHEME, scale)
-    outline = hand.enlarged("outline", hand.given("profile", curve), centre, 1 / scale.per_mm)
+    outline = hand.enlarged("outline", curve, centre, mu_l.per_mm / scale.per_mm)
     radius = 0.5 * inverted.givens.prime_radius / scale.per_mm
     circle = hand.circle("circle of the rotation", centre, radius)
     ground = hand.given("ground", np.arange(-3, 3.1, 1.5) - 5j, -1.2 - 1.5j)

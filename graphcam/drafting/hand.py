@@ -132,10 +132,12 @@ class Hand:
         return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
 
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
-        """The same places in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
+        """The same in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
-        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times)
+        along = None if drawn.along is None else drawn.along * times
+        radius = None if drawn.radius is None else drawn.radius * abs(times)
+        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
 
     def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
         """The same places, each so much higher: on an axis that was found only later."""

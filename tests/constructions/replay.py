@@ -228,7 +228,10 @@ class SecondBoard:
             raised = [complex(p.real, p.imag + h) for p, h in _rows(shown.points, heights)]
             return Figure(raised, single=shown.single and one)
         scale, moved = _one(times), _one(to)
-        return Figure([(p - q) * scale + moved for p, q in _pairs(shown, self._taken(origin))], single=shown.single)
+        along = None if shown.along is None else [d * scale for d in shown.along]
+        radius = None if shown.radius is None else [r * abs(scale) for r in shown.radius]
+        points = [(p - q) * scale + moved for p, q in _pairs(shown, self._taken(origin))]
+        return Figure(points, along, radius, shown.single)
 
     def _divide(self, start: Any, end: Any, share: Any) -> Figure:
         a, b = self._taken(start), self._taken(end)
