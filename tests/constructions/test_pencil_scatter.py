@@ -64,8 +64,8 @@ AMPLIFICATION = {
     ("integration", "closing_v"): 3.8, ("integration", "closing_s"): 6.1,
     ("minimum_radius", "prime_radius"): 5.2, ("minimum_radius", "s0"): 5.6, ("minimum_radius", "offset"): 1.5,
     ("angle_diagram", "max_rise"): 4.4, ("angle_diagram", "max_return"): 3.5,
-    ("inversion", "radius"): 2.3, ("inversion", "x"): 2.0, ("inversion", "y"): 2.3,
-    ("curvature", "rho"): 36.0, ("working_profile", "radius"): 3.1,
+    ("inversion", "radius"): 2.5, ("inversion", "x"): 2.2, ("inversion", "y"): 2.4,
+    ("curvature", "rho"): 39.0, ("working_profile", "radius"): 3.1,
 }  # fmt: skip
 
 
