@@ -48,13 +48,9 @@ LEAST_CURVATURE = {
         say("least radius of curvature ρ"),
         "ρ",
         "mm",
-        (
-            Compared(
-                "min_pitch_curvature_radius", say("least curvature radius ρ"), unit="mm", candidates="rho_candidates"
-            ),
-        ),
+        (Compared("min_pitch_curvature_radius", say("least curvature radius ρ"), "rho_candidates"),),
         Converges("least curvature radius", "min_moving_curvature_radius", of="rho_candidates"),
-    ),
+    )
 }
 """The least radius of curvature, however it is found."""
 MEANING = Meaning(

@@ -57,10 +57,7 @@ ROLLER_MEANING = Meaning(
     {
         "candidates": ReadingMeaning(say("proposals"), "r", "mm"),
         "roller_radius": ReadingMeaning(
-            say("roller radius r"),
-            "r",
-            "mm",
-            (Compared("roller_radius", say("roller radius"), unit="mm", candidates="candidates"),),
+            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius"), "candidates"),)
         ),
     },
     "report.paragraphs.roller",
