@@ -94,7 +94,7 @@ def roller_radius(
         prime_radius = between(centre, hand.found(inverted, "starts")[0])
         candidates = reckoned(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
-        candidates = between(centre, hand.lay_off("roller", centre, RIGHT, [given / mu_l]))
+        candidates = between(centre, hand.lay_off("roller", centre, RIGHT, np.array([given / mu_l])))
     hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
     hand.read("roller_radius", reckoned(_least, candidates), mu_l, rounded=False)

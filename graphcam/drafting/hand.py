@@ -29,10 +29,14 @@ Direction = Drawn | Points | complex
 Length = Setting | ArrayLike
 
 
-def between(start: Drawn, end: Drawn, along: complex | None = None) -> Setting:
+def between(start: Drawn, end: Drawn, along: Drawn | complex | None = None) -> Setting:
     """The distance of two places, or the signed part of the way along a direction: taken up with dividers, or read."""
-    a, b = _aligned(_places(start), _places(end))
-    amount = np.abs(b - a) if along is None else dot(np.asarray(along), b - a)
+    if along is None:
+        a, b = _aligned(_places(start), _places(end))
+        amount = np.abs(b - a)
+    else:
+        a, b, d = _aligned(_places(start), _places(end), _way(along))
+        amount = dot(euclid.unit(d), b - a)
     return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
 
 
@@ -117,7 +121,7 @@ class Hand:
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
-        if len(drawn) == 1:
+        if len(drawn) == 1 and which is None:
             points, along = drawn[0].points, drawn[0].along
         else:
             points = self._row([each.points for each in drawn])
@@ -132,11 +136,20 @@ class Hand:
         return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
 
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
-        """The same places or lines in another view: about an origin, times what enlarges and turns, moved ``to``."""
+        """The same in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
         along = None if drawn.along is None else drawn.along * times
-        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along)
+        radius = None if drawn.radius is None else drawn.radius * abs(times)
+        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
+
+    def mirrored(self, name: str, drawn: Drawn, axis: Drawn) -> Drawn:
+        """The same places, lines or circles on the other side of a line."""
+        points, start, way = _aligned(_places(drawn), _places(axis), _way(axis))
+        twice = euclid.unit(way) ** 2
+        along = None if drawn.along is None else np.conj(drawn.along) * twice
+        image = start + np.conj(points - start) * twice
+        return self._left(Kind.ENLARGE, name, {"of": drawn, "axis": axis}, image, along, drawn.radius)
 
     def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
         """The same places, each so much higher: on an axis that was found only later."""
@@ -355,7 +368,7 @@ class Hand:
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
-        paper = sense * np.angle(e / d)
+        paper = sense * np.angle(e * np.conj(d))
         if self.pencil.protractor:
             paper = paper + self._protractor(paper)
         return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
