@@ -125,8 +125,8 @@ def test_samples_of_a_perfect_pencil_are_all_the_perfect_drawing():
 def radii(rho: float, h: float, sigma: float) -> np.ndarray:
     """Radii of the circles through three points, plotted by a hand on a circle at chords h."""
     turn = 2 * math.asin(h / (2 * rho))
-    hand = Pencil(line=sigma, samples=40_000, seed=1).hand("three points")
-    a, b, c = (rho * np.exp(1j * turn * np.array([-1, 0, 1])) + hand.point(3)).T
+    across, up = sigma * np.random.default_rng(1).standard_normal((2, 40_000, 3))
+    a, b, c = (rho * np.exp(1j * turn * np.array([-1, 0, 1])) + across + 1j * up).T
     return np.abs(centre_of_circle(a, b, c) - b)
 
 
