@@ -16,7 +16,7 @@ from graphcam.drafting.euclid import UP
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Dimension, Label, Role
-from graphcam.drafting.meaning import DEGREES, Converges, Meaning, ReadingMeaning, greatest
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 
@@ -38,18 +38,14 @@ MEANING = Meaning(
             say("greatest α on the rise"),
             "max α",
             "rad",
-            (greatest("max_pressure_angle_rise_deg", say("pressure angle, rise"), "rise_candidates", DEGREES, "deg"),),
+            (Compared("max_pressure_angle_rise_deg", say("pressure angle, rise"), "rise_candidates", np.abs),),
             Converges("greatest angle, rise", "max_pressure_angle_rise"),
         ),
         "max_return": ReadingMeaning(
             say("greatest α on the return"),
             "max α",
             "rad",
-            (
-                greatest(
-                    "max_pressure_angle_return_deg", say("pressure angle, return"), "return_candidates", DEGREES, "deg"
-                ),
-            ),
+            (Compared("max_pressure_angle_return_deg", say("pressure angle, return"), "return_candidates", np.abs),),
         ),
     },
     "report.paragraphs.greatest_angles",

@@ -59,12 +59,7 @@ MEANING = Meaning(
     ),
     {
         "prime_radius": LEAST_RADIUS,
-        "offset": ReadingMeaning(
-            say("offset e"),
-            "e",
-            "mm",
-            (Compared("minimum_offset", say("its offset e"), unit="mm"),),
-        ),
+        "offset": ReadingMeaning(say("offset e"), "e", "mm", (Compared("minimum_offset", say("its offset e")),)),
         "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
     },
     "report.translating_paragraphs.least_radius",

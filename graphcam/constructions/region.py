@@ -31,7 +31,7 @@ LEAST_RADIUS = ReadingMeaning(
     say("prime radius r₀"),
     "r₀",
     "mm",
-    (Compared("minimum_prime_radius", say("least radius r₀"), unit="mm"),),
+    (Compared("minimum_prime_radius", say("least radius r₀")),),
     Converges("least prime radius", "minimum_prime_radius"),
 )
 """The least prime radius, however it is found."""

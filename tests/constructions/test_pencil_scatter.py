@@ -66,8 +66,8 @@ AMPLIFICATION = {
     # moved by 1, and by 1/tan 30 when that line is: the root of 2^2 + 2 * 1.73^2, 3.2, beside what v and s bring, 6.1.
     ("minimum_radius", "prime_radius"): 6.4, ("minimum_radius", "s0"): 6.9, ("minimum_radius", "offset"): 2.15,
     ("angle_diagram", "max_rise"): 4.4, ("angle_diagram", "max_return"): 4.05,
-    ("inversion", "radius"): 2.3, ("inversion", "x"): 2.0, ("inversion", "y"): 2.3,
-    ("curvature", "rho"): 36.0, ("working_profile", "radius"): 3.1,
+    ("inversion", "radius"): 2.5, ("inversion", "x"): 2.2, ("inversion", "y"): 2.4,
+    ("curvature", "rho"): 39.0, ("working_profile", "radius"): 3.1,
 }  # fmt: skip
 
 
