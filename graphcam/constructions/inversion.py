@@ -65,7 +65,8 @@ def inversion(
         lines = hand.perpendicular("tangents", rays.turned(np.sign(offset)), feet)
     else:
         # A central follower has no circle e: its lines are rays through the cam centre.
-        feet = lines = profile_view.inverted_positions(hand, integrated, rotation, UP)
+        lines = profile_view.inverted_positions(hand, integrated, rotation, UP)
+        feet = hand.take("feet", lines)
     motion = hand.take("motion", lines)
     starts = hand.cross("starts", motion, prime)
     pitch = hand.lay_off("pitch", starts, motion, hand.carry(s, s.scale / mu_l.per_mm))
