@@ -239,19 +239,17 @@ def _draw(region: ArmRegion) -> list[Step]:
     if limits.return_:
         angles = {"rise": degrees(limits.rise), "back": degrees(limits.return_)}
         permitted = say("{rise} on the rise and {back} on the return", **angles)
+    most = np.degrees(integrated.value("s").max())
+    positions = (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
     return [
         Step(
             say("Arm positions"),
             say(
                 "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the "
                 "displacements up to {most:.2f}°."
-            ).where(
-                ratio=ratio_text(mu_l.per_mm),
-                arm=region.givens.arm / mu_l.per_mm,
-                most=np.degrees(integrated.value("s").max()),
-            ),
+            ).where(ratio=ratio_text(mu_l.per_mm), arm=region.givens.arm / mu_l.per_mm, most=most),
             shown,
-            (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION), *given, start.label("B₀", -UP)),
+            (*positions, *given, start.label("B₀", -UP)),
             given=given,
         ),
         Step(

@@ -83,7 +83,10 @@ def pressure_angle(
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
     beside = hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s))
     prime = hand.circle("prime circle", start, hand.at_scale(prime_radius, s))
-    centre = hand.cross("centre", hand.erect("line of the offset", beside, -UP), prime)
+    line = hand.erect("line of the offset", beside, -UP)
+    met, touch = hand.cross("circle and line", line, prime), hand.project("touch", start, line)
+    # A line that misses the circle, by the hand's errors, is taken to touch it.
+    centre = hand.take("centre", met, touch, which=np.isnan(met.points).astype(int)[..., None])[0]
     read_angles(hand, UP, hand.join("rays", centre, ends), sigma)
     hand.read("s0", between(centre, start, UP), s.scale)
     givens = PressureAngleGivens(integrated, rotation, prime_radius, offset)
@@ -131,7 +134,7 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     k, sigma = shown_station(measured), sense(measured.givens.rotation)
-    centre, end, mu = measured.acts["centre"].first, measured.acts["ends"].first[k], measured.readings["s0"].per_mm
+    centre, end, mu = measured.acts["centre"].first[0], measured.acts["ends"].first[k], measured.readings["s0"].per_mm
     scale = standard_scale((end.place - centre.place).imag * mu, PLAN_HEIGHT)
     plan, acts = at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm)
     pole, v1, v2, v21 = (acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
@@ -168,7 +171,7 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
 
 def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Mapping[str, Drawn]:
     """The triangle of the mechanism at a station, enlarged about the cam centre A, and the plan beside it."""
-    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
+    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first[0]
     a = hand.enlarged("A", centre, centre, times)
     b = hand.enlarged("B", measured.acts["displacements"].first[k], centre, times)
     d = hand.enlarged("D", measured.acts["ends"].first[k], centre, times)

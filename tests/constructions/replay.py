@@ -332,7 +332,7 @@ class SecondBoard:
         (way,), _ = self._direction(inward)
         way = way / abs(way)
         tops = [_farthest(shown.points[slice(*piece["slice"])], way) for piece in pieces]
-        touch = max(tops, key=lambda p: _part(p, way))
+        touch = max(tops, key=lambda p: round(_part(p, way), 6))
         return Figure([touch], [way * 1j], None, single=True)
 
     def _fair(self, points: Any, pieces: Any, parts: int) -> Figure:
