@@ -157,7 +157,7 @@ def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
 def _outer_radius(inverted: Inverted) -> float:
     """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return max(float(np.nanmax(np.abs(inverted.first("pitch")))), prime) + BEYOND
+    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + BEYOND
 
 
 def ground(inverted: Inverted) -> tuple[Mark, ...]:

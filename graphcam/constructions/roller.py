@@ -189,7 +189,7 @@ def _draw_profile(profile: Profile) -> list[Step]:
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
     mu_l, covered, measured = inverted.givens.mu_l.per_mm, profile.acts["covered"].first, profile.value("radius")
     lost = np.flatnonzero(~np.isnan(covered.points))
-    radii = {"least": np.nanmin(measured), "greatest": np.nanmax(measured)}
+    radii = {"least": np.fmin.reduce(measured), "greatest": np.fmax.reduce(measured)}
     curve = closed_curve("working profile", inverted, profile.acts["touch"]).line(Role.RESULT, closed=True)
     if not roller:
         caption = say(
