@@ -252,12 +252,12 @@ class Hand:
     def cross(self, name: str, one: Drawn, other: Drawn, *, flat: bool = False) -> Drawn:
         """Where two lines meet; where a ray leaves a circle; where two circles meet, left of the way between centres.
 
-        flat : whether lines that cross at less than a degree count as well
+        flat : whether what crosses at less than a degree counts as well, and circles that miss by a little
         """
         p, q = _places(one), _places(other)
         if one.radius is not None:
             p, r, q, s = _aligned(p, _radii(one), q, _radii(other))
-            found = euclid.circles_meet(p, r, q, s)
+            found = euclid.circles_meet(p, r, q, s, flat=flat)
         elif other.radius is not None:
             p, d, q, r = _aligned(p, _way(one), q, _radii(other))
             found = euclid.along_to_circle(p, d, q, r)
