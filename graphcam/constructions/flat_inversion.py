@@ -33,16 +33,10 @@ MEANING = Meaning(
     ),
     {
         "face_left": ReadingMeaning(
-            say("half-width of the face, left"),
-            "bₗ",
-            "mm",
-            (Compared("face_left", say("face to the left"), unit="mm"),),
+            say("half-width of the face, left"), "bₗ", "mm", (Compared("face_left", say("face to the left")),)
         ),
         "face_right": ReadingMeaning(
-            say("half-width of the face, right"),
-            "bᵣ",
-            "mm",
-            (Compared("face_right", say("face to the right"), unit="mm"),),
+            say("half-width of the face, right"), "bᵣ", "mm", (Compared("face_right", say("face to the right")),)
         ),
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
         **profile_view.CURVE,

@@ -62,10 +62,7 @@ LEAST_RADIUS_MEANING = Meaning(
         "Under a flat face the profile has the radius of curvature ρ = r₀ + s + a, and no pressure angle limits it. "
         "Drawn over the acceleration, the displacement shows where s + a is least: a tangent at 45° touches it there."
     ),
-    {
-        "prime_radius": LEAST_RADIUS,
-        "need": ReadingMeaning(say("greatest −(s + a)"), "−(s + a)", "mm"),
-    },
+    {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("greatest −(s + a)"), "−(s + a)", "mm")},
 )
 CURVATURE_MEANING = Meaning(
     "curvature",

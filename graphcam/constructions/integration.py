@@ -81,18 +81,10 @@ MEANING = Meaning(
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("greatest v"),
-            "max v",
-            "lift/rad",
-            (Compared("max_v", say("greatest v")),),
-            Converges("greatest velocity", "max_v"),
+            say("greatest v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"),
-            "max a",
-            "lift/rad²",
-            (Compared("max_a", say("greatest a")),),
-            Converges("greatest acceleration", "max_a"),
+            say("greatest a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
@@ -289,12 +281,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
             say("Curve of {target}", target=target),
             say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
             run.target,
-            (*curves, *_rests(c, curve)),
+            (*curves, *rests(c, curve)),
         ),
     ]
 
 
-def _rests(c: Integrated, curve: Drawn) -> list[Line]:
+def rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
     ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)

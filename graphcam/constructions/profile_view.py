@@ -12,10 +12,10 @@ from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP, turned
+from graphcam.drafting.euclid import RIGHT, UP, turned, unit
 from graphcam.drafting.hand import Direction, Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Arc, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
@@ -126,11 +126,12 @@ def radius_arrow(inverted: Inverted, circle: Drawn, start: complex, symbol: str,
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
     hand, sigma = showing(inverted), sense(inverted.givens.rotation)
     towards = complex(turned(start / abs(start), -sigma * middle))
-    tip = hand.cross(symbol, hand.erect(f"ray of {symbol}", circle.first, towards), circle.first)
+    ray = hand.erect(f"radius {symbol}", circle.first, towards)
+    tip = hand.cross(f"tip of {symbol}", ray, circle.first)
     text = say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
     return (
-        tip.arrow(circle, Role.DIMENSION),
-        hand.divide(symbol, circle.first, tip, 0.6).label(text, tip.place * UP),
+        Arrow(ray.place, tip.place, Role.DIMENSION, of=ray.act),
+        hand.divide(symbol, ray, tip, 0.6).label(text, tip.place * UP),
     )
 
 
@@ -196,6 +197,6 @@ def pitch_steps(
 ) -> list[Step]:
     """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
     pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
-    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, pitch.shown / np.abs(pitch.shown)))
+    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, unit(pitch.shown)))
     curve = closed_curve("pitch curve", inverted, pitch).line(Role.CURVE, closed=True)
     return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]
