@@ -20,7 +20,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.peaks import max_acceleration, max_velocity
+from graphcam.mechanism.stationary import max_acceleration, max_velocity
 from graphcam.showing import by_parts
 from graphcam.words import Caption, sequence
 
@@ -156,12 +156,16 @@ def _quantity(
     counterpart, where = said.exact or said.name, (construction.name, reading)
     if counterpart not in exact:
         raise DesignError("exact counterpart", counterpart, f"one of {', '.join(exact)}")
-    read, drawn = construction.readings[reading], said.factor * float(construction.value(reading))
+    read = construction.readings[reading]
+    factor, unit = (DEGREES, "deg") if read.unit == "rad" else (1.0, read.unit)
+    factor *= said.sign
     bound = bounds.of_choice(*where, said.candidates, said.rank) if said.candidates else bounds.of(*where)
-    unit, per_mm = said.unit or read.unit, said.factor * read.per_mm
-    return Quantity(said.name, said.title, drawn, exact[counterpart], unit, per_mm, bound)
+    drawn = factor * float(construction.value(reading))
+    title = said.title or construction.meaning.reading(reading).title
+    return Quantity(said.name, title, drawn, exact[counterpart], unit, factor * read.per_mm, bound)
 
 
+DEGREES = math.degrees(1.0)
 EVERYWHERE: Mapping[str, str] = {
     **dict.fromkeys(("minimum_prime_radius", "minimum_offset", "roller_radius"), "mm"),
     **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),

@@ -17,7 +17,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
-from graphcam.drafting.meaning import DEGREES, Meaning, ReadingMeaning, greatest
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.laws import Floats
@@ -52,19 +52,19 @@ MEANING = Meaning(
     {
         "lift": ReadingMeaning(say("lift h"), "h", "mm"),
         "max_v": ReadingMeaning(
-            say("greatest v"), "max v", "mm/rad", (greatest("max_v", say("greatest v"), "v_candidates"),)
+            say("greatest v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", rank=np.abs),)
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"), "max a", "mm/rad²", (greatest("max_a", say("greatest a"), "a_candidates"),)
+            say("greatest a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", rank=np.abs),)
         ),
         "max_alpha": ReadingMeaning(
             say("greatest α"),
             "max α",
             "rad",
             (
-                greatest("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", DEGREES, "deg"),
-                greatest(
-                    "max_pressure_angle_return_deg", say("greatest α, return"), "alpha_candidates", -DEGREES, "deg"
+                Compared("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", np.abs),
+                Compared(
+                    "max_pressure_angle_return_deg", say("greatest α, return"), "alpha_candidates", np.abs, sign=-1
                 ),
             ),
         ),

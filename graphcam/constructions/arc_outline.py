@@ -57,10 +57,7 @@ MEANING = Meaning(
         "outer": ReadingMeaning(say("radius of the outer circle"), "OD", "mm"),
         **{
             f"{point}_{axis}": ReadingMeaning(
-                sequence([point, axis]),
-                f"{point} {axis}",
-                "mm",
-                (Compared(f"{point}_{axis}", sequence([point, axis])),),
+                sequence([point, axis]), f"{point} {axis}", "mm", (Compared(f"{point}_{axis}"),)
             )
             for point in ("C1", "C2", "C3", "F")
             for axis in "xy"

@@ -22,7 +22,7 @@ from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Step, View, Words, say
 from graphcam.drafting.marks import Circle, Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.meaning import DEGREES, Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
@@ -109,15 +109,10 @@ MEANING = Meaning(
             say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius")),)
         ),
         "lift": ReadingMeaning(say("lift h"), "h", "mm", (Compared("lift", say("lift")),)),
-        "prime_radius": ReadingMeaning(
-            say("prime radius r₀"), "r₀", "mm", (Compared("prime_radius", say("prime radius r₀")),)
-        ),
+        "prime_radius": ReadingMeaning(say("prime radius r₀"), "r₀", "mm", (Compared("prime_radius"),)),
         **{
             name: ReadingMeaning(
-                title,
-                f"φ({point})",
-                "rad",
-                (Compared(f"phi_{point}_deg", say("φ at {point}", point=point), unit="deg", factor=DEGREES),),
+                title, f"φ({point})", "rad", (Compared(f"phi_{point}_deg", say("φ at {point}", point=point)),)
             )
             for name, point, title in (
                 ("phi_G", "G", say("φ at G")),
@@ -125,7 +120,7 @@ MEANING = Meaning(
                 ("rise", "D", say("angle of the rise")),
             )
         },
-        **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name, title),)) for name, title in ENDS.items()},
+        **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name),)) for name, title in ENDS.items()},
     },
 )
 

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions.acceleration import AccelerationDiagram
-from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes, pole_marks
+from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
@@ -81,18 +81,10 @@ MEANING = Meaning(
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("greatest v"),
-            "max v",
-            "lift/rad",
-            (Compared("max_v", say("greatest v")),),
-            Converges("greatest velocity", "max_v"),
+            say("greatest v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"),
-            "max a",
-            "lift/rad²",
-            (Compared("max_a", say("greatest a")),),
-            Converges("greatest acceleration", "max_a"),
+            say("greatest a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
@@ -249,12 +241,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     curve, left = c.acts[f"{target}_curve"], float(np.max(np.abs(c.first(f"closing_{target}"))))
     # Projections that fall on one another are drawn once, from the farthest ordinate.
     height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
-    kept = [int(np.argmin(np.abs(height - y))) for y in levels(height)]
+    kept = once(levelled)
     reach = np.array([farthest[np.abs(height - height[k]) < SAME_HEIGHT].max() for k in kept])
     laid_out = pole_marks(pole, distance, index, height[kept])
-    once = levelled.first[kept]
+    projected = levelled.first[kept]
     rays = (
-        Segments(once.points, reach + once.points, Role.CONSTRUCTION, of=levelled.act),
+        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, of=levelled.act),
         c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
@@ -289,12 +281,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
             say("Curve of {target}", target=target),
             say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
             run.target,
-            (*curves, *_rests(c, curve)),
+            (*curves, *rests(c, curve)),
         ),
     ]
 
 
-def _rests(c: Integrated, curve: Drawn) -> list[Line]:
+def rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
     ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)

@@ -59,9 +59,9 @@ def inversion(
     hand, s = Hand(pencil, MEANING), integrated.readings["s"]
     prime = profile_view.prime_circle(hand, prime_radius, mu_l)
     if offset:
-        circle = hand.circle("offset circle", hand.given("cam centre"), abs(offset) / mu_l.per_mm)
+        hand.circle("offset circle", hand.given("cam centre"), abs(offset) / mu_l.per_mm)
         rays = profile_view.inverted_positions(hand, integrated, rotation, RIGHT * np.sign(offset))
-        feet = hand.cross("feet", rays, circle)
+        feet = hand.lay_off("feet", rays, rays, abs(offset) / mu_l.per_mm)
         lines = hand.perpendicular("tangents", rays.turned(np.sign(offset)), feet)
     else:
         # A central follower has no circle e: its lines are rays through the cam centre.

@@ -57,10 +57,7 @@ ROLLER_MEANING = Meaning(
     {
         "candidates": ReadingMeaning(say("proposals"), "r", "mm"),
         "roller_radius": ReadingMeaning(
-            say("roller radius r"),
-            "r",
-            "mm",
-            (Compared("roller_radius", say("roller radius"), unit="mm", candidates="candidates"),),
+            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius"), "candidates"),)
         ),
     },
     "report.paragraphs.roller",
@@ -150,7 +147,7 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
     for jump in sorted({p.start for p in stations.pieces} - {span.start for span in stations.phases}):
         before = unit(pitch[..., jump] - pitch[..., jump - 1])
         after = unit(pitch[..., jump + 1] - pitch[..., jump])
-        along[..., jump] = unit(before * before / along[..., jump - 1] + after * after / along[..., jump + 1])
+        along[..., jump] = unit(before**2 * along[..., jump - 1].conj() + after**2 * along[..., jump + 1].conj())
     return along
 
 

@@ -173,6 +173,10 @@ class Drawn:
         first = self.first
         return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, of=self.act)
 
+    def way(self, role: Role) -> Line:
+        """Of the line that joins two places: from one to the other."""
+        return Line(self.place + np.array([0j, complex(self.first.directions)]), role, of=self.act)
+
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""
         return Line(np.array([start.place if isinstance(start, Drawn) else start, self.place]), role, of=self.act)

@@ -142,7 +142,7 @@ def tangent_of_circle(a: Points, b: Points, c: Points) -> Points:
     >>> complex(np.round(tangent_of_circle(at(-1 + 0j), at(1j), at(1 + 0j)), 15))
     (1+0j)
     """
-    return unit((c - b) * (b - a) / (c - a))
+    return unit((c - b) * (b - a) * np.conj(c - a))
 
 
 def along_to_circle(p: Points, d: Points, centre: Points | complex, radius: Floats | float) -> Points:

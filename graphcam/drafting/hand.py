@@ -121,7 +121,7 @@ class Hand:
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
-        if len(drawn) == 1:
+        if len(drawn) == 1 and which is None:
             points, along = drawn[0].points, drawn[0].along
         else:
             points = self._row([each.points for each in drawn])
@@ -328,11 +328,20 @@ class Hand:
         return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, points.points, along)
 
     def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
-        """A smooth curve through plotted points, piece by piece, in so many short chords a part."""
-        line = [curve.faired(points.points[..., piece], parts) for piece in pieces]
-        return self._left(
-            Kind.FAIR, name, {"points": points, "pieces": tuple(pieces), "parts": parts}, np.concatenate(line, axis=-1)
-        )
+        """A smooth curve through plotted points, piece by piece, in so many short chords a part.
+
+        Of lines through the points their angles are faired too, so that between them lies a family of lines.
+        """
+
+        def faired(values: Points) -> Points:
+            return np.concatenate([curve.faired(values[..., piece], parts) for piece in pieces], axis=-1)
+
+        along = None
+        if points.along is not None:
+            first = points.along[..., :1]
+            along = euclid.turned(first, faired(np.angle(points.along / first) + 0j).real)
+        takes = {"points": points, "pieces": tuple(pieces), "parts": parts}
+        return self._left(Kind.FAIR, name, takes, faired(points.points), along)
 
     # --- readings ----------------------------------------------------------------------------------------------------
 

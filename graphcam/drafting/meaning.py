@@ -6,7 +6,6 @@ named here, not computed: the drawn and the exact side meet in the comparison.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -17,8 +16,6 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.words import Caption
 
-DEGREES = math.degrees(1.0)
-"""Degrees in a radian."""
 Rank = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 """Which of several candidates is taken: the one of highest rank."""
 Measured = Literal["value", "at stations", "from the pitch curve", "from the profile"]
@@ -29,19 +26,18 @@ Measured = Literal["value", "at stations", "from the pitch curve", "from the pro
 class Compared:
     """A reading as a quantity of the results, where it stands beside its exact counterpart.
 
-    name, title : of the quantity
-    exact : the exact counterpart's name, where it is not that of the quantity
-    unit, factor : of the quantity, where they are not the reading's: so many ``unit`` in one of the reading's
+    name, title : of the quantity, whose title is the reading's if it has none; an angle is told in degrees
     candidates, rank : the reading that holds what it was chosen from, and how; by default the least is taken
+    sign : of the quantity where the reading is 1
+    exact : the exact counterpart's name, where it is not that of the quantity
     """
 
     name: str
-    title: Caption
-    exact: str = ""
-    unit: str = ""
-    factor: float = 1.0
+    title: Caption | None = None
     candidates: str = ""
     rank: Rank = np.negative
+    sign: int = 1
+    exact: str = ""
 
 
 @dataclass(frozen=True)
@@ -106,13 +102,3 @@ class Meaning:
     def compared(self) -> Iterator[tuple[str, Compared]]:
         """The names of the readings that are compared, with what they are compared as."""
         return ((name, said) for name, reading in self.readings.items() for said in reading.compared)
-
-
-def greatest(name: str, title: Caption, candidates: str, factor: float = 1.0, unit: str = "") -> Compared:
-    """The greatest of a quantity, read off its diagram.
-
-    >>> from graphcam.words import say
-    >>> greatest("max_v", say("greatest v"), "v_candidates").candidates
-    'v_candidates'
-    """
-    return Compared(name, title, unit=unit, factor=factor, candidates=candidates, rank=np.abs)

@@ -336,8 +336,17 @@ class SecondBoard:
         return Figure([touch], [way * 1j], None, single=True)
 
     def _fair(self, points: Any, pieces: Any, parts: int) -> Figure:
-        shown = self._taken(points).points
-        return Figure([p for piece in pieces for p in _smooth(shown[slice(*piece["slice"])], parts)])
+        plotted = self._taken(points)
+
+        def smooth(places: list[complex]) -> list[complex]:
+            return [p for piece in pieces for p in _smooth(places[slice(*piece["slice"])], parts)]
+
+        if plotted.along is None:
+            return Figure(smooth(plotted.points))
+        angles = [cmath.phase(way) for way in plotted.along]
+        turned = [angles[0] + math.remainder(angle - angles[0], math.tau) for angle in angles]
+        ways = [cmath.rect(1.0, angle.real) for angle in smooth([complex(angle) for angle in turned])]
+        return Figure(smooth(plotted.points), ways)
 
     def _read(self, length: Any = None, base: Any = None, line: Any = None, sense: int = 1) -> tuple[list[float], bool]:
         if length is not None:

@@ -32,6 +32,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "add-a-law",
         "add-a-language",
         "add-a-construction",
+        "add-a-follower",
     ):
         assert f"how-to/{page}.md" in HOW_TO
     for page in HOW_TO:
@@ -78,6 +79,78 @@ def test_developers_are_sent_to_tests_that_are_there():
         assert program in ("pytest", "graphcam", "pybabel", "mkdir")
         if program == "pytest":
             assert all((ROOT / path).exists() for path in arguments)
+
+
+def followed(page: str, folder: Path, script: str = "") -> str:
+    """What the last file of a page prints, or a script of ours, in a folder that holds the page's files."""
+    for name, text in files(page).items():
+        (folder / name).write_text(text, encoding="utf-8")
+    command = [sys.executable, "-W", "error::UserWarning", "-c", script or (folder / [*files(page)][-1]).read_text()]
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests" / "constructions", folder))),
+    }
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, env=environment)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_the_construction_of_the_page_is_drawn_compared_and_shown(tmp_path):
+    """From its one file and its one line; the drawn value lies within its bound of the exact one."""
+    page = "how-to/add-a-construction.md"
+    *shown, numbers = followed(page, tmp_path).splitlines()
+    assert shown[0] == "Construction 'steepest_chord', steps: 2"
+    _, exact, error, bound = map(float, numbers.split())
+    assert exact == pytest.approx(2 * 30 / math.radians(60))  # a return of 30 mm in 60 degrees, twice its mean
+    assert 0 < abs(error) <= bound
+    assert "The steepest chord" in (tmp_path / "look" / "sheet.svg").read_text(encoding="utf-8")
+    assert "the follower is fastest" in (tmp_path / "look" / "player.html").read_text(encoding="utf-8")
+
+
+def test_the_construction_of_the_page_has_the_order_of_error_that_it_says(tmp_path):
+    script = """
+from steepest_chord import MEANING, steepest_chord
+from graphcam.bench.convergence import series_of
+from graphcam.bench.scenes import scene
+where = scene("translating", "cycloidal")
+draw = lambda chain: steepest_chord(chain.integration, 40.0, chain.pencil)
+chains = {n: where.chain(n).adding(MEANING, draw) for n in (12, 24, 48, 96)}
+print(next(s.order for s in series_of(where, chains) if s.construction == "steepest_chord"))
+"""
+    assert float(followed("how-to/add-a-construction.md", tmp_path, script)) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("page", "module", "construction"),
+    [
+        ("add-a-construction", "steepest_chord", "steepest_chord(s, 40.0, gc.Pencil())"),
+        ("add-a-follower", "drawn_leaning", 'leaning_inversion(s, "cw", 50, -10, 0.3, Scale(1.0, "mm"), gc.Pencil())'),
+    ],
+)
+def test_what_the_page_draws_can_be_drawn_again_from_its_acts(page, module, construction, tmp_path):
+    """By the board that shares no code with the acts."""
+    script = f"""
+import numpy as np
+import graphcam as gc
+from graphcam.drafting.scale import Scale
+from replay import followed
+from {module} import *
+s = gc.solve(gc.builtin_task()).chain.integration
+drawn = {construction}
+readings, _ = followed(drawn)
+print(max(np.abs(np.ravel(r.paper) - readings[name]).max() for name, r in drawn.readings.items()))
+"""
+    assert float(followed(f"how-to/{page}.md", tmp_path, script)) < 1e-9
+
+
+def test_the_follower_of_the_page_is_drawn_as_it_is_computed(tmp_path):
+    """Every quantity within its bound; the law is drawn exactly, and so is the pitch curve."""
+    *quantities, pitch, _ = followed("how-to/add-a-follower.md", tmp_path).splitlines()
+    assert len(quantities) == 8
+    for line in quantities:
+        _, _, _, error, bound = line.split()
+        assert abs(float(error)) <= float(bound), line
+    assert max(map(float, pitch.split()[1:])) < 1e-9
 
 
 @pytest.fixture(scope="module")
