@@ -8,12 +8,14 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, phi_axes, pieces_of
+from graphcam.constructions.integration import rests
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
-from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
+from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Dimension, Dots, Label, Line, Role
+from graphcam.drafting.marks import Dimension, Label, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -59,47 +61,40 @@ def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> 
     Readings: ``max_rise`` and ``max_return``, the signed angles of greatest magnitude [mm times mu_alpha, rad]; the
     ``rise_candidates`` and ``return_candidates`` (..., 2) they were chosen from, highest and lowest.
     """
-    hand = pencil.hand("angle_diagram")
-    integrated = measured.givens.integrated
-    motion, stations = integrated.givens.motion, integrated.givens.stations
-    height = measured.readings["alpha"].paper / mu_alpha.per_mm + hand.line(stations.u.size)
-    curve = integrated.points["s_curve"].real + UP * height
-    rises, returns = (highest_and_lowest(curve, pieces_of(motion, stations, direction)) for direction in (1, -1))
+    hand, integrated = Hand(pencil, MEANING), measured.givens.integrated
+    motion, stations, origin = integrated.givens.motion, integrated.givens.stations, hand.given("origin")
+    axis = hand.found(integrated.givens.diagram, "axis")
+    curve = hand.lay_off("curve", axis, UP, hand.carry(measured.readings["alpha"], 1 / mu_alpha.per_mm))
+    ends: dict[str, Drawn] = {}
+    for phase, direction in (("rise", 1), ("return", -1)):
+        pieces = pieces_of(motion, stations, direction)
+        both = (hand.tangent(f"{side} of the {phase}", curve, pieces, up) for side, up in (("top", UP), ("low", -UP)))
+        ends[phase] = hand.take(f"{phase}_candidates", *both)
     # Of both ends the one farther from the axis.
-    rise, return_ = (at_greatest(places, np.abs(places.imag)) for places in (rises, returns))
-    candidates = {"rise_candidates": rises.imag, "return_candidates": returns.imag}
-    return Construction(
-        MEANING,
-        AngleDiagramGivens(measured, mu_alpha),
-        pencil,
-        hand.readings(mu_alpha.per_mm, "rad", max_rise=rise.imag, max_return=return_.imag, **candidates),
-        {"curve": curve, "max_rise": rise, "max_return": return_},
-        _draw,
-    )
+    farther = {phase: np.argmax(np.abs(both.points.imag), axis=-1)[..., None] for phase, both in ends.items()}
+    places = {f"max_{phase}": hand.take(f"max_{phase}", ends[phase], which=farther[phase])[0] for phase in ends}
+    for name, read in (places | {f"{phase}_candidates": both for phase, both in ends.items()}).items():
+        hand.read(name, between(origin, read, UP), mu_alpha.per_mm, "rad")
+    return hand.finished(AngleDiagramGivens(measured, mu_alpha), _draw, {"curve": curve, **places})
 
 
 def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
-    measured = plotted.givens.measured
-    integrated = measured.givens.integrated
+    integrated, hand = plotted.givens.measured.givens.integrated, showing(plotted)
     motion, stations, mu_phi = integrated.givens.motion, integrated.givens.stations, integrated.givens.mu_phi
-    curve, ends = plotted.first("curve"), phase_ends(motion, mu_phi)
-    tops = [complex(plotted.first(name)) for name in ("max_rise", "max_return")]
-    greatest = [np.degrees(plotted.value(name)) for name in ("max_rise", "max_return")]
-    low = min(0.0, float(np.nanmin(curve.imag))) - 24.0
-    rests = np.concatenate([[curve[-1].imag], curve.imag[stations.last]])
-    starts = np.concatenate([[0.0], ends[stations.phase[stations.last] + 1]])
-    stops = np.concatenate([ends[stations.phase[[span.start for span in stations.phases]]], [ends[-1]]])
-    held = zip(np.stack([starts, stops], axis=-1), rests, strict=True)
+    curve, ends, extremes = plotted.acts["curve"], phase_ends(motion, mu_phi), ("max_rise", "max_return")
+    tops = [complex(plotted.first(name)) for name in extremes]
+    greatest = [np.degrees(plotted.value(name)) for name in extremes]
+    low = min(0.0, float(np.nanmin(curve.shown.imag))) - 24.0
     axes = (
-        *phi_axes(motion, mu_phi, curve.imag, "α"),
+        *phi_axes(motion, mu_phi, curve.shown.imag, "α"),
         *degree_ticks(mu_phi),
         *(Dimension(a + UP * low, b + UP * low, phase_angle(motion, k)) for k, (a, b) in enumerate(pairwise(ends))),
     )
     curves = (
         *axes,
-        Dots(curve, Role.CONSTRUCTION),
-        *(Line(faired(curve[piece]), Role.RESULT) for piece in stations.pieces),
-        *(Line(between + UP * level, Role.RESULT) for between, level in held),
+        curve.dots(Role.CONSTRUCTION),
+        *(hand.fair("α", curve.first, [piece]).line(Role.RESULT) for piece in stations.pieces),
+        *rests(integrated, curve),
     )
     said = say(
         "The angles are plotted at {scale:.4g}° a millimetre and the curve is faired between the jumps of the "
@@ -110,11 +105,11 @@ def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
         "°, and {back:.2f} mm on the return, {back_deg:.2f}°."
     ).where(rise=tops[0].imag, rise_deg=greatest[0], back=tops[1].imag, back_deg=greatest[1])
     told = [
-        Label(top, say("{alpha:.1f}°", alpha=alpha), towards=np.sign(top.imag) * UP)
-        for top, alpha in zip(tops, greatest, strict=True)
+        Label(top, say("{alpha:.1f}°", alpha=alpha), np.sign(top.imag) * UP, of=plotted.readings[name].act)
+        for name, top, alpha in zip(extremes, tops, greatest, strict=True)
     ]
-    reads = ("max_rise", "max_return")
+    marks = (hand.take("greatest", *(plotted.acts[name].first for name in extremes)).dots(Role.LIMIT), *told)
     return [
         Step(say("The pressure angle over the cam angle"), said, ANGLE, curves, given=axes),
-        Step(say("The greatest pressure angles"), found, ANGLE, (Dots(np.array(tops), Role.LIMIT), *told), reads),
+        Step(say("The greatest pressure angles"), found, ANGLE, marks, extremes),
     ]

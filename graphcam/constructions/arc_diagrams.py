@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.arc_roller import ArcStations, RollerOnArcs
+from graphcam.constructions.arc_roller import RollerOnArcs
 from graphcam.constructions.axes import axes_over_phi, degree_ticks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
-from graphcam.drafting.curve import at_greatest, faired, highest_and_lowest
-from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Construction, Reading, Step, View, reading, say
-from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Construction, Step, View, say
+from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
@@ -26,6 +28,7 @@ VIEWS: Mapping[str, View] = {"a": ACCELERATION, "v": VELOCITY, "s": DISPLACEMENT
 SYMBOLS = {"a": "a", "v": "v", "s": "s", "alpha": "α"}
 MIRROR = {"a": 1, "v": -1, "s": 1, "alpha": -1}
 """What becomes of a quantity on the mirrored flank, which is run over backwards."""
+ENDS = {"highest": UP, "lowest": -UP}
 HEIGHTS = {"a": 100.0, "v": 80.0, "s": 60.0}
 """Each diagram takes the largest standard scale at which it is not higher [mm of paper]."""
 
@@ -37,6 +40,9 @@ class ArcDiagramsGivens:
     rolled: RollerOnArcs
     mu_phi: Scale
     heights: Mapping[str, float]
+
+
+ArcDiagrams = Construction[ArcDiagramsGivens]
 
 
 MEANING = Meaning(
@@ -68,7 +74,7 @@ MEANING = Meaning(
 
 def arc_diagrams(
     rolled: RollerOnArcs, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
-) -> Construction[ArcDiagramsGivens]:
+) -> ArcDiagrams:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
     rolled : from :func:`~graphcam.constructions.arc_roller.arc_roller`
@@ -79,24 +85,35 @@ def arc_diagrams(
     ``a_candidates`` and ``alpha_candidates`` (..., 2), highest and lowest, which they were chosen from.
     Points: the plotted ``a``, ``v``, ``s`` and ``alpha`` of the rise, and ``a_tops`` ..., highest and lowest.
     """
-    hand, stations = pencil.hand("arc_diagrams"), rolled.givens.stations
-    x = rolled.readings["phi"].paper / mu_phi.per_mm
-    points: dict[str, Points] = {}
-    readings: dict[str, Reading] = {}
+    hand, stations, turn = Hand(pencil, MEANING), rolled.givens.stations, rolled.readings["edges"]
+    o = hand.given("O")
+    laid_off = reckoned(partial(_over_the_turn, rolled.givens.arcs.givens.dwell), hand.carry(turn))
+    ends = hand.lay_off("ends", o, RIGHT, reckoned(partial(np.multiply, 1 / mu_phi.per_mm), laid_off))
+    feet = hand.divide("stations", ends[stations.arc], ends[stations.arc + 1], stations.u)
+    points: dict[str, Drawn] = {}
     for name in VIEWS:
         source = rolled.readings[name]
         scale = mu_phi.per_mm if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
-        points[name] = x + UP * (source.value / scale + hand.line(stations.u.size))
+        points[name] = hand.lay_off(name, feet, UP, hand.carry(source, source.scale / scale))
         if name == "s":
-            readings["lift"] = reading(hand.read(points[name].imag[..., -1]), scale, source.unit)
+            hand.read("lift", between(o, points[name][-1], UP), scale)
             continue
-        tops = highest_and_lowest(points[name], stations.spans)
-        greatest = hand.read(np.abs(tops.imag))
-        points[f"{name}_tops"] = tops
-        readings[f"max_{name}"] = reading(np.max(greatest, axis=-1), scale, source.unit)
-        readings[f"{name}_candidates"] = reading(greatest, scale, source.unit)
-    givens = ArcDiagramsGivens(rolled, mu_phi, heights)
-    return Construction(MEANING, givens, pencil, readings, points, _draw)
+        sides = [hand.tangent(f"{name} {end}", points[name], stations.spans, way) for end, way in ENDS.items()]
+        points[f"{name}_tops"] = hand.take(f"{name}_tops", *sides)
+        greatest = reckoned(np.abs, between(o, points[f"{name}_tops"], UP))
+        hand.read(f"max_{name}", reckoned(_greatest, greatest), scale)
+        hand.read(f"{name}_candidates", greatest, scale, source.unit)
+    return hand.finished(ArcDiagramsGivens(rolled, mu_phi, heights), _draw, points)
+
+
+def _over_the_turn(dwell: float, edges: Floats) -> Floats:
+    """Where the arcs, the ``dwell`` and the turn begin and end, (..., 9), from the rise's ``edges`` (..., 4)."""
+    down = 2 * edges[..., -1:] + dwell - edges[..., ::-1]
+    return np.concatenate([edges, down, np.full_like(down[..., :1], FULL_TURN)], axis=-1)
+
+
+def _greatest(candidates: Floats) -> Floats:
+    return np.max(candidates, axis=-1)
 
 
 def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
@@ -144,66 +161,67 @@ CARRIED = {
 }
 
 
-def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
-    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi
-    if np.isnan(rolled.first("phi")).any():
+def _draw(plotted: ArcDiagrams) -> list[Step]:
+    if np.isnan(plotted.givens.rolled.first("phi")).any():
         said = say("Without a path of the roller there is nothing to plot.")
         return [Step(say("No diagrams"), said, DISPLACEMENT, ())]
-    edges = _edges(rolled, mu_phi)
-    return [_diagram(plotted, name, edges) for name in VIEWS]
+    return [_diagram(plotted, name) for name in VIEWS]
 
 
-def _edges(rolled: RollerOnArcs, mu_phi: Scale) -> Floats:
-    """Where the arcs, the dwell and the turn begin and end, on the paper."""
-    rise: Floats = rolled.first("edges")
-    down = 2 * rise[-1] + rolled.givens.arcs.givens.dwell - rise[::-1]
-    return np.concatenate([rise, down, [FULL_TURN]]) / mu_phi.per_mm
-
-
-def _diagram(plotted: Construction[ArcDiagramsGivens], name: str, edges: Floats) -> Step:
-    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi
-    curve = plotted.first(name)
-    held = float(curve[-1].imag) if name == "s" else 0.0
-    line = _whole_turn(curve, rolled.givens.stations, edges, MIRROR[name], held)
-    low, high = float(np.nanmin(line.imag)), float(np.nanmax(line.imag))
-    heights = plotted.givens.heights
-    mu = np.degrees(mu_phi.per_mm) if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
-    axes = axes_over_phi(edges[-1], line.imag, SYMBOLS[name])
+def _diagram(plotted: ArcDiagrams, name: str) -> Step:
+    hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
+    curve = _whole_turn(plotted, hand, name)
+    low, high = float(np.nanmin(curve.shown.imag)), float(np.nanmax(curve.shown.imag))
+    axes = axes_over_phi(float(ends.shown[-1].real), curve.shown.imag, SYMBOLS[name])
     if name == "alpha":
         axes += degree_ticks(mu_phi)
+    limits = hand.erect("limits", ends[1:])
     marks: list[Mark] = [
         *axes,
-        Segments(edges[1:] + low * UP, edges[1:] + high * UP, Role.CONSTRUCTION),
-        Dots(curve, Role.CONSTRUCTION),
-        Line(line, Role.RESULT),
+        Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION, of=limits.act),
+        plotted.acts[name].dots(Role.CONSTRUCTION),
+        curve.line(Role.RESULT),
     ]
     if name == "alpha":
-        marks += _phases(edges, mu_phi, low - 24.0)
-    values = {"degree": np.degrees(mu_phi.per_mm), "mu": mu, "lift": float(rolled.value("lift"))}
+        marks += _phases(ends, mu_phi, low - 24.0)
+    greatest = plotted.readings["lift" if name == "s" else f"max_{name}"]
+    mu = greatest.per_mm if name != "alpha" else np.degrees(greatest.per_mm)
+    values = {"degree": np.degrees(mu_phi.per_mm), "mu": mu, "lift": float(plotted.value("lift"))}
     if name != "s":
-        tops = plotted.first(f"{name}_tops")
-        top = complex(at_greatest(tops, np.abs(tops.imag)))
-        paper = float(plotted.first(f"max_{name}"))
+        tops, paper = plotted.acts[f"{name}_tops"], float(plotted.first(f"max_{name}"))
+        top = hand.take("top", tops.first, which=int(np.argmax(np.abs(tops.shown.imag))))
+        side = np.sign(top.place.imag)
         values |= {"paper": paper, "value": paper * mu}
-        marks += [
-            Dots(np.array([top]), Role.LIMIT),
-            Label(top, say("{value:.2f}", value=np.sign(top.imag) * paper * mu), towards=np.sign(top.imag) * UP),
-        ]
+        said = say("{value:.2f}", value=side * paper * mu)
+        marks += [top.dots(Role.LIMIT), Label(top.place, said, side * UP, of=greatest.act)]
     reads = ("lift",) if name == "s" else (f"max_{name}",)
     return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), reads, axes)
 
 
-def _whole_turn(curve: Points, stations: ArcStations, edges: Floats, mirror: int, held: float) -> Points:
-    """The curve over the turn: the faired rise, the dwell at the height ``held``, the rise mirrored, the rest."""
-    pieces = [faired(curve[span][~np.isnan(curve[span])]) for span in stations.spans]
-    rise = np.concatenate([np.array([0j]), *pieces])
-    back = edges[3] + edges[4] - rise[::-1].real + UP * mirror * rise[::-1].imag
-    return np.concatenate([rise, edges[3:5] + UP * held, back, edges[-2:] + 0j])
+def _whole_turn(plotted: ArcDiagrams, hand: Hand, name: str) -> Drawn:
+    """The curve over the turn: the faired rise, the dwell, the rise mirrored, the rest."""
+    places, ends, spans = (
+        plotted.acts[name].first,
+        plotted.acts["ends"].first,
+        plotted.givens.rolled.givens.stations.spans,
+    )
+    known = [places[span][~np.isnan(places.shown[span])] for span in spans]
+    pieces = [hand.fair(f"arc {k}", piece, [slice(None)]) for k, piece in enumerate(known)]
+    rise = hand.take("rise", plotted.acts["O"].first, *pieces)
+    backwards, middle = rise[np.arange(rise.shown.size)[::-1]], hand.divide("middle", ends[3], ends[4], 0.5)
+    if MIRROR[name] > 0:
+        back = hand.mirrored("return", backwards, hand.erect("middle of the dwell", middle))
+    else:
+        back = hand.enlarged("return", backwards, middle, -1, middle.place)
+    dwell = ends[3:5]
+    if name == "s":
+        dwell = hand.raised("dwell", dwell, between(plotted.acts["O"].first, places[-1], UP))
+    return hand.take("turn", rise, dwell, back, ends[-2:])
 
 
-def _phases(edges: Floats, mu_phi: Scale, height: float) -> list[Mark]:
+def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     """The angles of rise, dwell and return."""
-    ends = edges[[0, 3, 4, 7, 8]] + UP * height
-    angles = np.degrees(np.diff(ends.real) * mu_phi.per_mm)
-    spans = zip(pairwise(ends), SPANS, angles, strict=True)
-    return [Dimension(a, b, said.where(angle=angle)) for (a, b), said, angle in spans if angle > 0]
+    bounds = ends.shown[[0, 3, 4, 7, 8]] + UP * height
+    angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm)
+    spans = zip(pairwise(bounds), SPANS, angles, strict=True)
+    return [Dimension(a, b, said.where(angle=angle), of=ends.act) for (a, b), said, angle in spans if angle > 0]

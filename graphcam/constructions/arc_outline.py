@@ -7,25 +7,26 @@ Laid off the other way it gives the other root.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
-from graphcam.drafting.euclid import UP, along_to_circle, meet, perpendicular_bisector, turned, unit
+from graphcam.drafting.acts import Drawn, Setting
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.marks import Arc, Dimension, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
-from graphcam.drafting.pencil import Hand, Pencil
+from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane import cross, dot
 from graphcam.words import sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y")
-CENTRE = np.zeros((), dtype=complex)
-"""The cam centre O."""
 OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
@@ -82,51 +83,57 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
     ``other_F``; ``rho2``, ``rho3``, and the radii of the circles about the cam centre, ``base`` and ``outer``.
     Points: these, with ``A``, ``D``, ``G`` and the laid off ``P`` and ``other_P``.
     """
-    hand = pencil.hand("three_arcs")
-    rho1 = given.rho1 / mu_l.per_mm
-
-    def plotted(point: Point) -> Points:
-        """A given point [mm] on the paper, where the hand sets it."""
-        return complex(*point) / mu_l.per_mm + hand.point(1)[..., 0]
-
-    points = {"D": plotted(given.D), "G": plotted(given.G)}
-    g, d = points["G"], points["D"]
-    c1 = d - unit(d) * (rho1 + _dividers(hand)) if given.C1 is None else plotted(given.C1)
-    if given.A is not None:
-        points["given_A"] = plotted(given.A)
+    hand, rho1 = Hand(pencil, MEANING), given.rho1 / mu_l.per_mm
+    o = hand.given("O")
+    points = _plotted(hand, o, given, mu_l)
+    d, g = points["D"], points["G"]
+    if given.C1 is None:
+        points["C1"] = hand.lay_off("C1", d, hand.join("D O", d, o), rho1)
     if given.C2 is None:
-        c2 = meet(*perpendicular_bisector(points["given_A"], g), CENTRE, points["given_A"])
-    else:
-        c2 = plotted(given.C2)
-    rho2 = np.abs(c2 - g)
-    points |= {"C1": c1, "C2": c2}
+        a = points["given_A"]
+        hand.join("given_A G", a, g)
+        points["C2"] = hand.cross("C2", hand.bisect("bisector of given_A G", a, g), hand.join("O A", o, a))
+    c1, c2 = points["C1"], points["C2"]
+    about_c1 = hand.circle("circle about C1", c1, rho1)
+    line = hand.join("G C2", g, c2)
     for name, side in (("", 1), ("other_", -1)):
-        p = g + side * unit(c2 - g) * (rho1 + _dividers(hand))
-        c3 = meet(*perpendicular_bisector(c1, p), g, c2 - g)
-        points |= {f"{name}P": p, f"{name}C3": c3, f"{name}F": _touching(c1, rho1, c3, g) + hand.point(1)[..., 0]}
+        p = hand.lay_off(f"{name}P", g, line.turned(side), rho1)
+        hand.join(f"C1 {name}P", c1, p)
+        c3 = hand.cross(f"{name}C3", hand.bisect(f"bisector of C1 {name}P", c1, p), line)
+        f = _touching(hand, name, hand.join(f"C1 {name}C3", c1, c3), about_c1, between(c3, g))
+        points |= {f"{name}P": p, f"{name}C3": c3, f"{name}F": f}
     # The dwells' circles touch the arcs on the lines through the centres.
-    points["A"] = along_to_circle(CENTRE, -c2, c2, rho2)
-    points["D"] = along_to_circle(CENTRE, c1, c1, rho1)
-    lengths = {"rho2": rho2, "rho3": np.abs(points["C3"] - g)}
-    lengths |= {"base": np.abs(points["A"]), "outer": np.abs(points["D"])}
+    about_c2, _ = (hand.circle(f"circle about {c}", points[c], between(points[c], g)) for c in ("C2", "C3"))
+    points["A"] = hand.cross("A", hand.join("O C2", o, c2).turned(-1), about_c2)
+    points["D"] = hand.cross("D", hand.join("O C1", o, c1), about_c1)
+    for name in ("A", "D"):
+        hand.circle(f"circle through {name}", o, between(o, points[name]))
+    radii = {"rho2": (c2, g), "rho3": (points["C3"], g), "base": (o, points["A"]), "outer": (o, points["D"])}
+    for name, ends in radii.items():
+        hand.read(name, between(*ends), mu_l.per_mm)
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
-        lengths |= {f"{name}_x": points[name].real, f"{name}_y": points[name].imag}
-    readings = hand.readings(mu_l.per_mm, "mm", **lengths)
-    return Construction(MEANING, ThreeArcsGivens(given, dwell, mu_l), pencil, readings, points, _draw)
+        for reading, along in zip(_xy(name), (RIGHT, UP), strict=True):
+            hand.read(reading, between(o, points[name], along), mu_l.per_mm)
+    return hand.finished(ThreeArcsGivens(given, dwell, mu_l), _draw, points)
 
 
-def _dividers(hand: Hand) -> Floats:
-    """The error of one setting of the dividers, ([samples])."""
-    return hand.dividers(1)[..., 0]
+def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, Drawn]:
+    """The given points: laid off across, and up from there."""
+    names = [name for name in ("A", "D", "G", "C1", "C2") if getattr(given, name) is not None]
+    x, y = np.array([getattr(given, name) for name in names]).T / mu_l.per_mm
+    plotted = hand.lay_off("given points", hand.erect("uprights", hand.lay_off("feet", o, RIGHT, x)), UP, y)
+    # A and D are found again, where the dwells' circles touch.
+    acts = {name: f"given_{name}" if name in "AD" else name for name in names}
+    found = {name: hand.take(act, plotted, which=k) for k, (name, act) in enumerate(acts.items())}
+    return found | ({"given_A": found["A"]} if "A" in found else {})
 
 
-def _touching(c1: Points, rho1: float, c3: Points, g: Points) -> Points:
+def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Setting) -> Drawn:
     """F: of the two places where the line of centres meets the circle about C1 the one on the circle about C3."""
-    with np.errstate(invalid="ignore"):
-        radius, towards = np.abs(c3 - g), rho1 * unit(c1 - c3)
-    beyond, between = c1 + towards, c1 - towards
-    off = [np.abs(np.abs(f - c3) - radius) for f in (beyond, between)]
-    return np.where(off[0] <= off[1], beyond, between)
+    ends = hand.cross(f"{name}ends", hand.take(f"{name}both ways", centres.turned(-1), centres), about_c1)
+    c3 = centres.points + centres.directions
+    off = np.abs(np.abs(ends.points - c3[..., None]) - rho3.amount[..., None])
+    return hand.take(f"{name}F", ends, which=np.argmin(off, axis=-1)[..., None])[0]
 
 
 def run(arcs: ArcOutline) -> int:
@@ -134,55 +141,49 @@ def run(arcs: ArcOutline) -> int:
     return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
 
 
-def mirrored(arcs: ArcOutline, points: Points) -> Points:
-    """Points of the rise's flank, of the first sample, on the return's: across the middle of the upper dwell."""
-    axis = turned(unit(arcs.first("D")), -run(arcs) * arcs.givens.dwell / 2)
-    return axis**2 * np.conj(points)
+def middle_of_dwell(arcs: ArcOutline) -> Drawn:
+    """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
+    turn = -run(arcs) * arcs.givens.dwell / 2
+    return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
 
 
-def outline(arcs: ArcOutline, grown: float, role: Role) -> list[Mark]:
-    """The closed profile of the first sample, all arcs ``grown`` by a roller's radius [mm of paper]."""
-    a, g, f, d = (complex(arcs.first(name)) for name in ("A", "G", "F", "D"))
-    c1, c2, c3 = (complex(arcs.first(name)) for name in ("C1", "C2", "C3"))
+def outline(arcs: ArcOutline, circles: Sequence[Drawn], joints: Points, role: Role) -> list[Mark]:
+    """The closed profile of the first sample.
+
+    circles : about C2, C3 and C1, and about O the outer and the base circle
+    joints : (4,) where the arcs of the rise begin, and where the last one ends
+    """
+    hand, axis = showing(arcs), middle_of_dwell(arcs)
+    image = hand.mirrored("joints of the return", hand.given("joints", joints), axis).points
     marks: list[Mark] = []
-    for centre, start, end in ((c2, a, g), (c3, g, f), (c1, f, d)):
-        for flip in (False, True):
-            three: Points = np.array([centre, start, end])
-            c, p, q = (mirrored(arcs, three) if flip else three).tolist()
-            marks.append(_arc(c, p, q, grown, role))
-    sigma, dwell, rise = run(arcs), arcs.givens.dwell, float(abs(np.angle(d / a)))
-    for start, angle in ((d, dwell), (complex(mirrored(arcs, np.asarray(a))), FULL_TURN - 2 * rise - dwell)):
-        if angle > 0:
-            first = float(np.angle(start))
-            low, high = sorted((first, first - sigma * angle))
-            marks.append(Arc(0j, abs(start) + grown, low, high, role))
-    return marks
+    for k, circle in enumerate(circles[:3]):
+        turn = float(np.angle((joints[k + 1] - circle.place) / (joints[k] - circle.place)))
+        other = hand.mirrored(f"{circle.act.name} on the return", circle.first, axis)
+        marks += [_arc(circle, joints[k], turn, role), _arc(other, image[k], -turn, role)]
+    dwell, rise = arcs.givens.dwell, float(abs(np.angle(joints[3] / joints[0])))
+    dwells = zip(circles[3:], (joints[3], image[0]), (dwell, FULL_TURN - 2 * rise - dwell), strict=True)
+    return marks + [_arc(circle, start, -run(arcs) * angle, role) for circle, start, angle in dwells if angle > 0]
 
 
-def _arc(centre: complex, start: complex, end: complex, grown: float, role: Role) -> Arc:
-    """The shorter arc about a centre from one point to another."""
-    turn, first = float(np.angle((end - centre) / (start - centre))), float(np.angle(start - centre))
+def _arc(circle: Drawn, start: complex, turn: float, role: Role) -> Arc:
+    """The part of a circle that begins at a point and turns by an angle [rad], counter-clockwise positive."""
+    first = float(np.angle(start - circle.place))
     low, high = sorted((first, first + turn))
-    return Arc(centre, abs(start - centre) + grown, low, high, role)
+    return Arc(circle.place, float(np.asarray(circle.first.radius)), low, high, role, of=circle.act)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
 def _draw(arcs: ArcOutline) -> list[Step]:
-    drawn = {name: complex(arcs.first(name)) for name in arcs.points}
-    steps = [_data(arcs, drawn), _first_centre(arcs, drawn), _second_centre(arcs, drawn)]
-    if np.isnan(drawn["C2"]):
-        return steps
-    for name in ("", "other_"):
-        steps += _third_arc(arcs, drawn, name)
-    if np.isnan(drawn["C3"]):
-        return steps
-    return [*steps, _profile(arcs, drawn)]
+    steps = [_data(arcs), _first_centre(arcs), _second_centre(arcs)]
+    if not np.isnan(arcs.first("C2")):
+        steps += [*_third_arc(arcs, ""), *_third_arc(arcs, "other_")]
+    return steps if np.isnan(arcs.first("C3")) else [*steps, _profile(arcs)]
 
 
-def _profile(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
-    rho1, mu_l = arcs.givens.given.rho1, arcs.givens.mu_l.per_mm
+def _profile(arcs: ArcOutline) -> Step:
+    rho1 = arcs.givens.given.rho1
     radii = {name: float(arcs.value(name)) for name in ("rho2", "rho3", "base", "outer")}
     said = say(
         "The arcs AG about C2, GF about C3 and FD about C1 are drawn, with the radii ρ₂ = {rho2:.3f} mm, ρ₃ = "
@@ -190,20 +191,57 @@ def _profile(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
         "return is the mirror image; the outer circle holds the follower up over {dwell:.6g}°."
     ).where(rho1=rho1, dwell=np.degrees(arcs.givens.dwell), **radii)
     arms = (
-        ("C1", "D", "ρ₁", rho1),
-        ("C2", "G", "ρ₂", float(arcs.first("rho2")) * mu_l),
-        ("C3", "F", "ρ₃", float(arcs.first("rho3")) * mu_l),
+        ("C1", "D", "ρ₁", rho1, arcs.acts["circle about C1"].act),
+        ("C2", "G", "ρ₂", radii["rho2"], arcs.readings["rho2"].act),
+        ("C3", "F", "ρ₃", radii["rho3"], arcs.readings["rho3"].act),
     )
     dimensions = [
-        Dimension(drawn[centre], drawn[end], say("{name} = {rho:.2f}", name=name, rho=rho))
-        for centre, end, name, rho in arms
+        Dimension(_place(arcs, centre), _place(arcs, end), say("{name} = {rho:.2f}", name=name, rho=rho), of=of)
+        for centre, end, name, rho, of in arms
     ]
-    marks = (*outline(arcs, 0.0, Role.RESULT), *dimensions)
+    marks = (*cam(arcs), *dimensions)
     return Step(say("The profile"), said, ARCS, marks, reads=("base", "outer"))
 
 
-def _named(name: str, at: complex, away: complex = 0j) -> Label:
-    return Label(at, name, towards=(at - away) / abs(at - away) if abs(at - away) > SAME_RADIUS else 1 + 1j)
+def cam(arcs: ArcOutline) -> list[Mark]:
+    """The closed profile of the cam."""
+    circles = [arcs.acts[f"circle {name}"] for name in ("about C2", "about C3", "about C1", "through D", "through A")]
+    return outline(arcs, circles, np.array([_place(arcs, name) for name in "AGFD"]), Role.RESULT)
+
+
+def _place(arcs: ArcOutline, name: str) -> complex:
+    return arcs.acts[name].place
+
+
+def _dots(arcs: ArcOutline, *names: str) -> Dots:
+    """Some of the points, plotted."""
+    return showing(arcs).take(" ".join(names), *(arcs.acts[name].first for name in names)).dots()
+
+
+def _primed(name: str) -> str:
+    """What a point is called on the paper."""
+    return name.removeprefix("other_") + "′" * name.startswith("other_")
+
+
+def _named(arcs: ArcOutline, name: str, away: complex = 0j) -> Label:
+    """The name of a point, on the side that is ``away`` from a place."""
+    way = _place(arcs, name) - away
+    return arcs.acts[name].label(_primed(name), way / abs(way) if abs(way) > SAME_RADIUS else 1 + 1j)
+
+
+def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.CONSTRUCTION) -> Line:
+    """The part of a line between those two of its points that lie farthest apart."""
+    places = [_place(arcs, end) if isinstance(end, str) else end for end in ends]
+    pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
+    return Line(np.array(pair), role, of=arcs.acts[name].act)
+
+
+def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
+    """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
+    name, chord = f"bisector of {a} {b}", _line(arcs, f"{a} {b}", a, b, role=role)
+    middle, along = _place(arcs, name), _place(arcs, to) - _place(arcs, name)
+    start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
+    return chord, _line(arcs, name, start, to, role=role)
 
 
 def _at(arcs: ArcOutline, name: str) -> Caption:
@@ -221,24 +259,23 @@ def _told(point: Point) -> Caption:
     return say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
 
 
-def _data(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
-    given, mu_l = arcs.givens.given, arcs.givens.mu_l
+def _data(arcs: ArcOutline) -> Step:
+    given, outer = arcs.givens.given, arcs.acts["circle through D"].drawn_circle(Role.CONSTRUCTION)
     names = [name for name in ("A", "D", "G") if getattr(given, name) is not None]
-    outer = Circle(0j, abs(drawn["D"]), Role.CONSTRUCTION)
     reach = np.array([-1, 1]) * (outer.radius + OVERHANG)
     plotted = (
         *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS)),
-        *(Dots(np.array([0j, *(drawn[name] for name in names)])), Label(0j, "O", towards=-1 - 1j)),
-        *(_named(name, drawn[name]) for name in names),
+        *(_dots(arcs, "O", *names), arcs.acts["O"].label("O", -1 - 1j)),
+        *(_named(arcs, name) for name in names),
     )
     points = sequence([say("{name} = {at}", name=name, at=_told(getattr(given, name))) for name in names])
     said = say("About the cam centre O the given points {points} are plotted at {ratio}, and the circle through D.")
-    said = said.where(points=points, ratio=ratio_text(mu_l.per_mm))
+    said = said.where(points=points, ratio=ratio_text(arcs.givens.mu_l.per_mm))
     return Step(say("The data"), said, ARCS, (outer, *plotted), given=plotted)
 
 
-def _first_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
-    given, c1, d = arcs.givens.given, drawn["C1"], drawn["D"]
+def _first_centre(arcs: ArcOutline) -> Step:
+    given, d = arcs.givens.given, _place(arcs, "D")
     if given.C1 is None:
         said = say(
             "On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the first "
@@ -250,17 +287,17 @@ def _first_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
             "on the line O C1."
         ).where(rho1=given.rho1, at=_told(given.C1))
     marks = (
-        Line(np.array([0j, d * (1 + OVERHANG / abs(d))]), Role.CONSTRUCTION),
-        Circle(c1, given.rho1 / arcs.givens.mu_l.per_mm, Role.CONSTRUCTION),
-        Dots(np.array([c1])),
-        _named("C1", c1, d),
+        _line(arcs, "O C1", 0j, d * (1 + OVERHANG / abs(d))),
+        arcs.acts["circle about C1"].drawn_circle(Role.CONSTRUCTION),
+        arcs.acts["C1"].dots(),
+        _named(arcs, "C1", d),
     )
     return Step(say("The first centre"), said, ARCS, marks, reads=_xy("C1"))
 
 
-def _second_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
-    given, c2, g, a = arcs.givens.given, drawn["C2"], drawn["G"], drawn["A"]
-    if np.isnan(c2):
+def _second_centre(arcs: ArcOutline) -> Step:
+    given, a = arcs.givens.given, _place(arcs, "A")
+    if np.isnan(a):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
         return Step(say("The second centre"), said, ARCS, ())
     rho2 = float(arcs.value("rho2"))
@@ -269,7 +306,7 @@ def _second_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
             "The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the second arc: "
             "ρ₂ = C2 G = {rho2:.3f} mm."
         ).where(at=_at(arcs, "C2"), rho2=rho2)
-        bisector = _bisector(a, g, c2)
+        bisector = _bisector(arcs, "given_A", "G", "C2")
     else:
         said = say(
             "The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches a "
@@ -277,53 +314,44 @@ def _second_centre(arcs: ArcOutline, drawn: dict[str, complex]) -> Step:
         ).where(at=_told(given.C2), rho2=rho2)
         bisector = ()
     marks = (
-        Line(np.array([a * (1 + OVERHANG / abs(a)), c2]), Role.CONSTRUCTION),
-        Line(np.array([g, c2]), Role.CONSTRUCTION),
-        Circle(0j, abs(a), Role.CONSTRUCTION),
+        _line(arcs, "O C2", a * (1 + OVERHANG / abs(a)), "C2"),
+        _line(arcs, "G C2", "G", "C2"),
+        arcs.acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
         *bisector,
-        Dots(np.array([c2, a])),
-        _named("C2", c2),
-        *((_named("A", a),) if given.A is None else ()),
+        _dots(arcs, "C2", "A"),
+        _named(arcs, "C2"),
+        *((_named(arcs, "A"),) if given.A is None else ()),
     )
     return Step(say("The second centre"), said, ARCS, marks, reads=(*_xy("C2"), "rho2"))
 
 
-def _bisector(a: complex, b: complex, to: complex, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
-    """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
-    middle = (a + b) / 2
-    along = to - middle
-    start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
-    return Line(np.array([a, b]), role), Line(np.array([start, to]), role)
-
-
-def _third_arc(arcs: ArcOutline, drawn: dict[str, complex], name: str) -> list[Step]:
+def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     """The centre of the third arc and F, of the one root or the ``other_``."""
-    other = bool(name)
-    p, c3, f, g, c1, c2 = (drawn[key] for key in (f"{name}P", f"{name}C3", f"{name}F", "G", "C1", "C2"))
-    role, prime = (Role.HIDDEN, "′") if other else (Role.CONSTRUCTION, "")
+    p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
+    role, prime = (Role.HIDDEN, "′") if name else (Role.CONSTRUCTION, "")
     title = say("The third centre")
     laid_off = say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
-    if other:
+    if name:
         title = say("The other root")
         laid_off = say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
-    if np.isnan(c3):
+    if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
-    rho3 = abs(c3 - g) * arcs.givens.mu_l.per_mm
+    rho3 = abs(_place(arcs, c3) - _place(arcs, "G")) * arcs.givens.mu_l.per_mm
     found_centre = say(
         "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
         "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."
-    ).where(prime=prime, c3=_at(arcs, f"{name}C3"), rho3=rho3)
+    ).where(prime=prime, c3=_at(arcs, c3), rho3=rho3)
     centre = sequence([laid_off, found_centre], " ")
     touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
-        prime=prime, f=_at(arcs, f"{name}F"), orders=_orders(f, c1, c3, g, c2, prime)
+        prime=prime, f=_at(arcs, f), orders=_orders(arcs, name)
     )
     found = (
-        *(*_bisector(c1, p, c3, role), Line(_whole(g, p, c3), role), Dots(np.array([p, c3]))),
-        *(_named(f"P{prime}", p), _named(f"C3{prime}", c3)),
+        *(*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role)),
+        *(_dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3)),
     )
-    line = (Line(_whole(c3, c1, f), role), Dots(np.array([f])), _named(f"F{prime}", f))
-    if other:
+    line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
+    if name:
         reads = (*_xy("other_C3"), *_xy("other_F"))
         return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), reads)]
     return [
@@ -332,28 +360,17 @@ def _third_arc(arcs: ArcOutline, drawn: dict[str, complex], name: str) -> list[S
     ]
 
 
-def _whole(*points: complex) -> Points:
-    """The two of three points of a line that lie farthest apart."""
-    pairs = [np.array([a, b]) for k, a in enumerate(points) for b in points[k + 1 :]]
-    return max(pairs, key=lambda pair: abs(pair[0] - pair[1]))
-
-
-def _orders(f: complex, c1: complex, c3: complex, g: complex, c2: complex, prime: str) -> Caption:
+def _orders(arcs: ArcOutline, name: str) -> Caption:
     """What is read off the two lines of centres."""
-    first = _order({f"F{prime}": f, "C1": c1, f"C3{prime}": c3})
-    second = _order({"G": g, f"C3{prime}": c3, "C2": c2})
+    first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
     verdict = say("such a cam cannot be built")
-    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"] and not prime:
+    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"]:
         verdict = say("the arcs touch from inside, and the cam can be built")
     said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
     return said.where(first=sequence(first), second=sequence(second), verdict=verdict)
 
 
-def _order(points: dict[str, complex]) -> list[str]:
-    """The names of points of a line in their order, the first of the dictionary before the last."""
-    names = list(points)
-    ends = _whole(*points.values())
-    along: Points = np.asarray(ends[1] - ends[0])
-    place = {name: float(dot(along, np.asarray(at))) for name, at in points.items()}
-    order = sorted(names, key=lambda name: place[name])
-    return order if order.index(names[0]) < order.index(names[-1]) else order[::-1]
+def _order(arcs: ArcOutline, *names: str) -> list[str]:
+    """The names of points of a line in their order, the first before the last."""
+    places = np.array([_place(arcs, name) for name in names])
+    return [_primed(names[k]) for k in np.argsort(dot(places[-1] - places[0], places))]

@@ -9,26 +9,27 @@ meets the follower's line in M, and MO is the acceleration d^2s/dphi^2 (after Kl
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.arc_outline import ArcOutline, mirrored, outline, run
-from graphcam.drafting.euclid import UP, along_to_circle, meet, turned, unit
-from graphcam.drafting.ink import Construction, Step, View, Words, reading, say
-from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.constructions.arc_outline import ArcOutline, cam, middle_of_dwell, outline, run
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Construction, Step, View, Words, say
+from graphcam.drafting.marks import Circle, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
-from graphcam.plane import cross, dot
 from graphcam.words import joined
 
 ROLLER = View("roller", say("The roller on the arcs"), across="roller x", up="roller y")
 PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
-CENTRE = np.zeros((), dtype=complex)
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
 JOINTS = (
@@ -138,53 +139,64 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     Points: ``B``, ``C`` the centre of its arc, ``K``, ``right`` the corner of the right angle, ``beyond`` where it cuts
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
-    hand, count = pencil.hand("arc_roller"), stations.u.size
-    mu_l = arcs.givens.mu_l.per_mm
-    touch, centres = _stacked(arcs, "AGFD"), _stacked(arcs, ("C2", "C2", "C3", "C1"))
+    hand, mu_l, sigma = Hand(pencil, MEANING), arcs.givens.mu_l.per_mm, run(arcs)
+    arc, spans = stations.arc, stations.spans
+    o, (a_, g, f, d, c1, c2, c3) = hand.given("O"), (hand.found(arcs, name) for name in (*"AGFD", "C1", "C2", "C3"))
     # The roller's centre lies on the line of centres through each joint.
-    trace = touch + unit(touch - centres) * (roller_radius / mu_l + hand.dividers(4))
-    sigma = -np.sign(cross(touch[..., 0], touch[..., 3]))[..., None]
-    edges = sigma * np.angle(trace[..., :1] * np.conj(trace))
-    edges[..., 1:] += hand.protractor(3)
-    arc, u = stations.arc, stations.u
-    phi = edges[..., arc] + (edges[..., arc + 1] - edges[..., arc]) * u
-    ray = turned(unit(trace[..., :1]), -sigma * phi + hand.protractor(count))
+    touch = hand.take("touch", a_, g, f, d)
+    lines = hand.join("lines of centres", hand.take("centres", c2, c2, c3, c1), touch)
+    trace = hand.lay_off("trace", touch, lines, roller_radius / mu_l)
+    to_joints = hand.join("to the joints", o, trace)
+    edges = [
+        hand.angle(name, to_joints[0], to_joints[k], -sigma) for k, name in enumerate(("phi_G", "phi_F", "rise"), 1)
+    ]
+    measured = reckoned(_from_nothing, *(hand.carry(edge) for edge in edges))
+    phi = reckoned(partial(_divided, stations), measured)
+    rays = hand.protractor("rays", o, to_joints[0], reckoned(partial(np.multiply, -sigma), phi))
     # Each arc passes through the joint at which it begins, the last one ends on the outer circle.
-    c = _stacked(arcs, ("C2", "C3", "C1"))[..., arc]
-    b = along_to_circle(CENTRE, ray, c, np.abs(trace[..., [0, 1, 3]][..., arc] - c)) + hand.point(count)
-    s = np.abs(b) - np.abs(trace[..., :1]) + hand.dividers(count)
-    k = meet(b, c - b, CENTRE, UP * ray)
-    rod = unit(b - c)
-    right = c + UP * rod * (np.abs(k - c) + hand.dividers(count))
-    beyond = meet(right, UP * (b - right), b, rod)
-    n = c + rod * (np.abs(beyond - c) + hand.dividers(count))
-    m = meet(n, UP * rod, CENTRE, ray)
-    v = dot(k, -1j * sigma * ray) + hand.dividers(count)
-    a = -dot(m, ray) + hand.dividers(count)
-    alpha = sigma * np.angle(rod * np.conj(ray)) + hand.protractor(count)
-    prime_radius = np.abs(trace[..., 0])
-    radii = {"prime_radius": prime_radius, "roller_radius": np.abs(trace - touch)[..., 3]}
-    radii["rho"] = np.minimum(np.abs(trace[..., 3] - c[..., -1]), prime_radius)
-    readings = {
-        **hand.readings(mu_l, "mm", s=s),
-        **hand.readings(mu_l, "mm/rad", v=v),
-        **hand.readings(mu_l, "mm/rad²", a=a),
-        "alpha": reading(alpha, 1.0, "rad"),
-        "phi": reading(phi, 1.0, "rad"),
-        **hand.readings(mu_l, "mm", x=b.real, y=b.imag),
-        "edges": reading(edges, 1.0, "rad"),
-        **hand.readings(mu_l, "mm", lift=s[..., -1], **radii),
-        **{name: reading(edges[..., k], 1.0, "rad") for k, name in enumerate(("phi_G", "phi_F", "rise"), 1)},
-        **hand.readings(mu_l, "mm/rad²", **{name: a[..., stations.spans[of]][..., end] for name, of, end in JOINTS}),
-    }
-    points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace, "ray": ray}
+    centres, on = hand.take("centres of the arcs", c2, c3, c1), trace[[0, 1, 3]]
+    paths = hand.circle("arcs of the roller's centre", centres, between(centres, on))
+    hand.circle("dwells of the roller's centre", o, between(o, trace[[3, 0]]))
+    b, c = hand.cross("B", rays, paths[arc]), hand.take("C", centres, which=arc)
+    rods = hand.join("rods", b, c)
+    outward = rods.turned(-1)
+    across = hand.perpendicular("across", rays, o)
+    k = hand.cross("K", rods, across)
+    in_c = hand.perpendicular("perpendiculars in C", outward, c)
+    right = hand.lay_off("right", in_c, in_c, between(c, k))
+    beyond = hand.cross("beyond", hand.perpendicular("right angles", hand.join("legs", right, b), right), rods)
+    n = hand.lay_off("N", c, outward, between(c, beyond))
+    m = hand.cross("M", hand.perpendicular("perpendiculars in N", outward, n), rays)
+    accelerations, prime_radius = between(m, o, rays), between(o, trace[0])
+    hand.read("s", reckoned(np.subtract, between(o, b), between(o, trace[[0]])), mu_l)
+    hand.read("v", between(o, k, across.turned(-sigma)), mu_l)
+    hand.read("a", accelerations, mu_l)
+    hand.angle("alpha", rays, outward, sigma)
+    hand.read("phi", phi, 1.0, "rad", rounded=False)
+    for name, along in (("x", RIGHT), ("y", UP)):
+        hand.read(name, between(o, b, along), mu_l)
+    hand.read("edges", measured, 1.0, "rad", rounded=False)
+    hand.read("lift", reckoned(np.subtract, between(o, b[-1]), prime_radius), mu_l)
+    hand.read("prime_radius", prime_radius, mu_l)
+    hand.read("roller_radius", between(touch[3], trace[3]), mu_l)
+    hand.read("rho", reckoned(np.minimum, between(c1, trace[3]), prime_radius), mu_l)
+    for name, of, end in JOINTS:
+        at = range(arc.size)[spans[of]][end]
+        hand.read(name, between(m[at], o, rays[at]), mu_l)
+    points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace}
     givens = ArcRollerGivens(arcs, roller_radius, stations)
-    return Construction(MEANING, givens, pencil, readings, points, _draw)
+    return hand.finished(givens, _draw, points | {"ray": unit(rays.directions)})
 
 
-def _stacked(arcs: ArcOutline, names: Iterable[str]) -> Points:
-    """Points side by side, (..., k)."""
-    return np.stack([arcs.points[name] for name in names], axis=-1)
+def _from_nothing(*angles: Floats) -> Floats:
+    """Angles in a row, (..., k + 1), after one of zero."""
+    return np.stack([np.zeros_like(angles[0]), *angles], axis=-1)
+
+
+def _divided(stations: ArcStations, edges: Floats) -> Floats:
+    """The stations between the ``edges`` (..., 4) of the arcs."""
+    start, end = edges[..., stations.arc], edges[..., stations.arc + 1]
+    return start + (end - start) * stations.u
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -203,59 +215,59 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
             "Without a readable centre of every arc, {missing}, the roller has no path.", missing=_missing(rolled)
         )
         return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
-    arcs, stations = rolled.givens.arcs, rolled.givens.stations
-    mu_l, roller = arcs.givens.mu_l, rolled.givens.roller_radius
-    b, ray, trace = (rolled.first(name) for name in ("B", "ray", "trace"))
-    edges = np.degrees(rolled.first("edges"))
-    reach = float(np.abs(trace[-1])) + BEYOND
+    arcs, stations, roller = rolled.givens.arcs, rolled.givens.stations, rolled.givens.roller_radius
+    b, rays, ray, edges = rolled.acts["B"], rolled.acts["rays"], rolled.first("ray"), np.degrees(rolled.first("edges"))
+    ends = rays.shown + (float(np.abs(rolled.first("trace")[-1])) + BEYOND) * ray
+    returning = showing(rolled).mirrored("B on the return", b.first, middle_of_dwell(arcs))
     follows = say("The roller's centre") if roller else say("The knife edge")
     kept = say(
         "{follows} keeps to arcs about the same centres, with radii greater by r = {roller:g} mm; they meet on the "
         "lines of centres. The cam angles, measured at O from OA, are {g:.3f}° at G, {f:.3f}° at F and {d:.3f}° at D, "
         "where the rise ends."
     ).where(follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3])
-    outlines = _outlines(arcs, trace, roller / mu_l.per_mm)
     divided = say(
         "The angle of each arc is divided into {parts} equal parts, and a ray is drawn from O for each; it meets the "
         "arc in the roller's centre B. What B is farther from O than at A is the displacement, {lift:.2f} mm of paper "
         "at the end; the return is the mirror image."
     ).where(parts=len(stations.u) // 3 - 1, lift=float(rolled.first("lift")))
     # Where two arcs meet, both have a station of one name.
-    named = dict(zip(stations.names, ray.tolist(), strict=True)).items()
+    named = dict(zip(stations.names, zip(ends.tolist(), ray.tolist(), strict=True), strict=True))
     places = (
-        Segments(0 * ray, reach * ray, Role.CONSTRUCTION),
-        *(Dots(centres, Role.CONSTRUCTION) for centres in (b, mirrored(arcs, b))),
+        Segments(rays.shown, ends, Role.CONSTRUCTION, of=rays.act),
+        *(centres.dots(Role.CONSTRUCTION) for centres in (b, returning)),
         *_rollers(rolled),
-        *(Label(at * reach, name, towards=at, small=True) for name, at in named),
+        *(Label(end, name, way, small=True, of=rays.act) for name, (end, way) in named.items()),
     )
     reads = ("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho")
     return [
-        Step(say("The arcs of the roller's centre"), kept, ROLLER, outlines, reads),
+        Step(say("The arcs of the roller's centre"), kept, ROLLER, _outlines(rolled), reads),
         Step(say("Stations"), divided, ROLLER, places, reads=("lift", "s", "alpha", "x", "y")),
         *_plan(rolled),
     ]
 
 
-def _outlines(arcs: ArcOutline, trace: Points, roller: float) -> tuple[Mark, ...]:
-    """The cam and the path of the roller's centre, which passes through ``trace`` (4,); ``roller`` in mm of paper."""
+def _outlines(rolled: RollerOnArcs) -> tuple[Mark, ...]:
+    """The cam, and the path of the roller's centre."""
+    arcs, trace, o = rolled.givens.arcs, rolled.first("trace"), rolled.acts["O"]
+    paths, dwells = (rolled.acts[f"{name} of the roller's centre"].first for name in ("arcs", "dwells"))
+    path = outline(arcs, [paths[0], paths[1], paths[2], dwells[0], dwells[1]], trace, Role.CURVE)
     return (
-        *outline(arcs, 0.0, Role.RESULT),
-        *(outline(arcs, roller, Role.CURVE) if roller else ()),
-        Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS),
-        *(Label(complex(arcs.first(name)), name, towards=-complex(at)) for name, at in zip("AGFD", trace, strict=True)),
-        Dots(np.array([0j])),
-        Label(0j, "O", towards=-1 - 1j),
+        *cam(arcs),
+        *(path if rolled.givens.roller_radius else ()),
+        Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS, of=rolled.acts["lines of centres"].act),
+        *(arcs.acts[name].label(name, -complex(at)) for name, at in zip("AGFD", trace, strict=True)),
+        *(o.dots(), o.label("O", -1 - 1j)),
     )
 
 
 def _rollers(rolled: RollerOnArcs) -> list[Circle]:
     """The roller in the middle of every arc."""
-    roller, stations = rolled.givens.roller_radius, rolled.givens.stations
-    if not roller:
+    stations, radius = rolled.givens.stations, rolled.givens.roller_radius / rolled.givens.arcs.givens.mu_l.per_mm
+    if not radius:
         return []
-    middle = [span.start + stations.u.size // 6 for span in stations.spans]
-    radius = roller / rolled.givens.arcs.givens.mu_l.per_mm
-    return [Circle(complex(at), radius, Role.CONSTRUCTION) for at in rolled.first("B")[middle]]
+    middle = rolled.acts["B"].first[[span.start + stations.u.size // 6 for span in stations.spans]]
+    rollers = showing(rolled).circle("rollers", middle, radius)
+    return [rollers[k].drawn_circle(Role.CONSTRUCTION) for k in range(3)]
 
 
 def _missing(rolled: RollerOnArcs) -> Words:
@@ -270,16 +282,16 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
     station = stations.names[at]
     mu_l, sigma = arcs.givens.mu_l, run(arcs)
-    upright = UP / rolled.first("ray")[at]
-    names = ("B", "C", "K", "right", "beyond", "N", "M")
-    points = {name: complex(rolled.first(name)[at] * upright) * mu_l.per_mm for name in names}
-    if np.isnan(list(points.values())).any():
+    names, upright = ("B", "C", "K", "right", "beyond", "N", "M"), UP / rolled.first("ray")[at]
+    places: Points = np.array([0j, *(rolled.first(name)[at] * upright for name in names)])
+    if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, ())]
-    everything: Points = np.array([0j, *points.values()])
-    size = float(max(np.ptp(everything.real), np.ptp(everything.imag)))
+    size = float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l.per_mm
     scale = standard_scale(size, PLAN_SIZE)
-    p = {name: point / scale.per_mm for name, point in points.items()}
+    hand, o, times = showing(rolled), rolled.acts["O"].first, upright * mu_l.per_mm / scale.per_mm
+    p = {name: hand.enlarged(name, rolled.acts[name].first[at], o, times) for name in names}
+    p["O"] = hand.enlarged("O", o, o, times)
     v, a = (float(rolled.value(name)[at]) for name in "va")
     centre = ("C2", "C3", "C1")[on]
     side = -sigma * 1.0
@@ -287,7 +299,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
         "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets the "
         "perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, v = {v:.3f} "
         "mm/rad."
-    ).where(name=station, arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm), paper=abs(p["K"]), v=v)
+    ).where(name=station, arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm), paper=abs(p["K"].place), v=v)
     directed = say("it is directed towards the cam centre: M lies on the side of B.")
     if a > 0:
         directed = say("it is directed away from the cam centre: M lies beyond O.")
@@ -295,39 +307,46 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
         "{centre}K is erected on the rod in {centre}, and at its end a right angle to B: it cuts off {centre}N′ = "
         "{centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular to the rod in N meets "
         "the follower's line in M, and OM = {paper:.2f} mm is the acceleration, a = {a:.3f} mm/rad²; {sense}"
-    ).where(centre=centre, paper=abs(p["M"]), a=a, sense=directed)
+    ).where(centre=centre, paper=abs(p["M"].place), a=a, sense=directed)
     reads = ("v", "a", *(name for name, *_ in JOINTS))
     return [
-        Step(say("Velocity at station {name}", name=station), velocity, PLAN, _velocity(p, centre, side)),
-        Step(say("Acceleration at station {name}", name=station), acceleration, PLAN, _acceleration(p, side), reads),
+        Step(say("Velocity at station {name}", name=station), velocity, PLAN, _velocity(hand, p, centre, side)),
+        Step(
+            say("Acceleration at station {name}", name=station), acceleration, PLAN, _acceleration(hand, p, side), reads
+        ),
     ]
 
 
-def _velocity(p: Mapping[str, complex], centre: str, side: float) -> tuple[Mark, ...]:
+def _velocity(hand: Hand, p: Mapping[str, Drawn], centre: str, side: float) -> tuple[Mark, ...]:
     """The rod from B to its ``centre``, and K; labels stand to the ``side`` of -1 or 1."""
-    axis = np.array([min(0.0, p["M"].imag, p["C"].imag) - BEYOND, p["B"].imag + BEYOND]) * UP
+    low = min(0.0, p["M"].place.imag, p["C"].place.imag) - BEYOND
     return (
-        Line(axis, Role.AXIS),
-        Line(np.array([p["B"], p["C"]]), Role.CURVE),
-        Line(np.array([0j, p["K"]]), Role.RESULT),
-        Line(np.array([p["B"], p["K"]]), Role.CURVE),
-        Dots(np.array([0j, p["B"], p["C"], p["K"]])),
-        Label(0j, "O", towards=-side - 1j),
-        Label(p["B"], "B", towards=side + 0j),
-        Label(p["C"], centre, towards=-side - 1j),
-        Label(p["K"], "K", towards=side + 0j),
+        Line(np.array([low, p["B"].place.imag + BEYOND]) * UP, Role.AXIS),
+        _row(hand, p, "B", "C").line(Role.CURVE),
+        _row(hand, p, "O", "K").line(Role.RESULT),
+        _row(hand, p, "B", "K").line(Role.CURVE),
+        _row(hand, p, *"OBCK").dots(),
+        p["O"].label("O", -side - 1j),
+        p["B"].label("B", side + 0j),
+        p["C"].label(centre, -side - 1j),
+        p["K"].label("K", side + 0j),
     )
 
 
-def _acceleration(p: Mapping[str, complex], side: float) -> tuple[Mark, ...]:
+def _acceleration(hand: Hand, p: Mapping[str, Drawn], side: float) -> tuple[Mark, ...]:
     """The right angle that cuts N′ off, N, and M; labels as in :func:`_velocity`."""
     return (
-        Line(np.array([p["C"], p["right"], p["B"]]), Role.CONSTRUCTION),
-        Line(np.array([p["right"], p["beyond"], p["C"]]), Role.CONSTRUCTION),
-        Line(np.array([p["N"], p["M"]]), Role.CONSTRUCTION),
-        Line(np.array([0j, p["M"]]), Role.RESULT),
-        Dots(np.array([p["right"], p["beyond"], p["N"], p["M"]])),
-        Label(p["beyond"], "N′", towards=-side + 0j),
-        Label(p["N"], "N", towards=side + 0j),
-        Label(p["M"], "M", towards=-side + 0j),
+        _row(hand, p, "C", "right", "B").line(Role.CONSTRUCTION),
+        _row(hand, p, "right", "beyond", "C").line(Role.CONSTRUCTION),
+        _row(hand, p, "N", "M").line(Role.CONSTRUCTION),
+        _row(hand, p, "O", "M").line(Role.RESULT),
+        _row(hand, p, "right", "beyond", "N", "M").dots(),
+        p["beyond"].label("N′", -side + 0j),
+        p["N"].label("N", side + 0j),
+        p["M"].label("M", -side + 0j),
     )
+
+
+def _row(hand: Hand, p: Mapping[str, Drawn], *names: str) -> Drawn:
+    """Some of the plan's points."""
+    return hand.take(" ".join(names), *(p[name] for name in names))

@@ -9,9 +9,10 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import UP, circles_meet, stepped_off, turned, unit
+from graphcam.drafting.euclid import RIGHT, turned, unit
+from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Circle, Dots, Label, Role, Segments
+from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
@@ -53,29 +54,28 @@ def arm_inversion(
 
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
-    hand = pencil.hand("inversion")
-    s, count = integrated.readings["s"], integrated.givens.stations.u.size
-    pivots = stepped_off(distance / mu_l.per_mm + 0j, 0j, profile_view.inverted_positions(integrated, rotation, hand))
+    hand, s = Hand(pencil, MEANING), integrated.readings["s"]
+    prime = profile_view.prime_circle(hand, prime_radius, mu_l)
+    circle = hand.circle("pivot circle", hand.given("cam centre"), distance / mu_l.per_mm)
+    pivots = hand.cross("pivots", profile_view.inverted_positions(hand, integrated, rotation, RIGHT), circle)
+    arcs = hand.circle("arcs of the arm", pivots, arm / mu_l.per_mm)
     # To the left of the way from the cam centre to the pivot: above the line of centres.
-    starts = circles_meet(np.asarray(0j), prime_radius / mu_l.per_mm, pivots, arm / mu_l.per_mm)
-    pitch = stepped_off(starts, pivots, -(s.value + hand.protractor(count))) + hand.point(count)
-    return Construction(
-        MEANING,
-        ArmInversionGivens(integrated, rotation, prime_radius, mu_l, arm, distance),
-        pencil,
-        profile_view.curve_readings(pitch, mu_l, hand),
-        {"pivots": pivots, "starts": starts, "pitch": pitch, "motion": -UP * unit(pitch - pivots)},
-        _draw,
-    )
+    starts = hand.cross("starts", prime, arcs)
+    swung = hand.protractor("swung", pivots, hand.join("arms at rest", pivots, starts), hand.carry(s, -s.scale))
+    pitch = hand.cross("pitch", swung, arcs)
+    motion = hand.perpendicular("motion", hand.join("arms", pivots, pitch).turned(-1), pitch)
+    profile_view.curve_readings(hand, pitch, mu_l)
+    givens = ArmInversionGivens(integrated, rotation, prime_radius, mu_l, arm, distance)
+    places = {"pivots": pivots, "starts": starts, "pitch": pitch, "motion": unit(motion.directions)}
+    return hand.finished(givens, _draw, places)
 
 
 def _draw(inverted: Construction[ArmInversionGivens]) -> list[Step]:
     integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
     sigma, c, r0 = sense(inverted.givens.rotation), inverted.givens.distance, inverted.givens.prime_radius
-    pivots, starts, pitch = (inverted.first(name) for name in ("pivots", "starts", "pitch"))
-    phi = integrated.givens.stations.phi
-    start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
-    circle = (Circle(0j, c / mu_l.per_mm, Role.CONSTRUCTION),)
+    pivots, starts = inverted.acts["pivots"], inverted.acts["starts"].shown
+    start = complex(turned(starts[0], sigma * integrated.givens.stations.phi[0]))  # where the turn begins
+    circle = (inverted.acts["pivot circle"].drawn_circle(Role.CONSTRUCTION),)
     drawn = say(
         "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the pivot, c = {c:g} mm, are drawn at "
         "{ratio}: {r0_paper:.1f} mm and {c_paper:.1f} mm."
@@ -88,9 +88,9 @@ def _draw(inverted: Construction[ArmInversionGivens]) -> list[Step]:
         "From every pivot the arc of the arm's length, {arm:.1f} mm, meets the prime circle; from there the arm is "
         "turned by the displacement, at most {most:.2f}°. Its ends are points of the pitch curve."
     ).where(arm=inverted.givens.arm / mu_l.per_mm, most=np.degrees(integrated.value("s").max()))
-    first = complex(pivots[0])
-    positions = (Dots(pivots, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
-    arms = (Segments(pivots, pitch, Role.CONSTRUCTION), Label(first, "C", towards=first))
+    first = pivots.first[0]
+    positions = (pivots.dots(Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    arms = (inverted.acts["arms"].ways(Role.CONSTRUCTION), first.label("C", first.place))
     return [
         profile_view.prime_step(inverted, say("Prime circle and pivot circle"), drawn, start, circle),
         Step(say("Inverted positions of the pivot"), stepped, PROFILE, positions),

@@ -16,12 +16,13 @@ from graphcam.constructions.axes import degrees, numbers, pieces_of
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
-from graphcam.drafting.curve import faired
-from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, circles_meet, turned, unit
+from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
+from graphcam.drafting.marks import Dimension, Points, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
-from graphcam.drafting.pencil import Hand, Pencil
+from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
@@ -31,18 +32,17 @@ from graphcam.plane import dot
 
 @dataclass(frozen=True, eq=False)
 class ArmPositions:
-    """The arm about its pivot, the origin, swinging clockwise from the left.
+    """The arm about its pivot, at rest on the left and swinging clockwise from there.
 
-    ends : B (..., m); segments : l v laid off (..., m) [mm of paper]; angles : s (..., m) [rad]
+    start : B at rest, on the line ``rest``; ends : B (m); arms : from the pivot to them; tips : D (m)
     """
 
-    ends: Points
-    segments: Floats
-    angles: Floats
-
-    def tips(self, sigma: int) -> Points:
-        """The D: l v from B along the arm, outward for sigma = +1."""
-        return self.ends + sigma * self.segments * unit(self.ends)
+    pivot: Drawn
+    rest: Drawn
+    start: Drawn
+    ends: Drawn
+    arms: Drawn
+    tips: Drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,16 +77,20 @@ MEANING = Meaning(
 )
 
 
-def arm_positions(integrated: Integrated, arm: float, mu_l: Scale, hand: Hand) -> ArmPositions:
+def arm_positions(hand: Hand, integrated: Integrated, rotation: Rotation, arm: float, mu_l: Scale) -> ArmPositions:
     """Lay the displacements off as angles of the arm, and the velocities as segments along it.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
     arm : length [mm]; mu_l : scale of the drawing [mm/mm]
     """
-    count, length = integrated.givens.stations.u.size, arm / mu_l.per_mm
-    angles = integrated.readings["s"].value + hand.protractor(count)
-    segments = integrated.readings["v"].value * length + hand.dividers(count)
-    return ArmPositions(turned(-length + 0j, -angles) + hand.point(count), segments, angles)
+    pivot, length, (s, v) = hand.given("pivot"), arm / mu_l.per_mm, (integrated.readings[name] for name in "sv")
+    arc, rest = hand.circle("arc of the arm", pivot, length), hand.erect("arm at rest", pivot, -RIGHT)
+    start = hand.cross("start", rest, arc)
+    ends = hand.cross("ends", hand.protractor("swung", pivot, -RIGHT, hand.carry(s, -np.asarray(s.scale))), arc)
+    arms = hand.join("arms", pivot, ends)
+    segments = hand.carry(v, length * np.asarray(v.scale))
+    tips = hand.lay_off("tips", ends, arms.turned(sense(rotation)), segments)
+    return ArmPositions(pivot, rest, start, ends, arms, tips)
 
 
 def arm_least_radius(
@@ -105,84 +109,89 @@ def arm_least_radius(
 
     Readings: ``prime_radius`` and ``distance`` [mm].
     """
-    hand = pencil.hand("minimum_radius")
-    positions = arm_positions(integrated, arm, mu_l, hand)
-    start = np.broadcast_to(np.asarray(-arm / mu_l.per_mm + 0j), positions.ends.shape[:-1])
-    lines = boundaries(positions, integrated, rotation, limits, start)
-    touches = np.concatenate([line.touch for line in lines], axis=-1)
-    inwards = np.concatenate([line.inward for line in lines], axis=-1)
+    hand, givens = Hand(pencil, MEANING), ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l)
+    drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
+    families = _boundaries(hand, drawn, givens)
+    lines = hand.take("lines", *families.values())
     if distance is None:
-        centre, _ = nearest_of_many(touches, inwards, start)
+        centre = _nearest(hand, lines, drawn.start)
     else:
-        centre = _nearest_on_arc(touches, inwards, distance / mu_l.per_mm)
-    return Construction(
-        MEANING,
-        ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l),
-        pencil,
-        hand.readings(mu_l.per_mm, "mm", prime_radius=np.abs(centre - start), distance=np.abs(centre)),
-        {"start": start, "ends": positions.ends, "tips": positions.tips(sense(rotation)), "centre": centre}
-        | {f"touch of {line.name}": line.touch for line in lines}
-        | {f"inward of {line.name}": line.inward for line in lines},
-        _draw,
-    )
+        centre = _nearest_on(hand, lines, hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm))
+    hand.join("prime radius", drawn.start, centre)
+    hand.read("prime_radius", between(drawn.start, centre), mu_l.per_mm)
+    hand.read("distance", between(drawn.pivot, centre), mu_l.per_mm)
+    places = {"start": drawn.start, "ends": drawn.ends, "tips": drawn.tips, "centre": centre}
+    touches = {f"touch of {name}": family for name, family in families.items()}
+    inwards = {f"inward of {name}": _inward(family) for name, family in families.items()}
+    return hand.finished(givens, _draw, {**places, **touches, **inwards})
 
 
-def boundaries(
-    positions: ArmPositions,
-    integrated: Integrated,
-    rotation: Rotation,
-    limits: Limits,
-    start: Points,
-) -> list[Boundary]:
-    """The families of lines that bound the region, each (..., k): of the rises, of the returns, and at the rests.
+def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -> dict[str, Drawn]:
+    """The lines that bound the region, with what is permitted on their right: of rises, of returns, and at the rests.
 
     On a rise the velocity drives the angle to one side, on a return to the other.  The side away from it can bind only
     where the arm rests, so there both sides are drawn; without the rest condition the arm need only reach the cam.
     """
-    motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(rotation)
-    tips, angles = positions.tips(sigma), positions.angles
+    motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
+    limits, sigma = givens.limits, sense(givens.rotation)
+    directions = np.array([motion.phases[k].direction for k in stations.phase])
 
-    def leaning(limit: float, side: int, angle: Floats) -> Points:
-        """The direction of a line at the limit to the normal of an arm at an angle [rad]."""
-        return -turned(side + 0j, side * limit - angle)
+    def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
+        """The lines at the limit to the normals of arms."""
+        return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)
 
-    def family(name: str, direction: int, limit: float, side: int) -> Boundary:
-        """The lines at the limit of all arms of one direction of motion."""
+    def family(name: str, direction: int, limit: float, side: int) -> Drawn:
+        """The lines at the limit of all arms of one direction of motion, faired between the positions."""
+        at = np.flatnonzero(directions == direction)
+        lines = at_limit(name, drawn.tips[at], drawn.arms[at], limit, side)
         pieces = pieces_of(motion, stations, direction)
-        touch = np.concatenate([faired(tips[..., piece]) for piece in pieces], axis=-1)
-        angle = np.concatenate([faired(angles[..., piece] + 0j).real for piece in pieces], axis=-1)
-        return Boundary(name, touch, leaning(limit, side, angle))
+        begins = np.searchsorted(at, [piece.start for piece in pieces]).tolist()
+        faired = [slice(k, k + piece.stop - piece.start) for k, piece in zip(begins, pieces, strict=True)]
+        return hand.fair(name, lines, faired)
 
-    top = np.argmax(angles, axis=-1)[..., None]
-    resting = np.concatenate([start[..., None], np.take_along_axis(positions.ends, top, -1)], axis=-1)
-
-    def at_rest(name: str, limit: float, side: int) -> Boundary:
-        """The lines at the limit of the arms at rest, low and high."""
-        angle = np.concatenate([np.zeros_like(angles[..., :1]), np.take_along_axis(angles, top, -1)], axis=-1)
-        return Boundary(name, resting, leaning(limit, side, angle))
-
-    lines = [family("rise", 1, limits.rise, sigma)]
+    top = np.argmax(givens.integrated.readings["s"].paper, axis=-1)[..., None]
+    both = np.concatenate([np.zeros_like(top), 1 + top], axis=-1)
+    ends = hand.take("ends at rest", drawn.start, drawn.ends, which=both)
+    arms = hand.take("arms at rest", drawn.rest, drawn.arms, which=both)
+    lines = {"rise": family("rise", 1, limits.rise, sigma)}
     if limits.return_ is not None:
-        lines.append(family("return", -1, limits.return_, -sigma))
+        lines["return"] = family("return", -1, limits.return_, -sigma)
     if limits.rest:
-        lines.append(at_rest("rest", limits.rise, -sigma))
+        lines["rest"] = at_limit("rest", ends, arms, limits.rise, -sigma)
         if limits.return_ is not None:
-            lines.append(at_rest("rest after the return", limits.return_, sigma))
+            lines["rest after the return"] = at_limit("rest after the return", ends, arms, limits.return_, sigma)
     else:  # the arm stays above the line of centres in its lowest and its highest position
-        lines.append(Boundary("reach", np.zeros_like(resting), UP * unit(resting)))
+        lines["reach"] = hand.take("limits: reach", arms.turned(-1))
     return lines
 
 
-def _nearest_on_arc(touches: Points, inwards: Points, radius: float) -> Points:
-    """The permitted place on the circle about the pivot that is nearest to the start of the lift; NaN if none is."""
+def _inward(lines: Drawn) -> Points:
+    """The directions across lines to the permitted side."""
+    return -UP * unit(lines.directions)
+
+
+def _nearest(hand: Hand, lines: Drawn, start: Drawn) -> Drawn:
+    """The permitted place nearest to the start of the lift: the corner of two lines, or the foot on one; or none."""
+    place, pair = nearest_of_many(lines.points, _inward(lines), start.points)
+    bind = hand.take("lines that bind", lines, which=pair)
+    corner, foot = hand.cross("corner", bind[0], bind[1], flat=True), hand.project("foot", start, bind[0])
+    which = np.where(np.isnan(place), 2, pair[..., 0] == pair[..., 1])
+    return hand.take("centre", corner, foot, hand.given("nowhere", NOWHERE), which=which[..., None])[0]
+
+
+def _nearest_on(hand: Hand, lines: Drawn, circle: Drawn) -> Drawn:
+    """The permitted place on the circle about the pivot that is nearest to the start of the lift; or none."""
     # A line cuts the circle in two points, equally far from the foot of the perpendicular from the pivot; the permitted
     # arc lies between them, on the inward side.  From the left, the nearest place is where the last arc begins.
-    reach = dot(inwards, touches) / radius
+    inwards, radius = _inward(lines), np.asarray(circle.radius)[..., None]
+    reach = dot(inwards, lines.points - circle.points[..., None]) / radius
     with np.errstate(invalid="ignore"):
         half = np.where(reach < -1, np.inf, np.arccos(reach))
     middle = np.angle(-inwards)
-    first, last = (middle - half).max(axis=-1), (middle + half).min(axis=-1)
-    return np.where(first <= last, turned(-radius + 0j, first), NOWHERE)
+    first, last = middle - half, (middle + half).min(axis=-1)
+    bind = hand.take("lines that bind", lines, which=np.argmax(first, axis=-1)[..., None])[0]
+    begins, which = hand.cross("where the arc begins", bind.turned(-1), circle), ~(first.max(axis=-1) <= last)
+    return hand.take("centre", begins, hand.given("nowhere", NOWHERE), which=which[..., None].astype(np.intp))[0]
 
 
 def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
@@ -192,8 +201,8 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
     """
     arm, mu = region.givens.arm / region.givens.mu_l.per_mm, region.givens.mu_l.per_mm
     start, radius = -arm + 0j, prime_radius / mu
-    touches = np.concatenate([family.touch for family in _families(region)])
-    inwards = np.concatenate([family.inward for family in _families(region)])
+    lines = region.acts["lines"].first
+    touches, inwards = lines.points, _inward(lines)
     # A line cuts the circle about the start in two points, equally far from the foot of the perpendicular from there.
     with np.errstate(invalid="ignore"):
         half = np.arccos(dot(inwards, touches - start) / radius)
@@ -211,22 +220,19 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
 
 BELOW = 30.0
 """How far below the cam centre the region is shown [mm]."""
-SHOWN_LINE = 0.35
+SHOWN_LINE = 0.77
 """Length of the thin line at the limit through each end, as a fraction of the arm."""
 
 
 def _draw(region: ArmRegion) -> list[Step]:
     integrated, limits, mu_l = region.givens.integrated, region.givens.limits, region.givens.mu_l
     stations, shown = integrated.givens.stations, at_scale(REGION, mu_l)
-    ends, tips, centre = region.first("ends"), region.first("tips"), complex(region.first("centre"))
-    start = complex(region.first("start"))
-    pivot = (Dots(np.array([0j])), Label(0j, "C", towards=1 + 0j))
-    arms = (Segments(np.zeros_like(ends), ends, Role.CONSTRUCTION), Dots(ends, Role.CONSTRUCTION))
-    lengths = np.abs(tips - ends)
+    pivot, start, ends, tips = (region.acts[name] for name in ("pivot", "start", "ends", "tips"))
+    given, lengths, smooth = (pivot.dots(), pivot.label("C", 1 + 0j)), np.abs(tips.shown - ends.shown), showing(region)
     laid_off = (
-        Segments(ends, tips, Role.CURVE),
-        *(Line(faired(tips[piece]), Role.RESULT) for piece in stations.pieces),
-        *numbers(tips, stations, tips, shown=lengths > 1),
+        tips.from_(ends, Role.CURVE),
+        *(smooth.fair("curve of the tips", tips.first, [piece]).line(Role.RESULT) for piece in stations.pieces),
+        *numbers(tips, stations, tips.shown, shown=lengths > 1),
     )
     side = say("outward") if sense(region.givens.rotation) > 0 else say("towards the pivot")
     permitted = say("{rise} on the rise, while a spring drives the return", rise=degrees(limits.rise))
@@ -239,10 +245,14 @@ def _draw(region: ArmRegion) -> list[Step]:
             say(
                 "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the "
                 "displacements up to {most:.2f}°."
-            ).where(ratio=ratio_text(mu_l.per_mm), arm=abs(start), most=np.degrees(integrated.value("s").max())),
+            ).where(
+                ratio=ratio_text(mu_l.per_mm),
+                arm=region.givens.arm / mu_l.per_mm,
+                most=np.degrees(integrated.value("s").max()),
+            ),
             shown,
-            (*arms, *pivot, Label(start, "B₀", towards=-1j)),
-            given=pivot,
+            (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION), *given, start.label("B₀", -UP)),
+            given=given,
         ),
         Step(
             say("Velocities along the arm"),
@@ -260,47 +270,40 @@ def _draw(region: ArmRegion) -> list[Step]:
                 "centre may lie where no line cuts it off."
             ).where(limits=permitted),
             shown,
-            (*_lines(region), Region(_shown_region(region))),
+            (*_lines(region), _shaded(region)),
         ),
-        _result(region, start, centre),
+        _result(region),
     ]
 
 
-def _families(region: ArmRegion) -> list[Boundary]:
-    """The families of lines of the first sample."""
-    names = [name.removeprefix("touch of ") for name in region.points if name.startswith("touch of ")]
-    return [Boundary(n, region.first(f"touch of {n}"), region.first(f"inward of {n}")) for n in names]
+def _lines(region: ArmRegion) -> list[Segments]:
+    """The lines at the limits as far as they matter: from the ends D down towards the region."""
+    length, marks = SHOWN_LINE * abs(region.acts["start"].place), list[Segments]()
+    for name in region.acts:
+        if name.startswith("limits: "):
+            lines = region.acts[name].first
+            along = unit(lines.directions)
+            down = np.where(along.imag < 0, along, -along)
+            marks.append(Segments(lines.points, lines.points + length * down, Role.CONSTRUCTION, of=lines.act))
+    return marks
 
 
-def _lines(region: ArmRegion) -> tuple[Mark, ...]:
-    """The lines at the stations, as far as they matter: from their ends down towards the region."""
-    length = SHOWN_LINE * abs(complex(region.first("start")))
-    marks: list[Mark] = []
-    for family in _families(region):
-        # Between two stations the faired family has more lines than are drawn.
-        step = 8 if family.touch.size > 2 else 1
-        touch, along = family.touch[::step], unit(family.along[::step])
-        marks.append(Segments(touch, touch + length * 2.2 * along, Role.CONSTRUCTION))
-    return tuple(marks)
-
-
-def _shown_region(region: ArmRegion) -> Points:
+def _shaded(region: ArmRegion) -> Region:
     """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
-    centre, start = complex(region.first("centre")), complex(region.first("start"))
+    centre, start, lines = region.acts["centre"][0].place, region.acts["start"].place, region.acts["lines"].first
     bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
     corners = [complex(1.3 * start.real, bottom), complex(0, bottom), 0j, complex(1.3 * start.real, 0)]
-    lines = [
-        Boundary(family.name, touch, inward)
-        for family in _families(region)
-        for touch, inward in zip(family.touch, family.inward, strict=True)
-    ]
-    return permitted_part(lines, corners)
+    hand, sides = showing(region), np.diff([*corners, corners[0]])
+    bounds = hand.take("bounds", lines, hand.given("edges of the picture", corners, sides))
+    cuts = zip(lines.points, _inward(lines), strict=True)
+    return Region(permitted_part([Boundary("", *cut) for cut in cuts], corners), of=bounds.act)
 
 
-def _result(region: ArmRegion, start: complex, centre: complex) -> Step:
+def _result(region: ArmRegion) -> Step:
     title, distance = say("The least prime radius"), region.givens.distance
     shown = at_scale(REGION, region.givens.mu_l)
-    if np.isnan(centre):
+    start, centre = region.acts["start"], region.acts["centre"][0]
+    if np.isnan(centre.place):
         said = say("No cam centre keeps all the limits.")
         if distance is not None:
             said = say("At this centre distance no cam centre keeps all the limits.")
@@ -315,11 +318,11 @@ def _result(region: ArmRegion, start: complex, centre: complex) -> Step:
     said = say(
         "{place} It lies {paper:.2f} mm from the start of the lift, so r₀ = {r0:.3f} mm, and {away:.2f} mm from the "
         "pivot, so c = {c:.3f} mm."
-    ).where(place=place, paper=abs(centre - start), away=abs(centre), r0=r0, c=c)
+    ).where(place=place, paper=abs(centre.place - start.place), away=abs(centre.place), r0=r0, c=c)
     marks = (
-        *(Line(np.array([start, centre]), Role.LIMIT), Line(np.array([0j, centre]), Role.AXIS)),
-        *(Dots(np.array([centre]), Role.RESULT), Label(centre, "A", towards=-1j)),
-        Dimension(start, centre, say("r₀ = {r0:.2f}", r0=r0), aside=-8.0),
-        Dimension(centre, 0j, say("c = {c:.2f}", c=c), aside=-8.0),
+        *(region.acts["prime radius"].way(Role.LIMIT), centre.line_from(0j, Role.AXIS)),
+        *(centre.dots(Role.RESULT), centre.label("A", -UP)),
+        Dimension(start.place, centre.place, say("r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act),
+        Dimension(centre.place, 0j, say("c = {c:.2f}", c=c), -8.0, region.readings["distance"].act),
     )
     return Step(title, said, shown, marks, reads)

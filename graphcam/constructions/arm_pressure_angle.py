@@ -8,7 +8,7 @@ angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,18 +19,20 @@ from graphcam.constructions.pressure_angle import (
     ANGLES,
     MeasuredGivens,
     angle_at,
-    angle_readings,
     shown_station,
     velocity_plan,
 )
 from graphcam.constructions.views import PLAN, at_scale
-from graphcam.drafting.euclid import UP, circles_meet, unit
-from graphcam.drafting.ink import Construction, Step, reading, say
-from graphcam.drafting.marks import Dots, Label, Line, Mark, Role
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
+from graphcam.given.laws import Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,23 +73,25 @@ def arm_pressure_angle(
     Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
     start of the lift [rad].
     """
-    hand, sigma, count = pencil.hand("pressure_angle"), sense(rotation), integrated.givens.stations.u.size
-    positions = arm_positions(integrated, arm, mu_l, hand)
+    hand = Hand(pencil, MEANING)
+    drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
-    start = np.asarray(-arm / mu_l.per_mm + 0j)
-    centre = circles_meet(np.asarray(0j), distance / mu_l.per_mm, start, prime_radius / mu_l.per_mm)
-    tips = positions.tips(sigma)
-    seen = (centre - tips) / unit(positions.ends)  # along the arm outwards, and square to it
-    alpha = np.arctan2(-seen.real, seen.imag) + hand.protractor(count)
-    psi0 = pencil.sheets(np.angle(centre / start)) + hand.protractor(1)[..., 0]
-    return Construction(
-        MEANING,
-        ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l),
-        pencil,
-        {**angle_readings(alpha), "psi0": reading(psi0, 1.0, "rad")},
-        {"ends": positions.ends, "tips": tips, "centre": pencil.sheets(centre)},
-        _draw,
+    circles = (
+        hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm),
+        hand.circle("prime circle", drawn.start, prime_radius / mu_l.per_mm),
     )
+    centre = hand.cross("centre", *circles)
+    normals = hand.perpendicular("normals", drawn.arms, drawn.tips)
+    alpha = hand.angle("alpha", normals, hand.join("rays", drawn.tips, centre))
+    hand.read("transmission", reckoned(_transmission, hand.carry(alpha)), 1.0, rounded=False)
+    hand.angle("psi0", drawn.rest, hand.join("line of centres", drawn.pivot, centre))
+    givens = ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l)
+    return hand.finished(givens, _draw, {"ends": drawn.ends, "tips": drawn.tips, "centre": centre})
+
+
+def _transmission(alpha: Floats) -> Floats:
+    """90 degrees - |alpha|, which some schools read instead."""
+    return np.pi / 2 - np.abs(alpha)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -98,55 +102,56 @@ PLAN_ARM = 70.0
 
 def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
     k, sigma, arm = shown_station(measured), sense(measured.givens.rotation), measured.givens.arm
-    scale = standard_scale(arm, PLAN_ARM)
-    plan = at_scale(PLAN, scale)
-    shrink = measured.givens.mu_l.per_mm / scale.per_mm
-    alpha = float(measured.first("alpha")[k])
-    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
-    name = station_names(measured.givens.integrated.givens.stations)[k]
+    scale, alpha = standard_scale(arm, PLAN_ARM), float(measured.first("alpha")[k])
+    plan, name = at_scale(PLAN, scale), station_names(measured.givens.integrated.givens.stations)[k]
     # Turned so that the line of centres is level, with the cam centre at the origin.
-    a = complex(measured.first("centre"))
-    places = (measured.first("ends")[k], measured.first("tips")[k], 0j)
-    b, d, c = (complex((place - a) * -abs(a) / a * shrink) for place in places)
-    v = (d - b) * sigma  # l v along the arm, outwards
-    normal = UP * (b - c) / abs(b - c)  # square to the arm, towards the cam
-    across, along = sigma * UP * b, -UP * v
-    pole = complex(c.real + abs(across) * 0.6 + 12.0, 0.0)
+    hand, found = showing(measured), {name: left.first for name, left in measured.acts.items()}
+    centre, shrink = found["centre"], measured.givens.mu_l.per_mm / scale.per_mm
+    turn = -abs(centre.place) / centre.place * shrink
+    places = {"A": centre, "B": found["ends"][k], "C": found["pivot"], "D": found["tips"][k], "n": found["normals"][k]}
+    a, b, c, d, normal = (hand.enlarged(name, place, centre, turn) for name, place in places.items())
+    # The plan stands clear of the mechanism: v₁ lies across the radius, v₂ across the arm.
+    pole = hand.given("p", c.place.real + abs(b.place) * 0.6 + 12.0)
+    v1 = hand.lay_off("v₁", pole, hand.join("AB", a, b).turned(sigma * UP), between(a, b))
+    v2 = hand.lay_off("v₂", pole, hand.join("BD", b, d).turned(-sigma * UP), between(b, d))
+    v21, paper = hand.join("v₂₁", v1, v2), abs(v2.place - pole.place)
+    arrows = velocity_plan(pole.place, v1.place - pole.place, v2.place - pole.place)
+    drawn = tuple(replace(m, of=left.act) for m, left in zip(arrows, (v1, v2, v21, v1, v2, v21, pole), strict=True))
     closed = say(
         "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
         "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
-    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
-    side = say("away from the pivot") if abs(d - c) >= abs(b - c) else say("towards the pivot")
+    ).where(across=abs(v1.place - pole.place), along=paper, closing=abs(complex(v21.directions)))
+    side = say("away from the pivot") if abs(d.place - c.place) >= abs(b.place - c.place) else say("towards the pivot")
     laid_off = say(
         "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at {ratio} the "
         "segment l·ds/dφ = {length:.2f} mm."
-    ).where(paper=abs(v), side=side, ratio=ratio_text(scale.per_mm), length=abs(v) * scale.per_mm)
-    found = say(
+    ).where(paper=paper, side=side, ratio=ratio_text(scale.per_mm), length=paper * scale.per_mm)
+    measured_angle = say(
         "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and the "
         "transmission angle {transmission:.2f}°. Both are measured in every position of the arm."
     ).where(name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)))
+    ray, long = hand.join("DA", d, a), abs(d.place)
+    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
+    arc = angle_at(d.place, *(float(np.angle(line.directions)) for line in (normal, ray)), 0.6 * long, shown)
     angle = (
-        Line(np.array([d, 0j]), Role.LIMIT),
-        Line(np.array([d, d + 0.7 * abs(d) * normal]), Role.CONSTRUCTION),
-        angle_at(d, np.angle(normal), np.angle(-d), 0.6 * abs(d), shown),
+        ray.way(Role.LIMIT),
+        hand.lay_off("far on the normal", normal, normal, 0.7 * long).line_from(normal, Role.CONSTRUCTION),
+        replace(arc, of=measured.readings["alpha"].act),
     )
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, across, along)),
-        Step(say("The segment along the arm"), laid_off, plan, _mechanism(b, c, d)),
-        Step(say("The pressure angle"), found, plan, angle, reads=("psi0", "alpha", "transmission")),
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, drawn),
+        Step(say("The segment along the arm"), laid_off, plan, _mechanism(hand, a, b, c, d)),
+        Step(say("The pressure angle"), measured_angle, plan, angle, reads=("psi0", "alpha", "transmission")),
     ]
 
 
-def _mechanism(b: complex, c: complex, d: complex) -> tuple[Mark, ...]:
-    """The arm CB with the segment BD along it, and the line of centres from the cam centre A at the origin."""
+def _mechanism(hand: Hand, a: Drawn, b: Drawn, c: Drawn, d: Drawn) -> tuple[Mark, ...]:
+    """The arm CB with the segment BD along it, and the line of centres from the cam centre A."""
     return (
-        Line(np.array([0j, c]), Role.AXIS),
-        Line(np.array([c, b]), Role.CURVE),
-        Line(np.array([b, d]), Role.RESULT),
-        Line(np.array([0j, b]), Role.CONSTRUCTION),
-        Dots(np.array([0j, b, c, d])),
-        Label(0j, "A", towards=-1 - 1j),
-        Label(b, "B", towards=1 + 1j),
-        Label(c, "C", towards=1 - 1j),
-        Label(d, "D", towards=-1 + 1j),
+        c.line_from(a, Role.AXIS),
+        hand.join("CB", c, b).way(Role.CURVE),
+        hand.join("BD", b, d).way(Role.RESULT),
+        hand.join("AB", a, b).way(Role.CONSTRUCTION),
+        hand.take("A, B, C, D", a, b, c, d).dots(),
+        *(a.label("A", -1 - 1j), b.label("B", 1 + 1j), c.label("C", 1 - 1j), d.label("D", -1 + 1j)),
     )

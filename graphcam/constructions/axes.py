@@ -200,9 +200,10 @@ def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
 
 
-def levels(heights: Floats) -> Floats:
-    """Different heights among many [mm of paper]: lines that would fall on one another are drawn once."""
-    return np.unique(np.round(heights, 3))
+def once(heights: Drawn) -> list[int]:
+    """Those of heights on an axis that no other shares: lines that would fall on one another are drawn once."""
+    y = heights.shown.imag
+    return [int(np.argmin(np.abs(y - level))) for level in np.unique(np.round(y, 3))]
 
 
 def degrees(angle: float) -> Caption:

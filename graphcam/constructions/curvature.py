@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.profile_view import Inverted
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
-from graphcam.drafting.euclid import UP, centre_of_circle, crossing, perpendicular_bisector, stepped_off
-from graphcam.drafting.ink import Caption, Construction, Step, reading, say
-from graphcam.drafting.marks import Arc, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP, centre_of_circle, crossing, perpendicular_bisector
+from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
@@ -74,43 +76,47 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     three points cannot tell.
     Points: the ``triple`` (..., 3) at the sharpest place and its ``centre``.
     """
-    hand = pencil.hand("curvature")
-    moving, resting = _moving(inverted), _resting(inverted)
-    radii = [_convex_radii(inverted, triples) for triples in (moving, resting)]
-    corner = _turns_a_corner(inverted)
-    candidates = [_least(radii[0], unknown=corner | np.isnan(radii[0]).all(axis=-1)), _least(radii[1])]
-    rho = np.where(corner, np.nan, np.fmin(*candidates))
-    rho = np.where(np.isfinite(rho), rho, np.nan)
-    everywhere = np.concatenate(radii, axis=-1)
-    best = np.argmin(np.where(np.isnan(everywhere), np.inf, everywhere), axis=-1)[..., None, None]
-    triple = np.take_along_axis(np.concatenate([moving[0], resting[0]], axis=-2), best, -2)[..., 0, :]
-    turns = np.take_along_axis(np.concatenate([moving[1], resting[1]], axis=-2), best, -2)[..., 0, :]
-    unread = np.isnan(rho)
-    lengths = hand.readings(inverted.givens.mu_l.per_mm, "mm", rho=rho, rho_candidates=np.stack(candidates, axis=-1))
-    return Construction(
-        MEANING,
-        CurvatureGivens(inverted, corner),
-        pencil,
-        {**lengths, "phi": reading(np.where(unread[..., None], np.nan, turns), 1.0, "rad")},
-        {
-            "triple": np.where(unread[..., None], np.nan, triple),
-            "centre": np.where(unread, np.nan, _centres(inverted, triple)),
-        },
-        _draw,
+    hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
+    pitch, centre, nowhere = hand.found(inverted, "pitch"), hand.given("cam centre"), hand.given("nowhere", [np.nan])
+    rests, angles = _rests(hand, inverted, pitch, centre)
+    places, corner = hand.take("places", pitch, rests, nowhere), _turns_a_corner(inverted)
+    # The eye takes one place of the moving phases and one of the rests.
+    seen = [
+        _sharpest(inverted, places.points, triples) for triples in (_neighbours(inverted), _of_rests(inverted, rests))
+    ]
+    at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
+    before, b, after = (
+        hand.take(name, places, which=at[..., k]) for k, name in enumerate(("before B", "B", "after B"))
     )
+    bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
+    met = hand.cross("crossings", *bisectors, flat=integrated.givens.stations.refine > 1)
+    # A rest is an arc about the cam centre; of what is not bent the centre is far away.
+    unknown = np.stack([corner | np.isnan(looks[..., 0]), np.zeros_like(corner)], axis=-1)
+    which = np.where(unknown, 3, np.where(np.isfinite(looks), [0, 2], 4))
+    centres = hand.take("centres", met, centre, nowhere, hand.given("far away", [np.inf]), which=which)
+
+    radii = np.abs(centres.points - b.points)
+    unread, best = (
+        corner | ~np.isfinite(radii).any(axis=-1),
+        np.argmin(np.where(np.isnan(radii), np.inf, radii), axis=-1),
+    )
+    chosen = np.take_along_axis(at, best[..., None, None], -2)[..., 0, :]
+    chosen = np.where(unread[..., None], places.points.shape[-1] - 1, chosen)
+    triple = hand.take("triple", places, which=chosen)
+    o = hand.take("centre", centres, nowhere, which=np.where(unread, 2, best)[..., None])[0]
+    phi = between(hand.given("start of the turn"), hand.take("cam angles", angles, nowhere, which=chosen), RIGHT)
+    hand.read("rho", between(triple[1], o), mu_l)
+    hand.read("rho_candidates", between(b, centres), mu_l, "mm")
+    in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
+    hand.read("phi", reckoned(in_radians, phi), 1.0, rounded=False)
+    return hand.finished(CurvatureGivens(inverted, corner), _draw, {"triple": triple, "centre": o})
 
 
-Triples = tuple[Points, Floats]
-"""(..., k, 3) three points each, and their cam angles [rad]."""
+Triples = NDArray[np.intp]
+"""(..., k, 3) which three points each: of those of the pitch curve, then of the rests, then one that is nowhere."""
 
 
-def _none(pitch: Points) -> Triples:
-    """A triple that cannot be read, where there is none."""
-    unread = np.full((*pitch.shape[:-1], 1, 3), np.nan)
-    return unread + 0j, unread
-
-
-def _moving(inverted: Inverted) -> Triples:
+def _neighbours(inverted: Inverted) -> Triples:
     """Every station with its neighbours, never across a jump of the acceleration.
 
     Where the bisectors cross at less than a degree the second neighbours are taken in place of the first, or the
@@ -122,16 +128,13 @@ def _moving(inverted: Inverted) -> Triples:
         for piece in stations.pieces
         for k in range(piece.start + 1, piece.stop - 1)
     ]
-    if not places:
-        return _none(pitch)
-    middle, reach = np.transpose(places)
+    middle, reach = np.reshape(np.array(places, dtype=np.intp), (-1, 2)).T
     step = np.ones((*pitch.shape[:-1], middle.size), dtype=np.intp)
     while True:
         at = np.stack([middle - step, middle + 0 * step, middle + step], axis=-1)
-        triples = np.take_along_axis(pitch[..., None, :], at, -1)
-        wider = np.isnan(_centres(inverted, triples)) & (2 * step <= reach)
+        wider = np.isnan(_centres(inverted, _at(pitch, at))) & (2 * step <= reach)
         if not wider.any():
-            return triples, stations.phi[at]
+            return at
         step = np.where(wider, 2 * step, step)
 
 
@@ -141,37 +144,50 @@ NO_ACCELERATION = 1e-9
 """Part of the greatest acceleration that is none."""
 
 
-def _resting(inverted: Inverted) -> Triples:
-    """Three points of the arc about the cam centre on which the trace point rests, in each dwell.
+def _resting(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
+    """After which station the follower rests, and how far round three places of its arc lie [rad].
 
-    Where two moving phases meet and the acceleration of either vanishes, it rests for an instant on such an arc.
+    Where two moving phases meet and the acceleration of either vanishes, it rests for an instant.
     """
-    integrated, pitch = inverted.givens.integrated, inverted.points["pitch"]
-    motion, stations = integrated.givens.motion, integrated.givens.stations
-    sigma = sense(inverted.givens.rotation)
-    arcs: list[Points] = []
-    phi: list[Floats] = []
-    for k, last in zip(stations.phase[stations.last], stations.last, strict=True):
+    found: list[tuple[int, Floats]] = []
+    for k, last in zip(stations.phase[stations.last], stations.last.tolist(), strict=True):
         # What follows a moving phase is a dwell or the next moving phase; the last is followed by the first.
         before, following = motion.phases[k], motion.phases[(k + 1) % len(motion.phases)]
         if isinstance(following, Dwell):
-            turns = following.angle * np.array([0.0, 0.5, 1.0])
+            found.append((last, following.angle * np.array([0.0, 0.5, 1.0])))
         elif _vanishes(before, 1.0) or _vanishes(following, 0.0):
-            turns = INSTANT * np.array([-1.0, 0.0, 1.0])
-        else:
-            continue
-        arcs.append(stepped_off(pitch[..., last, None], 0j, -sigma * turns))
-        phi.append(stations.phi[last] + turns)
-    if not arcs:
-        return _none(pitch)
-    points = np.stack(arcs, axis=-2)
-    return points, np.broadcast_to(np.stack(phi), points.shape)
+            found.append((last, INSTANT * np.array([-1.0, 0.0, 1.0])))
+    return found
+
+
+def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
+    """Three points on the arc of each rest, and the places of all points on the axis of the cam angle."""
+    integrated = inverted.givens.integrated.givens
+    resting = _resting(integrated.motion, integrated.stations)
+    last = np.array([after for after, _ in resting], dtype=np.intp)
+    turns, each = np.ravel([turn for _, turn in resting]), np.repeat(np.arange(last.size), 3)
+    arcs = hand.circle("arcs of the rests", centre, between(centre, pitch[last]))
+    ends = hand.join("rays to the rests", centre, pitch[last])[each]
+    rays = hand.protractor("rays of the rests", centre, ends, -sense(inverted.givens.rotation) * turns)
+    axis = hand.found(integrated.diagram, "axis")
+    beyond = hand.lay_off("rests on the axis", axis[last][each], RIGHT, turns / integrated.mu_phi.per_mm)
+    return hand.cross("rests", rays, arcs[each]), hand.take("axis", axis, beyond)
 
 
 def _vanishes(phase: Moving, u: float) -> bool:
     """Whether the given acceleration of a phase is zero at its end u."""
     law = phase.normalised
     return abs(float(law(u)[2])) <= NO_ACCELERATION * law.peak_acceleration
+
+
+def _of_rests(inverted: Inverted, rests: Drawn) -> Triples:
+    """The three points of every rest."""
+    at = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
+    return np.broadcast_to(at, (*rests.points.shape[:-1], *at.shape))
+
+
+def _at(points: Points, at: Triples) -> Points:
+    return np.take_along_axis(points[..., None, :], at, -1)
 
 
 def _centres(inverted: Inverted, triples: Points) -> Points:
@@ -185,18 +201,21 @@ def _centres(inverted: Inverted, triples: Points) -> Points:
     return centre_of_circle(a, b, c)
 
 
-def _convex_radii(inverted: Inverted, triples: Triples) -> Floats:
-    """(..., k) the radii of the circles on paper, infinite where they are not convex, NaN where they are not read."""
-    a, b, c = np.moveaxis(triples[0], -1, 0)
-    centres = _centres(inverted, triples[0])
+def _sharpest(inverted: Inverted, points: Points, triples: Triples) -> tuple[NDArray[np.intp], Floats]:
+    """(..., 3) which of the triples of points (..., m) looks bent most, and the radius on paper.
+
+    The radius is infinite where no bend is convex, NaN where none can be read.
+    """
+    none = np.full_like(triples, points.shape[-1] - 1, shape=(*triples.shape[:-2], 1, 3))
+    triples = np.concatenate([triples, none], axis=-2)
+    shown = _at(points, triples)
+    a, b, c = np.moveaxis(shown, -1, 0)
+    centres = _centres(inverted, shown)
     # Numbered against the rotation, a convex curve turns the other way than the cam.
     convex = sense(inverted.givens.rotation) * cross(b - a, c - b) < 0
-    return np.where(np.isnan(centres), np.nan, np.where(convex, np.abs(centres - b), np.inf))
-
-
-def _least(radii: Floats, unknown: NDArray[np.bool_] | bool = False) -> Floats:
-    """The least radius that is read; infinite where nothing is convex."""
-    return np.where(unknown, np.nan, np.min(np.where(np.isnan(radii), np.inf, radii), axis=-1))
+    radii = np.where(np.isnan(centres), np.nan, np.where(convex, np.abs(centres - b), np.inf))
+    best = np.argmin(np.where(np.isnan(radii), np.inf, radii), axis=-1)[..., None]
+    return np.take_along_axis(triples, best[..., None], -2)[..., 0, :], np.fmin.reduce(radii, axis=-1)
 
 
 CORNER = math.radians(45)
@@ -222,8 +241,6 @@ def _turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
 
 DETAIL = 70.0
 """The detail is enlarged to the largest standard scale at which the radius of curvature is not longer [mm]."""
-SAME_ANGLE = 1e-9
-"""Cam angles this near to one another [rad] are the same: rounding."""
 READABLE_STEP = math.radians(10)
 """Over a smaller step of the cam angle a hand's error outweighs the bend."""
 ONLY_RESTS = say(
@@ -235,40 +252,35 @@ ONLY_RESTS = say(
 
 def _draw(curved: Curved) -> list[Step]:
     inverted = curved.givens.inverted
-    stations, mu_l = inverted.givens.integrated.givens.stations, inverted.givens.mu_l
-    triple, centre = curved.first("triple"), complex(curved.first("centre"))
-    if np.isnan(centre):
+    if np.isnan(curved.first("centre")):
         return [Step(say("Curvature at the sharpest place"), _unreadable(curved), PROFILE, ())]
-    phi = curved.first("phi")
-    place, names = _named(inverted.givens.integrated.givens.motion, stations, phi)
-    rho = float(curved.value("rho"))
-    scale = standard_scale(rho, DETAIL)
-    curvature = at_scale(CURVATURE, scale)
-    enlarged = (triple - triple[1]) * mu_l.per_mm / scale.per_mm
-    hub = complex(centre - triple[1]) * mu_l.per_mm / scale.per_mm
-    first, second = np.abs(np.diff(enlarged))
+    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
+    scale = standard_scale(float(curved.value("rho")), DETAIL)
+    curvature, times = at_scale(CURVATURE, scale), inverted.givens.mu_l.per_mm / scale.per_mm
+    detail, hub = (hand.enlarged(d.act.name, d, triple[1], times) for d in (triple, o))
+    first, second = np.abs(np.diff(detail.shown))
+    place, names = _named(curved)
     sharpest = say(
         "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn enlarged, at "
         "{ratio}: {first:.2f} mm and {second:.2f} mm. {spread}"
-    )
-    sharpest = sharpest.where(place=place, phi=np.degrees(phi[1] % FULL_TURN), ratio=ratio_text(scale.per_mm))
-    named = zip(enlarged.tolist(), (names[0], "B", names[1]), strict=True)
-    chords = (Line(enlarged, Role.CURVE), Dots(enlarged), *(Label(at, name, towards=-hub) for at, name in named))
+    ).where(place=place, phi=np.degrees(curved.first("phi")[1] % FULL_TURN), ratio=ratio_text(scale.per_mm))
+    named = [detail[k].label(name, -hub.place) for k, name in enumerate((names[0], "B", names[1]))]
+    chords = (detail.line(Role.CURVE), detail.dots(), *named)
     bisected = say("The chords are bisected; the perpendiculars meet in O, the centre of curvature.")
-    bisectors = tuple(mark for a, b in pairwise(enlarged) for mark in _bisector(a, b, hub))
     measured = say(
         "OB measures {paper:.2f} mm, so the least radius of curvature of the pitch curve is ρ = {rho:.3f} mm."
-    ).where(paper=abs(hub), rho=rho)
+    ).where(paper=abs(hub.place), rho=curved.value("rho"))
     marked = say("On the profile the centre of curvature of the sharpest place is marked.")
+    ob = hand.join("OB", o, triple[1])
     on_profile = (
-        *(Line(np.array([centre, triple[1]]), Role.LIMIT), Dots(np.array([centre]), Role.LIMIT)),
-        Label(centre, "O", towards=centre - triple[1]),
+        *(Line(np.array([o.place, triple[1].place]), Role.LIMIT, of=ob.act), o.dots(Role.LIMIT)),
+        o.label("O", o.place - triple[1].place),
     )
     enlarging = sharpest.where(first=first, second=second, spread=_spread(curved))
     return [
         Step(say("Chords at the sharpest place"), enlarging, curvature, chords, reads=("phi",)),
-        Step(say("Perpendicular bisectors"), bisected, curvature, bisectors),
-        Step(say("Radius of curvature"), measured, curvature, _radius(enlarged, hub, rho)),
+        Step(say("Perpendicular bisectors"), bisected, curvature, _bisectors(curved, hand, detail, times)),
+        Step(say("Radius of curvature"), measured, curvature, _radius(curved, hand, detail, hub)),
         Step(say("Centre of curvature on the profile"), marked, PROFILE, on_profile, reads=("rho",)),
     ]
 
@@ -294,38 +306,55 @@ def _unreadable(curved: Curved) -> Caption:
     return say("No bend is readable: the bisectors of neighbouring chords cross at less than a degree.")
 
 
-def _named(motion: Motion, stations: Stations, phi: Floats) -> tuple[Caption, tuple[str, str]]:
-    """What the middle place of three is called, at the cam angles phi (3,) [rad], and its two neighbours."""
-    here = np.flatnonzero(np.abs(stations.phi - phi[1]) < SAME_ANGLE)
-    if here.size == 0:  # no stations in dwells
-        resting = int(np.searchsorted(motion.starts, phi[1] % FULL_TURN, side="right")) - 1
-        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, resting)), ("", "")
-    names, k = station_names(stations), int(here[0])
-    around = [np.flatnonzero(np.abs(stations.phi - phi[side]) < SAME_ANGLE) for side in (0, 2)]
-    if not all(found.size for found in around):  # three points of the arc of an instant
-        resting = say("station {name}, where the follower rests for an instant on an arc about the cam centre")
-        return resting.where(name=names[k]), ("", "")
-    return say("station {name}", name=names[k]), (names[int(around[0][-1])], names[int(around[1][0])])
+def _named(curved: Curved) -> tuple[Caption, tuple[str, str]]:
+    """What the middle place of three is called, and its two neighbours."""
+    integrated = curved.givens.inverted.givens.integrated.givens
+    motion, stations = integrated.motion, integrated.stations
+    names, at = station_names(stations), np.atleast_2d(curved.acts["triple"].act.takes["which"])[0]
+    if at[1] < len(names):
+        return say("station {name}", name=names[at[1]]), (names[at[0]], names[at[2]])
+    last, turns = _resting(motion, stations)[(at[1] - len(names)) // 3]
+    if turns[1]:  # no stations in dwells
+        dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
+        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell)), ("", "")
+    resting = say("station {name}, where the follower rests for an instant on an arc about the cam centre")
+    return resting.where(name=names[last]), ("", "")
 
 
-def _bisector(a: complex, b: complex, hub: complex) -> tuple[Mark, ...]:
-    """The line from beyond a chord's middle to the centre, and the arcs of the compass that found it."""
-    middle, direction = (complex(x) for x in perpendicular_bisector(np.asarray(a), np.asarray(b)))
-    reach = abs(b - a) * 0.8
-    out = direction / abs(direction) * math.sqrt(reach**2 - abs(b - a) ** 2 / 4)
-    line = Line(np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06]), Role.CONSTRUCTION)
-    settings = [(end, float(np.angle(meeting - end))) for meeting in (middle + out, middle - out) for end in (a, b)]
-    return (line, *(Arc(end, reach, to - 0.12, to + 0.12, Role.CONSTRUCTION) for end, to in settings))
+def _bisectors(curved: Curved, hand: Hand, detail: Drawn, times: float) -> tuple[Mark, ...]:
+    """The lines from beyond the middles of the chords to the centre, and the arcs of the compass that found them."""
+    best = int(np.ravel(curved.acts["centre"].act.takes["which"])[0])
+    origin = curved.acts["triple"].first[1]
+    drawn = [curved.acts[f"{which} bisectors"].first[best] for which in ("first", "second")]
+    lines = [hand.enlarged(line.act.name, line, origin, times) for line in drawn]
+    hub = hand.cross("O", *lines).place
+    marks = list[Mark]()
+    for k, line in enumerate(lines):
+        a, b, middle = detail[k], detail[k + 1], line.place
+        ends = np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06])
+        marks.append(Line(ends, Role.CONSTRUCTION, of=line.act))
+        setting = reckoned(partial(np.multiply, COMPASS), between(a, b))
+        arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
+        for meeting in (hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])):
+            for arc in arcs:
+                to = float(np.angle(meeting.place - arc.place))
+                radius = float(np.asarray(arc.radius))
+                marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act))
+    return tuple(marks)
 
 
-def _radius(triple: Points, hub: complex, rho: float) -> tuple[Mark, ...]:
-    """The radius of curvature ``rho`` [mm], from the centre to the middle place, and a little of its circle."""
+def _radius(curved: Curved, hand: Hand, detail: Drawn, hub: Drawn) -> tuple[Mark, ...]:
+    """The radius of curvature, from the centre to the middle place, and a little of its circle."""
+    ob, read = hand.join("OB", hub, detail[1]), curved.readings["rho"]
+    circle = hand.circle("circle of curvature", hub, between(hub, detail[1]))
+    said = say("ρ = {rho:.2f}", rho=float(curved.value("rho")))
+    sector = _sector(detail.shown, hub.place)
     return (
-        Line(np.array([hub, triple[1]]), Role.LIMIT),
-        Arc(hub, abs(hub), *_sector(triple, hub), Role.CONSTRUCTION),
-        Dots(np.array([hub]), Role.RESULT),
-        Label(hub, "O", towards=hub),
-        Label(hub / 2, say("ρ = {rho:.2f}", rho=rho), towards=hub * UP),
+        Line(np.array([hub.place, detail[1].place]), Role.LIMIT, of=ob.act),
+        Arc(hub.place, abs(hub.place), *sector, Role.CONSTRUCTION, of=circle.act),
+        hub.dots(Role.RESULT),
+        hub.label("O", hub.place),
+        Label(hub.place / 2, said, hub.place * UP, of=read.act),
     )
 
 

@@ -9,23 +9,25 @@ mu_a = mu_v/(mu_phi H2).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, levels, pole_marks
-from graphcam.drafting.curve import faired, farthest
-from graphcam.drafting.euclid import UP, divided
-from graphcam.drafting.hand import showing
-from graphcam.drafting.ink import Caption, Construction, Step, View, reading, say
-from graphcam.drafting.marks import Dots, Line, Mark, Points, Role, Segments
+from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, once, pole_marks
+from graphcam.drafting.acts import Drawn, Setting
+from graphcam.drafting.euclid import RIGHT, UP, divided
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Step, View, say
+from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.drafting.pencil import Hand, Pencil
+from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.plane import dot
 from graphcam.words import say_many, sequence
 
 By = Literal["chords", "tangents"]
@@ -122,26 +124,22 @@ def differentiation(
     """
     x, s = np.asarray(x, dtype=np.float64), np.asarray(s, dtype=np.float64)
     _check(x, s, turn)
-    hand = pencil.hand("differentiation")
-    derive = _chords if by == "chords" else _tangents
-    plotted = pencil.sheets(s) + hand.line(s.size)
-    first = derive(x, plotted, poles[0], turn, hand)
-    second = derive(first.x, first.y, poles[1], turn, hand)
+    hand, givens = Hand(pencil, MEANING, mu_s.unit), DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by)
+    origin = hand.given("origin")
+    plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, s)
+    (start, end), v = _derived(hand, givens, 1, plotted, _going_on(hand, turn, plotted))
+    v_on = _going_on(hand, turn, v)
+    _, a = _derived(hand, givens, 2, v, v_on)
     mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
     mu_a = mu_v / (mu_phi.per_mm * poles[1])
-    readings = {
-        **hand.readings(mu_s.per_mm, mu_s.unit, rise=first.slope * first.run),
-        "run": reading(pencil.sheets(first.run), mu_phi.per_mm, "rad"),
-        **hand.readings(mu_v, f"{mu_s.unit}/rad", v=first.y),
-        "v_at": reading(pencil.sheets(first.x), mu_phi.per_mm, "rad"),
-        **hand.readings(mu_a, f"{mu_s.unit}/rad²", a=second.y),
-        "a_at": reading(pencil.sheets(second.x), mu_phi.per_mm, "rad"),
-        **hand.readings(mu_v, f"{mu_s.unit}/rad", max_v=_greatest(first, turn)),
-        **hand.readings(mu_a, f"{mu_s.unit}/rad²", max_a=_greatest(second, turn)),
-    }
-    points = {"s": x + UP * plotted, "v": first.x + UP * first.y, "a": second.x + UP * second.y}
-    givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by)
-    return Construction(MEANING, givens, pencil, readings, points, _draw)
+    hand.read("rise", between(start, end, UP), mu_s.per_mm, mu_s.unit)
+    hand.read("run", between(start, end, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    for name, derived, scale in (("v", v, mu_v), ("a", a, mu_a)):
+        hand.read(name, between(origin, derived, UP), scale)
+        hand.read(f"{name}_at", between(origin, derived, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    hand.read("max_v", _greatest(hand, v, v_on), mu_v)
+    hand.read("max_a", _greatest(hand, a, _going_on(hand, turn, a)), mu_a)
+    return hand.finished(givens, _draw, {"s": plotted, "v": v, "a": a})
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:
@@ -155,62 +153,63 @@ def _check(x: Floats, s: Floats, turn: float | None) -> None:
         raise DesignError(checked, f"over {x[-1] - x[0]:g} mm", f"within one turn of {turn:g} mm", remedy)
 
 
-@dataclass(frozen=True, eq=False)
-class _Derivative:
-    """Places (m,) [mm], ordinates ([samples,] m) [mm], and the slopes they came from, over their runs (m,) [mm]."""
-
-    x: Floats
-    y: Floats
-    slope: Floats
-    run: Floats
-
-
-def _chords(x: Floats, y: Floats, pole: float, turn: float | None, hand: Hand) -> _Derivative:
-    """The derivative in the middle of each interval; of a cyclic diagram in that from the last place to the first."""
-    if turn is not None:
-        x, y = np.append(x, x[0] + turn), np.concatenate([y, y[..., :1]], axis=-1)
-    run = np.diff(x)
-    slope = np.diff(y, axis=-1) / run
-    return _Derivative(x[:-1] + run / 2, pole * slope + hand.line(run.size), slope, run)
-
-
-def _tangents(x: Floats, y: Floats, pole: float, turn: float | None, hand: Hand) -> _Derivative:
-    """The derivative at each place: of the curve faired through it and its neighbours.
-
-    A mirror is set across the curve and turned until the curve runs into its image without a corner: it stands on the
-    normal.  The hand errs in that angle.
-    """
-    count = x.size
-    if turn is not None:
-        x = np.concatenate([x[-1:] - turn, x, x[:1] + turn])
-        y = np.concatenate([y[..., -1:], y, y[..., :1]], axis=-1)
-    run = np.diff(x)
-    chord = np.diff(y, axis=-1) / run
-    # The parabola through three points has the slope of either chord in its middle, and between them it is straight.
-    bend = np.diff(chord, axis=-1) / (run[:-1] + run[1:])
-    inside = chord[..., :-1] + bend * run[:-1]
+def _going_on(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:
+    """The places of a curve; of a cyclic diagram in the turn before, in its own and in the one after."""
     if turn is None:
-        start = chord[..., :1] - bend[..., :1] * run[0]
-        end = chord[..., -1:] + bend[..., -1:] * run[-1]
-        inside = np.concatenate([start, inside, end], axis=-1)
+        return curve
+    name, origin = curve.act.name, hand.given("origin")
+    before, after = (hand.enlarged(f"{name} {k:+} turn", curve, origin, 1, k * turn) for k in (-1, 1))
+    return hand.take(f"{name} going on", before, curve, after)
+
+
+def _derived(
+    hand: Hand, givens: DifferentiationGivens, number: int, curve: Drawn, going_on: Drawn
+) -> tuple[tuple[Drawn, Drawn], Drawn]:
+    """The derivative of a curve, and the two ends between which the rise and the run of each slope are read."""
+    if givens.by == "chords":
+        # Each slope belongs to the middle of its interval; after the last place of a turn follows the first again.
+        count = curve.points.shape[-1]
+        joined = curve if going_on is curve else going_on[count : 2 * count + 1]
+        ends = joined[:-1], joined[1:]
+        slopes, places = hand.join(f"slopes {number}", *ends), hand.divide(f"middles {number}", *ends, 0.5)
     else:
-        x = x[1:-1]
-    slope = np.tan(np.arctan(inside) + hand.protractor(count))
-    return _Derivative(x, pole * slope + hand.line(count), slope, np.full(count, pole))
+        # A mirror turned until the curve runs into its image without a corner stands on the normal.
+        slopes, places = hand.tangents_at(f"slopes {number}", curve, partial(_directions, givens.turn)), curve
+        ends = None
+    pole = hand.lay_off(f"P{number}", hand.acts["origin"], -RIGHT, givens.poles[number - 1])
+    rays = hand.parallel(f"rays {number}", slopes, pole)
+    # However steep the ray: what it cuts off may lie far up, but is one point of the axis.
+    heights = hand.cross(f"heights {number}", rays, hand.given("vertical axis", along=UP), flat=True)
+    derived = hand.project("va"[number - 1], heights, hand.erect(f"ordinates {number}", places))
+    return ends or (pole, heights), derived
 
 
-def _greatest(derivative: _Derivative, turn: float | None) -> Floats:
+def _directions(turn: float | None, points: Points) -> Points:
+    """The directions at plotted points (..., n) of the curve through each and its neighbours."""
+    if turn is not None:
+        points = np.concatenate([points[..., -1:] - turn, points, points[..., :1] + turn], axis=-1)
+    chord = np.diff(points)
+    run, slope = chord.real, chord.imag / chord.real
+    # The parabola through three points has the slope of either chord in its middle, and between them it is straight.
+    bend = np.diff(slope) / (run[..., :-1] + run[..., 1:])
+    inside = slope[..., :-1] + bend * run[..., :-1]
+    if turn is None:
+        start = slope[..., :1] - bend[..., :1] * run[..., :1]
+        end = slope[..., -1:] + bend[..., -1:] * run[..., -1:]
+        inside = np.concatenate([start, inside, end], axis=-1)
+    return 1 + UP * inside
+
+
+def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
     """The greatest ordinate up or down, where the faired curve turns; of a cyclic diagram over its ends too."""
-    cyclic = turn is not None
-    return np.maximum(_highest(derivative.y, cyclic=cyclic), _highest(-derivative.y, cyclic=cyclic))
-
-
-def _highest(y: Floats, *, cyclic: bool) -> Floats:
-    if cyclic:
-        # Begun at the lowest ordinate, so that the highest one has neighbours on both sides.
-        order = (np.argmin(y, axis=-1)[..., None] + np.arange(y.shape[-1])) % y.shape[-1]
-        y = np.take_along_axis(y, order, -1)
-    return farthest(UP * y, UP).imag
+    name, count, ends = curve.act.name, curve.points.shape[-1], list[Setting]()
+    for side, word in ((UP, "highest"), (-UP, "lowest")):
+        # Of a cyclic diagram begun on the other side, so that the farthest ordinate has neighbours on both.
+        begin = count + np.argmin(dot(side, curve.points), axis=-1)[..., None] if going_on is not curve else 0
+        places = hand.take(f"{name} about its {word}", going_on, which=begin + np.arange(count))
+        top = hand.tangent(f"{word} {name}", places, [slice(None)], side)
+        ends.append(between(hand.acts["origin"], top, side))
+    return reckoned(np.maximum, *ends)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -246,40 +245,40 @@ def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
 
 
 def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
-    s = c.first("s")
-    plotted = (*_axes(c, s, "s"), Dots(s), Segments(s.real + 0j, s, Role.CONSTRUCTION))
+    s, x = c.acts["s"], c.givens.x
+    plotted = (*_axes(c, "s"), s.dots(), s.from_(c.acts["stations"], Role.CONSTRUCTION))
     said = say_many(
-        "The displacement is plotted at {count} station.", "The displacement is plotted at {count} stations.", s.size
+        "The displacement is plotted at {count} station.", "The displacement is plotted at {count} stations.", x.size
     )
     cyclic = say("After the last of them the revolution goes on with the first.")
     return Step(
         say("The displacement"),
         sequence([said, cyclic], " ") if c.givens.turn else said,
         _view(c, "s"),
-        (*plotted, Line(_curve(c, s), Role.RESULT)),
+        (*plotted, _curve(c, "s")),
         given=plotted,
     )
 
 
 def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str, number: int) -> list[Step]:
-    derived, pole, by = c.first(target), c.givens.poles[number - 1], c.givens.by
-    index, heights = f"{number}".translate(SUBSCRIPTS), levels(derived.imag)
-    title, traced = (said.where(source=source, count=derived.size) for said in _TRACED[by])
-    traces = (_traces(c, c.first(source), derived, pole),)
-    joined = say("Pole and rays, {source} to {target}", source=source, target=target)
-    axes = (*_axes(c, derived, target), *pole_marks(showing(c).given("pole", -pole + 0j), pole, index, heights))
-    rays = (
-        Segments(np.full(heights.size, -pole + 0j), UP * heights, Role.CONSTRUCTION),
-        Segments(UP * derived.imag, derived, Role.CONSTRUCTION),
+    derived, distance, by = c.acts[target], c.givens.poles[number - 1], c.givens.by
+    rays, heights, index = c.acts[f"rays {number}"], c.acts[f"heights {number}"], f"{number}".translate(SUBSCRIPTS)
+    title, traced = (said.where(source=source, count=derived.shown.size) for said in _TRACED[by])
+    kept = once(heights)
+    titled = say("Pole and rays, {source} to {target}", source=source, target=target)
+    axes = (*_axes(c, target), *pole_marks(c.acts[f"P{number}"], distance, index, heights.shown.imag))
+    carried = (
+        Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act),
+        derived.from_(heights, Role.CONSTRUCTION),
     )
     smooth = say(
         "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} mm."
     ).where(greatest=float(c.first(f"max_{target}")))
-    curve = (Dots(derived), Line(_curve(c, derived), Role.RESULT))
-    parallel = _RAYS[by].where(index=index, pole=pole, target=target)
+    curve = (derived.dots(), _curve(c, target))
+    parallel = _RAYS[by].where(index=index, pole=distance, target=target)
     return [
-        Step(title, traced, _view(c, source), traces),
-        Step(joined, parallel, _view(c, target), (*axes, *rays), given=axes),
+        Step(title, traced, _view(c, source), (_traces(c, number),)),
+        Step(titled, parallel, _view(c, target), (*axes, *carried), given=axes),
         Step(say("Curve of {target}", target=target), smooth, _view(c, target), curve),
     ]
 
@@ -293,28 +292,27 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
     return replace(view, title=say("{title}, μ{index} = {mu:.4g} {per}/{mm}", per=per, mm=unit("mm"), **values))
 
 
-def _traces(c: Construction[DifferentiationGivens], curve: Points, derived: Points, pole: float) -> Mark:
+def _traces(c: Construction[DifferentiationGivens], number: int) -> Mark:
     """The chords, or short pieces of the tangents."""
-    turn = c.givens.turn
+    slopes = c.acts[f"slopes {number}"]
+    places, along = slopes.shown, slopes.first.directions
     if c.givens.by == "chords":
-        return Line(curve if turn is None else np.append(curve, curve[0] + turn), Role.LIMIT)
-    direction = pole + UP * derived.imag
-    along = TANGENT * direction / np.abs(direction)
-    return Segments(curve - along, curve + along, Role.LIMIT)
+        return Line(np.append(places, places[-1] + along[-1]), Role.LIMIT, of=slopes.act)
+    half = TANGENT * along / np.abs(along)
+    return Segments(places - half, places + half, Role.LIMIT, of=slopes.act)
 
 
-def _curve(c: Construction[DifferentiationGivens], points: Points) -> Points:
+def _curve(c: Construction[DifferentiationGivens], name: str) -> Mark:
     """The faired curve; of a cyclic diagram over the ends of the turn."""
-    turn = c.givens.turn
-    if turn is None:
-        return faired(points)
-    line = faired(np.concatenate([points[-2:] - turn, points, points[:2] + turn]))
-    return line[(line.real >= 0) & (line.real <= turn)]
+    smooth, turn = showing(c), c.givens.turn
+    line = smooth.fair(f"curve of {name}", _going_on(smooth, turn, c.acts[name].first), [slice(None)])
+    drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
+    return line[drawn].line(Role.RESULT)
 
 
-def _axes(c: Construction[DifferentiationGivens], points: Points, symbol: str) -> tuple[Mark, ...]:
-    turn = c.givens.turn
-    return axes_over_phi(float(c.givens.x[-1]) if turn is None else turn, points.imag, symbol)
+def _axes(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ...]:
+    end = float(c.givens.x[-1]) if c.givens.turn is None else c.givens.turn
+    return axes_over_phi(end, c.acts[symbol].shown.imag, symbol)
 
 
 def _draw_scales(c: Construction[DifferentiationGivens]) -> Step:

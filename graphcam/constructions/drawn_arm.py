@@ -10,9 +10,9 @@ from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.board import DrawnFollower, FollowerSize
-from graphcam.drafting.euclid import stepped_off
+from graphcam.drafting.hand import between, showing
 from graphcam.drafting.ink import Construction, say
-from graphcam.drafting.marks import Circle, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.follower import Oscillating, Rotation, sense
@@ -82,21 +82,24 @@ class DrawnOscillating(DrawnFollower):
 
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, arm and pivot."""
-        shrink = inverted.givens.mu_l.per_mm / scale.per_mm
         stations, motion = inverted.givens.integrated.givens.stations, inverted.givens.integrated.givens.motion
+        hand, centre = showing(inverted), inverted.acts["cam centre"].first
         # Turned back by the station's cam angle, the first pivot lies on the line of centres.
-        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0])
-        pivot, start = (complex(inverted.first(name)[0] * back) * shrink for name in ("pivots", "starts"))
-        b = complex(stepped_off(start, pivot, np.asarray(-motion.levels[0])))
-        ground = pivot + np.arange(-3, 3.1, 1.5) - 5j
+        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0]) * inverted.givens.mu_l.per_mm
+        first = (inverted.acts[name].first[0] for name in ("pivots", "starts"))
+        pivot, start = (hand.enlarged("C", place, centre, back / scale.per_mm) for place in first)
+        arm = hand.protractor("arm", pivot, hand.join("arm at rest", pivot, start), -motion.levels[0])
+        b = hand.lay_off("B", pivot, arm, between(pivot, start))
+        support = pivot.place + np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j])
+        ground = hand.given("ground", pivot.place + np.arange(-3, 3.1, 1.5) - 5j, -1.2 - 1.5j)
         return (
-            Circle(b, roller_radius / scale.per_mm, Role.CURVE),
-            Line(np.array([b, pivot]), Role.CURVE),
-            Line(np.array([0j, pivot]), Role.AXIS),
-            Circle(pivot, 1.2, Role.CURVE),
-            Line(pivot + np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),
-            Segments(ground, ground - 1.2 - 1.5j, Role.HATCH),
-            Dots(np.array([b])),
-            Label(b, "B", towards=1 + 1j),
-            Label(pivot, "C", towards=1 + 1j),
+            hand.circle("roller", b, roller_radius / scale.per_mm).drawn_circle(Role.CURVE),
+            hand.join("arm", b, pivot).way(Role.CURVE),
+            pivot.line_from(centre, Role.AXIS),
+            hand.circle("hinge", pivot, 1.2).drawn_circle(Role.CURVE),
+            hand.given("support", support).line(Role.CURVE),
+            ground.ways(Role.HATCH),
+            b.dots(),
+            b.label("B"),
+            pivot.label("C"),
         )

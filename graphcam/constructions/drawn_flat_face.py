@@ -11,9 +11,10 @@ from graphcam.constructions.board import DrawnFollower, FollowerSize
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
 from graphcam.constructions.guided_stem import guided_stem
-from graphcam.drafting.euclid import UP
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Construction
-from graphcam.drafting.marks import Line, Mark, Role
+from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import FlatFaced, Rotation
@@ -81,5 +82,7 @@ class DrawnFlatFaced(DrawnFollower):
         """Face, stem and guide."""
         motion = inverted.givens.integrated.givens.motion
         width = max(float(inverted.value("face_left")), float(inverted.value("face_right"))) / scale.per_mm + 2
-        b = (inverted.givens.prime_radius + motion.levels[0]) / scale.per_mm * UP
-        return (Line(np.array([b - width, b + width]), Role.CURVE), *guided_stem(b, STEM, GUIDE))
+        hand = showing(inverted)
+        b = hand.lay_off("B", hand.given("A"), UP, (inverted.givens.prime_radius + motion.levels[0]) / scale.per_mm)
+        face = hand.lay_off("face", b, RIGHT, np.array([-width, width]))
+        return (face.line(Role.CURVE), *guided_stem(hand, b, STEM, GUIDE))

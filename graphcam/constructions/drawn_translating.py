@@ -13,9 +13,10 @@ from graphcam.constructions.guided_stem import guided_stem
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
-from graphcam.drafting.euclid import UP
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Construction
-from graphcam.drafting.marks import Arrow, Circle, Dots, Mark, Role
+from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, Translating, sense
@@ -78,16 +79,17 @@ class DrawnTranslating(DrawnFollower):
 
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, stem and guide."""
-        integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
-        stations, motion = integrated.givens.stations, integrated.givens.motion
+        integrated, hand = inverted.givens.integrated, showing(inverted)
         # Turned back by the station's cam angle, the foot of the first station lies level with the cam centre.
-        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0])
-        foot = complex(inverted.first("feet")[0] * back) * mu_l.per_mm / scale.per_mm
-        radius, start = inverted.givens.prime_radius / scale.per_mm, motion.levels[0] / scale.per_mm
-        b = foot.real + UP * (np.sqrt(radius**2 - foot.real**2) + start)
+        back = np.exp(1j * sense(inverted.givens.rotation) * integrated.givens.stations.phi[0])
+        foot = complex(inverted.first("feet")[0] * back) * inverted.givens.mu_l.per_mm / scale.per_mm
+        prime = hand.circle("prime circle", hand.given("A"), inverted.givens.prime_radius / scale.per_mm)
+        start = hand.cross("start of the lift", hand.given("line of motion", foot, UP), prime)
+        b = hand.lay_off("B", start, UP, integrated.givens.motion.levels[0] / scale.per_mm)
+        tail = hand.lay_off("tail", hand.lay_off("beside the stem", b, RIGHT, 4.0), UP, STEM + 1)
         return (
-            Circle(b, roller_radius / scale.per_mm, Role.CURVE),
-            *guided_stem(b, STEM, GUIDE),
-            Dots(np.array([b])),
-            Arrow(b + (STEM + 1) * UP + 4, b + (STEM + 9) * UP + 4, Role.CURVE),
+            hand.circle("roller", b, roller_radius / scale.per_mm).drawn_circle(Role.CURVE),
+            *guided_stem(hand, b, STEM, GUIDE),
+            b.dots(),
+            hand.lay_off("head", tail, UP, 8.0).arrow(tail, Role.CURVE),
         )

@@ -11,9 +11,9 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.curve import highest_and_lowest
-from graphcam.drafting.euclid import UP, turned
-from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.euclid import UP, unit
+from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.ink import Step, say
 from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -55,50 +55,49 @@ def flat_inversion(
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the profile at the stations; the ``contact`` to the right
     of the ray, and the face's least half-widths ``face_left`` and ``face_right`` [mm].
     """
-    hand, sigma = pencil.hand("inversion"), sense(rotation)
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
-    count = stations.u.size
-    position = profile_view.inverted_positions(integrated, rotation, hand)
-    along, across = turned(UP, position), turned(1 + 0j, position)
-    feet = along * (prime_radius / mu_l.per_mm + s.value / mu_l.per_mm + hand.dividers(count))
-    contact = sigma * v.value / mu_l.per_mm + hand.dividers(count)
-    touch = feet + across * contact + hand.point(count)
-    # The velocity over the cam angle, faired as any other curve, says how far the contact wanders.
-    wander = integrated.points["v_curve"].real + UP * contact
-    ends = highest_and_lowest(wander, stations.pieces).imag
-    faces = {"face_left": -ends[..., 1], "face_right": ends[..., 0]}
-    return Construction(
-        MEANING,
-        profile_view.InvertedGivens(integrated, rotation, prime_radius, mu_l),
-        pencil,
-        profile_view.curve_readings(touch, mu_l, hand) | hand.readings(mu_l.per_mm, "mm", contact=contact, **faces),
-        {"feet": feet, "pitch": touch, "motion": along},
-        _draw,
-    )
+    hand, sigma, pieces = Hand(pencil, MEANING), sense(rotation), integrated.givens.stations.pieces
+    s, v = integrated.readings["s"], integrated.readings["v"]
+    prime = profile_view.prime_circle(hand, prime_radius, mu_l)
+    rays = profile_view.inverted_positions(hand, integrated, rotation, UP)
+    feet = hand.lay_off("feet", hand.cross("starts", rays, prime), rays, hand.carry(s, s.scale / mu_l.per_mm))
+    faces, aside = hand.perpendicular("faces", rays, feet), hand.carry(v, sigma * np.asarray(v.scale) / mu_l.per_mm)
+    touch = hand.lay_off("pitch", feet, faces.turned(-1), aside)
+    profile_view.curve_readings(hand, touch, mu_l)
+    hand.read("contact", reckoned(np.copysign, between(feet, touch), aside), mu_l.per_mm)
+    # The contact over the cam angle, faired as any other curve, says how far it wanders.
+    axis, origin = hand.found(integrated.givens.diagram, "axis"), hand.given("cam centre")
+    wander = hand.lay_off("contacts", axis, UP, aside)
+    lowest, highest = (hand.tangent(f"farthest {way}", wander, pieces, way * UP) for way in (-1, 1))
+    hand.read("face_left", between(lowest, origin, UP), mu_l.per_mm)
+    hand.read("face_right", between(origin, highest, UP), mu_l.per_mm)
+    givens = profile_view.InvertedGivens(integrated, rotation, prime_radius, mu_l)
+    return hand.finished(givens, _draw, {"feet": feet, "pitch": touch, "motion": rays.directions})
 
 
 def _draw(inverted: profile_view.Inverted) -> list[Step]:
-    feet, along = inverted.first("feet"), inverted.first("motion")
+    rays, feet, faces = (inverted.acts[name] for name in ("inverted positions", "feet", "faces"))
     r0, contact = inverted.givens.prime_radius, inverted.first("contact")
-    across, start = along / UP, complex(UP * r0 / inverted.givens.mu_l.per_mm)
-    rays = (Segments(np.zeros_like(feet), feet, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    start = complex(UP * r0 / inverted.givens.mu_l.per_mm)
+    lines = Segments(rays.shown, feet.shown, Role.CONSTRUCTION, of=rays.act)
+    further = (lines, *profile_view.phase_angles(inverted, start))
     drawn = say(
         "About the cam centre the prime circle r₀ = {r0:g} mm is drawn, and the rays of the inverted positions, "
         "numbered against the rotation ({rotation}); the phases take {angles}."
     ).where(r0=r0, **profile_view.divided_by(inverted))
-    left = feet + across * (np.minimum(contact, 0) - FACE_BEYOND)
-    right = feet + across * (np.maximum(contact, 0) + FACE_BEYOND)
+    across = -unit(faces.first.directions)
+    left = faces.shown + across * (np.minimum(contact, 0) - FACE_BEYOND)
+    right = faces.shown + across * (np.maximum(contact, 0) + FACE_BEYOND)
     touched = say(
         "On every ray r₀ + s is laid off and the face drawn square to it. The profile touches the face ds/dφ to the "
         "side: at most {left:.2f} mm to the left and {right:.2f} mm to the right, the face's half-widths."
     ).where(left=float(inverted.value("face_left")), right=float(inverted.value("face_right")))
-    faces = (Segments(left, right, Role.CONSTRUCTION),)
+    lines = (Segments(left, right, Role.CONSTRUCTION, of=faces.act),)
     reads = ("face_left", "face_right", "contact", *profile_view.CURVE_READINGS)
     return [
-        profile_view.prime_step(inverted, say("Prime circle and rays"), drawn, start, further=rays),
+        profile_view.prime_step(inverted, say("Prime circle and rays"), drawn, start, further=further),
         *profile_view.pitch_steps(
             inverted,
-            Step(say("Faces and contacts"), touched, PROFILE, faces, reads),
+            Step(say("Faces and contacts"), touched, PROFILE, lines, reads),
             say("Profile"),
             say("A smooth curve through the points, with arcs about the centre in the dwells, is the profile."),
         ),

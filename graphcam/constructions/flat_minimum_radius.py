@@ -9,6 +9,8 @@ arctan(mu_a/mu_s) in place of 45 degrees.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +20,14 @@ from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.curve import at_greatest, faired, farthest
-from graphcam.drafting.euclid import RIGHT, UP, meet
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
-from graphcam.plane import dot
 
 DOWN_LEFT = -RIGHT - UP
 """Square to the lines of equal s + a, towards smaller ones."""
@@ -81,33 +83,42 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
 
     Readings: ``prime_radius`` and the greatest ``need`` = -(s + a) [mm].
     """
-    hand = pencil.hand("minimum_radius")
+    hand, stations = Hand(pencil, LEAST_RADIUS_MEANING), integrated.givens.stations
     s, a, before = (integrated.readings[name] for name in ("s", "a", "a_before"))
-    stations = integrated.givens.stations
-    mu, count = np.asarray(s.scale), stations.u.size
-    height = s.paper + hand.line(count)
-    errors = hand.dividers(count)
+    origin, axis, count = hand.given("origin"), hand.given("axis of s", along=UP), stations.u.size
+    heights = hand.project("displacements", hand.carry(s), axis)
     # Equal scales: the accelerations are laid off in the scale of s.  At a jump the curve has two ends.
-    curve = a.value / mu[..., None] + errors + UP * height
-    ends = before.value / mu[..., None] + errors + UP * height
-    pieces = [
-        np.append(curve[..., p.start : p.stop - 1], ends[..., p.stop - 1 : p.stop], -1) for p in stations.stretches
-    ]
+    equal = np.asarray(a.scale) / np.asarray(s.scale)
+    after = hand.lay_off("accelerations", heights, RIGHT, hand.carry(a, equal))
+    jumps = np.flatnonzero((a.paper != before.paper).reshape(-1, count).any(axis=0))
+    nearer = reckoned(itemgetter((..., jumps)), hand.carry(before, equal))
+    near = hand.lay_off("before the jumps", heights[jumps], RIGHT, nearer)
+    ends = np.arange(count)
+    ends[jumps] = count + np.arange(jumps.size)
+    order = [np.append(np.arange(p.start, p.stop - 1), ends[p.stop - 1]) for p in stations.stretches]
+    curve = hand.take("curve", after, near, which=np.concatenate(order))
     # Where the follower rests there is no acceleration: a point of the axis of s.
-    rests = UP * height[..., _rests(integrated)]
-    tops = np.concatenate([np.stack([farthest(piece, DOWN_LEFT) for piece in pieces], axis=-1), rests], axis=-1)
-    touch = at_greatest(tops, dot(DOWN_LEFT, tops))
-    zero = meet(touch, np.asarray(RIGHT - UP), np.asarray(0j), np.asarray(UP))
-    # Where s + a is never negative any radius will do that the permitted curvature itself needs.
-    prime_radius = np.maximum(least_curvature / mu - zero.imag, 0.0)
-    return Construction(
-        LEAST_RADIUS_MEANING,
-        FlatLeastRadiusGivens(integrated, least_curvature),
-        pencil,
-        hand.readings(mu, "mm", prime_radius=prime_radius, need=0.0 - zero.imag),
-        {"curve": np.concatenate(pieces, axis=-1), "rests": rests, "touch": touch, "zero": zero},
-        _draw,
-    )
+    rests = hand.take("rests", heights, which=_rests(integrated))
+    tangent = hand.tangent("touch", hand.take("curve and rests", curve, rests), _smooth(integrated), DOWN_LEFT)
+    zero = hand.cross("zero", tangent, axis)
+    need = between(zero, origin, UP)
+    radius = reckoned(_enough, hand.at_scale(least_curvature, s), need)
+    hand.lay_off("A", origin, -UP, hand.carry(hand.read("prime_radius", radius, s.scale)))
+    hand.read("need", need, s.scale)
+    givens = FlatLeastRadiusGivens(integrated, least_curvature)
+    return hand.finished(givens, _draw, {"curve": curve, "rests": rests, "touch": tangent, "zero": zero})
+
+
+def _enough(least: Floats, need: Floats) -> Floats:
+    """The radius; where s + a is never negative any will do that the permitted curvature itself needs."""
+    return np.maximum(least + need, 0.0)
+
+
+def _smooth(integrated: Integrated) -> list[slice]:
+    """The pieces of the curve that are faired, and then the rests, each for itself."""
+    ends = np.cumsum([stretch.stop - stretch.start for stretch in integrated.givens.stations.stretches]).tolist()
+    ends += [ends[-1] + k + 1 for k in range(_rests(integrated).size)]
+    return [slice(start, end) for start, end in pairwise([0, *ends])]
 
 
 def _rests(integrated: Integrated) -> NDArray[np.intp]:
@@ -125,36 +136,31 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     Readings: ``rho`` [mm], negative where the profile under the face would have to turn inside out, and its only
     candidate.
     """
-    hand, need = pencil.hand("curvature"), region.readings["need"]
-    rho = prime_radius / np.asarray(need.scale) - need.paper
-    return Construction(
-        CURVATURE_MEANING,
-        FlatCurvatureGivens(region, prime_radius),
-        pencil,
-        hand.readings(need.scale, "mm", rho=rho, rho_candidates=rho[..., None]),
-        {"zero": region.points["zero"]},
-        _draw_curvature,
-    )
+    hand, need = Hand(pencil, CURVATURE_MEANING), region.readings["need"]
+    origin, zero = hand.given("origin"), hand.found(region, "zero")
+    centre = hand.lay_off("A", origin, -UP, hand.at_scale(prime_radius, need))
+    rho = reckoned(np.subtract, between(centre, origin, UP), hand.carry(need))
+    hand.read("rho", rho, need.scale)
+    hand.read("rho_candidates", reckoned(itemgetter((..., None)), rho), need.scale, "mm")
+    return hand.finished(FlatCurvatureGivens(region, prime_radius), _draw_curvature, {"zero": zero})
 
 
 def _draw_curvature(curved: FlatCurved) -> list[Step]:
-    zero, rho = complex(curved.first("zero")), float(curved.value("rho"))
-    centre = zero - float(curved.first("rho")) * UP
+    centre, rho = curved.acts["A"], float(curved.value("rho"))
     said = say(
         "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent meets the "
         "axis is the least radius of curvature of the profile, {rho:.3f} mm."
     ).where(r0=curved.givens.prime_radius, rho=rho)
-    radius = Dimension(centre, zero, say("ρ = {rho:.2f}", rho=rho), aside=-14.0)
-    marks = (Dots(np.array([centre]), Role.RESULT), radius)
+    zero, named = complex(curved.first("zero")), say("ρ = {rho:.2f}", rho=rho)
+    marks = (centre.dots(Role.RESULT), Dimension(centre.place, zero, named, -14.0, curved.readings["rho"].act))
     return [Step(say("The least radius of curvature"), said, COMBINED, marks, reads=("rho",))]
 
 
 def _draw(region: FlatRegion) -> list[Step]:
-    curve = region.first("curve")
-    touch, zero = complex(region.first("touch")), complex(region.first("zero"))
-    r0, need = float(region.first("prime_radius")), float(region.first("need"))
-    mu, centre = region.readings["need"].per_mm, -r0 * UP
-    axes = _axes(curve, min(-r0, zero.imag) - OVERHANG)
+    curve, line, centre = region.first("curve"), region.acts["touch"], region.acts["A"]
+    touch, zero = line.place, region.acts["zero"].place
+    r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
+    axes = _axes(curve, min(centre.place.imag, zero.imag) - OVERHANG)
     laid_off = say(
         "At every displacement the acceleration is laid off in the scale of s, to the right where it is positive; the "
         "longest measures {longest:.1f} mm. The ends are joined by smooth curves between jumps and corners of the "
@@ -163,19 +169,19 @@ def _draw(region: FlatRegion) -> list[Step]:
     touching = say(
         "Where s + a is least the tangent at 45° touches the curve; it meets the axis of s at {meets:.2f} mm, so the "
         "greatest of −(s + a) is {need:.3f} mm. With unequal scales it would have to lean by arctan(μₐ/μₛ)."
-    ).where(meets=zero.imag, need=need * mu)
+    ).where(meets=zero.imag, need=need)
     tangent = (
-        Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT),
-        Dots(np.array([touch, zero]), Role.LIMIT),
-        AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°"),
+        Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT, of=line.act),
+        Dots(np.array([touch, zero]), Role.LIMIT, of=line.act),
+        AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°", of=line.act),
     )
     found = say(
         "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; it is laid "
         "off below the start of the lift to the cam centre A."
-    ).where(least=region.givens.least_curvature, need=need * mu, r0=r0 * mu)
+    ).where(least=region.givens.least_curvature, need=need, r0=r0)
     radius = (
-        *(Dots(np.array([centre]), Role.RESULT), Label(centre, "A", towards=1 - 1j)),
-        Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=r0 * mu), aside=-10.0),
+        *(centre.dots(Role.RESULT), centre.label("A", 1 - 1j)),
+        Dimension(0j, centre.place, say("r₀ = {r0:.2f}", r0=r0), -10.0, region.readings["prime_radius"].act),
     )
     return [
         Step(say("Displacement over acceleration"), laid_off, COMBINED, (*axes, *_curve(region)), given=axes),
@@ -197,14 +203,13 @@ def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
 
 def _curve(region: FlatRegion) -> tuple[Mark, ...]:
     """The accelerations, and the smooth curves through their ends, each with the name of its first station."""
-    stations, curve = region.givens.integrated.givens.stations, region.first("curve")
-    ends = np.cumsum([stretch.stop - stretch.start for stretch in stations.stretches])
-    pieces = np.split(curve, ends[:-1])
-    names = [station_names(stations)[stretch.start] for stretch in stations.stretches]
-    begins = [complex(piece[0]) for piece in pieces]
-    return (
-        Segments(UP * curve.imag, curve, Role.CONSTRUCTION),
-        *(Line(faired(piece), Role.RESULT) for piece in pieces),
-        Dots(region.first("rests"), Role.RESULT),
-        *(Label(at, k, towards=np.sign(at.real) + 0j, small=True) for at, k in zip(begins, names, strict=True)),
-    )
+    integrated, acts, smooth = region.givens.integrated, region.acts, showing(region)
+    stations, curve, jumps = integrated.givens.stations, acts["curve"].first, acts["before the jumps"]
+    lines, named = list[Mark]([acts["accelerations"].from_(acts["displacements"], Role.CONSTRUCTION)]), list[Mark]()
+    if jumps.shown.size:
+        lines.append(jumps.from_(jumps.shown.imag * UP, Role.CONSTRUCTION))
+    for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
+        begin, name = curve[piece.start], station_names(stations)[stretch.start]
+        lines.append(smooth.fair(f"from {name}", curve[piece], [slice(None)]).line(Role.RESULT))
+        named.append(begin.label(name, np.sign(begin.place.real) + 0j, small=True))
+    return (*lines, acts["rests"].dots(Role.RESULT), *named)

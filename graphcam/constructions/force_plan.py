@@ -10,17 +10,22 @@ Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Desi
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass, replace
+from functools import partial
+from operator import itemgetter
 
 import numpy as np
 
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import MeasuredAngles, angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.euclid import UP, meet, turned
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Step, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -32,6 +37,8 @@ from graphcam.plane import dot
 
 LOAD_LENGTH = 50.0
 """The load is drawn at the largest round scale at which its arrow is not longer [mm]."""
+BASE = 30.0
+"""The length of the bearings is drawn as this, to find the inclination of the reaction [mm]."""
 LEAST_LOAD = 0.1
 """Of the greatest load on the rises: under less the triangle would show nothing but the errors of the drawn a and s."""
 ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -85,33 +92,50 @@ def force_plan(
     Readings [N]: ``load``; ``normal``, the contact force, with its parts ``along`` the motion and ``side``, across it;
     ``friction`` and ``reaction`` of the guide.  NaN where the load does not press, or the guide jams.
     """
-    hand = pencil.hand("force_plan")
-    k = plan_station(measured, load) if station is None else station
+    hand, k = Hand(pencil, MEANING), plan_station(measured, load) if station is None else station
     integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)
-    s, v, a = (integrated.readings[name].value[..., k] for name in ("s", "v", "a"))
-    alpha = measured.readings["alpha"].paper[..., k]
-    direction = float(integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction)
-    force = load.force((s, v, a, np.zeros_like(s)), direction)
-    mu = mu_force or round_scale(float(np.median(np.abs(force))))
-    tilt = 0.0 if guide is None else direction * _incline(guide, s)
-    foot = -UP * (force / mu.per_mm + hand.dividers(1)[..., 0])
+    direction = integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction
+    read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
+    s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
+    force = reckoned(partial(_force, load, direction), s, v, a)
+    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
+
+    origin = hand.given("origin")
+    foot = hand.lay_off("foot", origin, -UP, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
     # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
-    normal = turned(UP, sigma * (alpha + hand.protractor(1)[..., 0]))
-    across = np.where(normal.real < 0, -1.0, 1.0) + UP * tilt
-    corner: Points = meet(foot, normal, np.zeros_like(foot), across) + hand.point(1)[..., 0]
+    turn = reckoned(partial(np.multiply, sigma), alpha)
+    normal = hand.protractor("line of F", foot, UP, turn)
+    if guide is None:
+        across = hand.erect("line of R", origin, RIGHT)
+    else:
+        base = hand.lay_off("base", origin, -RIGHT, reckoned(partial(np.copysign, BASE), turn))
+        incline = hand.lay_off("incline", base, UP, reckoned(partial(_incline, guide, direction), s))
+        across = hand.join("line of R", origin, incline)
     # Beyond the jamming angle the lines meet on the other side, where no force can push.
-    pushes = (foot.imag < 0) & (dot(corner - foot, normal) > 0)
-    corner = np.asarray(np.where(pushes, corner, np.nan), dtype=np.complex128)
-    contact = {"normal": np.abs(corner - foot), "along": (corner - foot).imag, "side": np.abs(corner.real)}
-    bearing = {"friction": np.abs(corner.imag), "reaction": np.abs(corner)}
-    return Construction(
-        MEANING,
-        ForcePlanGivens(measured, load, guide, k, mu),
-        pencil,
-        hand.readings(mu.per_mm, "N", load=-foot.imag, **contact, **bearing),
-        {"foot": foot, "corner": corner, "contact_normal": normal, "across": across},
-        _draw,
-    )
+    meeting = hand.cross("meeting", normal, across)
+    pushes = (foot.points.imag < 0) & (dot(meeting.points - foot.points, normal.directions) > 0)
+    either = np.where(pushes, 0, 1)[..., None]
+    corner = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=either)[0]
+    hand.join("F", foot, corner)
+    hand.join("R", corner, origin)
+    found = {"load": between(foot, origin, UP), "normal": between(foot, corner), "along": between(foot, corner, UP)}
+    for name, way in (("side", RIGHT), ("friction", UP)):
+        found[name] = reckoned(np.abs, between(origin, corner, way))
+    for name, length in {**found, "reaction": between(origin, corner)}.items():
+        hand.read(name, length, mu.per_mm)
+    directions = {"contact_normal": normal.directions, "across": across.directions}
+    givens, points = ForcePlanGivens(measured, load, guide, k, mu), {"foot": foot, "corner": corner}
+    return hand.finished(givens, _draw, {**points, **directions})
+
+
+def _force(load: SpringLoad, direction: int, s: Floats, v: Floats, a: Floats) -> Floats:
+    """The load [N], from the displacement and its derivatives."""
+    return load.force((s, v, a, np.zeros_like(s)), direction)
+
+
+def _incline(guide: Guide, direction: int, s: Floats) -> Floats:
+    """Over the base the part mu (l + 2 b)/l of it: what the bearings hold back, with the roller s mm up."""
+    return direction * BASE * guide.friction * (guide.length + 2 * (guide.overhang - s)) / guide.length
 
 
 def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
@@ -121,14 +145,9 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     """
     integrated = measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
-    force = np.where(moving_up(measured), load.force((s, v, a, np.zeros_like(s)), 1.0), 0.0)
+    force = np.where(moving_up(measured), _force(load, 1, s, v, a), 0.0)
     k = shown_station(measured)
     return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
-
-
-def _incline(guide: Guide, s: Floats) -> Floats:
-    """The part mu (l + 2 b)/l of the side force that the bearings hold back, with the roller s mm up."""
-    return guide.friction * (guide.length + 2 * (guide.overhang - s)) / guide.length
 
 
 def round_scale(load: float) -> Scale:
@@ -144,17 +163,16 @@ def round_scale(load: float) -> Scale:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BASE = 30.0
-"""The length of the bearings is drawn as this, to find the inclination of the reaction [mm]."""
 BEYOND = 8.0
 """How far a line runs on beyond its corner [mm]."""
 
 
 def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
     k, guide, mu = plan.givens.station, plan.givens.guide, plan.givens.mu_force.per_mm
-    measured = plan.givens.measured
+    measured, acts = plan.givens.measured, plan.acts
     name = station_names(measured.givens.integrated.givens.stations)[k]
-    foot, corner, normal, across = (complex(plan.first(key)) for key in ("foot", "corner", "contact_normal", "across"))
+    foot, corner, normal = acts["foot"], acts["corner"].first[0], acts["line of F"].first
+    side = -1.0 if complex(normal.directions).real < 0 else 1.0
     alpha, length = float(measured.first("alpha")[k]), float(plan.first("normal"))
     forces = {key: float(plan.value(key)) for key in plan.readings}
     view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu))
@@ -162,18 +180,18 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
         "At station {name} inertia, spring and preload hold the follower down with Q = {load:.1f} N, found from the "
         "drawn a and s. At μF = {mu:g} N/mm its arrow is {paper:.1f} mm long, against the motion."
     ).where(name=name, load=forces["load"], mu=mu, paper=float(plan.first("load")))
-    load = (Arrow(0j, foot, Role.CURVE), Label(foot / 2, "Q", towards=-across.real), Dots(np.array([0j, foot])))
+    tail_and_head = Dots(np.array([0j, foot.place]), of=foot.act)
+    load = (foot.arrow(0j, Role.CURVE), Label(foot.place / 2, "Q", towards=-side + 0j, of=foot.act), tail_and_head)
     parallel = say(
         "Through the head of Q the line of the contact force is drawn parallel to the contact normal, at the measured "
         "pressure angle of {alpha:.2f}° with the motion."
     ).where(alpha=math.degrees(alpha))
-    contact = _normal_line(foot, normal, length, alpha)
     steps = [
         Step(say("Force plan at station {name}: the load", name=name), loaded, view, load, reads=("load",)),
-        Step(say("The line of the contact force"), parallel, view, contact),
-        Step(say("The line of the guide's reaction"), _reaction_caption(guide), view, _reaction_line(across)),
+        Step(say("The line of the contact force"), parallel, view, _normal_line(normal, length, alpha)),
+        Step(say("The line of the guide's reaction"), _reaction_caption(guide), view, _reaction_line(plan, side)),
     ]
-    if math.isnan(corner.real):
+    if math.isnan(length):
         unreadable = say(
             "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
             "guide, or the load does not press it on the cam."
@@ -184,24 +202,27 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
         "motion it gives F cos α = {along:.1f} N, across it F sin α = {side:.1f} N, which the guide bears with the "
         "friction of {friction:.1f} N."
     ).where(f_mm=length, mu=mu, f=forces["normal"], **forces)
+    shown = showing(plan)
+    level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
     marks: tuple[Mark, ...] = (
-        *(Arrow(foot, corner, Role.RESULT), Arrow(corner, 0j, Role.RESULT)),
-        *(Line(np.array([corner, complex(0, corner.imag)]), Role.CONSTRUCTION), Dots(np.array([corner]))),
-        Label((foot + corner) / 2, "F", towards=across.real + 0j - 0.5j),
-        Label(corner / 2, "R", towards=UP),
+        Arrow(foot.place, corner.place, Role.RESULT, of=acts["F"].act),
+        Arrow(corner.place, 0j, Role.RESULT, of=acts["R"].act),
+        *(level.line_from(corner, Role.CONSTRUCTION), corner.dots()),
+        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=acts["F"].act),
+        Label(corner.place / 2, "R", towards=UP, of=acts["R"].act),
     )
     found = ("normal", "along", "side", "friction", "reaction")
     return [*steps, Step(say("The triangle of forces"), closing, view, marks, reads=found)]
 
 
-def _normal_line(foot: complex, normal: complex, length: float, alpha: float) -> tuple[Mark, ...]:
+def _normal_line(normal: Drawn, length: float, alpha: float) -> tuple[Mark, ...]:
     reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
-    radius = 0.4 * min(reach, LOAD_LENGTH)
-    upright, inclined = math.pi / 2, math.atan2(normal.imag, normal.real)
+    radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
+    said = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
     return (
-        Line(np.array([foot, foot + reach * normal]), Role.CONSTRUCTION),
+        Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act),
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        angle_at(foot, upright, inclined, radius, say("α = {alpha:.1f}°", alpha=math.degrees(alpha))),
+        replace(angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said), of=normal.act),
     )
 
 
@@ -215,7 +236,11 @@ def _reaction_caption(guide: Guide | None) -> Caption:
     ).where(mu=guide.friction, length=guide.length)
 
 
-def _reaction_line(across: complex) -> tuple[Mark, ...]:
-    base, end = complex(BASE * across.real, 0), BASE * across
-    level = () if end == base else (Line(np.array([0j, base, end]), Role.CONSTRUCTION),)
-    return (Line(np.array([-0.3 * end, end]), Role.CONSTRUCTION), *level)
+def _reaction_line(plan: Construction[ForcePlanGivens], side: float) -> tuple[Mark, ...]:
+    line, end, laid_off = plan.acts["line of R"], complex(BASE * side), list[Mark]()
+    if plan.givens.guide is not None:
+        base, incline = plan.acts["base"], plan.acts["incline"]
+        end = incline.place
+        if end != base.place:
+            laid_off = [base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)]
+    return (Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act), *laid_off)

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions.acceleration import AccelerationDiagram
-from graphcam.constructions.axes import SUBSCRIPTS, levels, numbers, phi_axes, pole_marks
+from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
@@ -118,8 +118,8 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
     v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
     heights = between(axis, polygons, UP)
-    s_chords = hand.raised("s_chords", polygons, reckoned(partial(_set_on, givens), heights))
-    s = hand.lay_off("s_curve", axis, UP, reckoned(partial(_shared_out, givens), heights))
+    raised, shared_out, closing = (reckoned(partial(_stacked, givens, part), heights) for part in range(3))
+    s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
 
     x, top = axis.points.real, _top(motion, stations)
     span = stations.phases[stations.moving[top]]
@@ -137,7 +137,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
     hand.read("max_a", reckoned(_greatest, hand.carry(diagram.readings["greatest"])), mu_a)
     hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
-    hand.read("closing_s", reckoned(partial(_closing, givens), heights), mu_s, rounded=False)
+    hand.read("closing_s", closing, mu_s, rounded=False)
     places = {
         "a_projected": middles.points.real + a_heights.points,
         "v_chords": v_chords,
@@ -167,40 +167,23 @@ def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
     return polygons - polygons[..., stations.last[stations.moving]] * stations.u
 
 
-def _closing(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """What is left of the displacement at the end of the turn, (...)."""
-    return polygons[..., givens.stations.last].sum(axis=-1)
+def _stacked(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
+    """Set each phase's polygon (..., m) on the end of the one before, and share out what is left after the turn.
 
-
-def _set_on(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """How much each station's chords (..., m) rise when every phase is set on the end of the one before."""
+    part : 0 for how much each station rises by that, 1 for the heights as shared out, both above the lowest rest, 2
+        for the closing error (...)
+    """
     stations, ends = givens.stations, polygons[..., givens.stations.last]
-    return (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - _lowest(givens, polygons)
-
-
-def _shared_out(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """Heights (..., m) above the lowest rest, with the closing error shared out."""
-    stations, turned = givens.stations, _turned(givens, polygons)
-    starts = _starts(givens, polygons)[..., stations.moving]
-    return polygons - turned[..., stations.moving] * stations.u + starts - _lowest(givens, polygons)
-
-
-def _turned(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """By how much each phase takes up the closing error: the returns, each in proportion to its length."""
-    phases = [givens.motion.phases[k] for k in givens.stations.phase[givens.stations.last]]
+    closing = ends.sum(axis=-1)
+    # The returns bring the follower back, so they take up the error, each in proportion to its length.
+    phases = [givens.motion.phases[k] for k in stations.phase[stations.last]]
     share = np.array([phase.angle if phase.direction < 0 else 0.0 for phase in phases])
-    return _closing(givens, polygons)[..., None] * share / share.sum()
-
-
-def _starts(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """Where each phase starts when the closing error is shared out."""
-    climbs = polygons[..., givens.stations.last] - _turned(givens, polygons)
-    return np.cumsum(climbs, axis=-1) - climbs
-
-
-def _lowest(givens: IntegrationGivens, polygons: Floats) -> Floats:
-    """The lowest rest, (..., 1)."""
-    return np.minimum(_starts(givens, polygons).min(axis=-1), 0.0)[..., None]
+    turned = closing[..., None] * share / share.sum()
+    starts = np.cumsum(ends - turned, axis=-1) - (ends - turned)
+    lowest = np.minimum(starts.min(axis=-1), 0.0)[..., None]
+    raised = (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - lowest
+    heights = polygons - turned[..., stations.moving] * stations.u + starts[..., stations.moving] - lowest
+    return (raised, heights, closing)[part]
 
 
 def _greatest(heights: Floats) -> Floats:
@@ -258,12 +241,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     curve, left = c.acts[f"{target}_curve"], float(np.max(np.abs(c.first(f"closing_{target}"))))
     # Projections that fall on one another are drawn once, from the farthest ordinate.
     height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
-    kept = [int(np.argmin(np.abs(height - y))) for y in levels(height)]
+    kept = once(levelled)
     reach = np.array([farthest[np.abs(height - height[k]) < SAME_HEIGHT].max() for k in kept])
     laid_out = pole_marks(pole, distance, index, height[kept])
-    once = levelled.first[kept]
+    projected = levelled.first[kept]
     rays = (
-        Segments(once.points, reach + once.points, Role.CONSTRUCTION, of=levelled.act),
+        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, of=levelled.act),
         c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
     )
     axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
@@ -298,12 +281,12 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
             say("Curve of {target}", target=target),
             say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
             run.target,
-            (*curves, *_rests(c, curve)),
+            (*curves, *rests(c, curve)),
         ),
     ]
 
 
-def _rests(c: Integrated, curve: Drawn) -> list[Line]:
+def rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
     ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)

@@ -9,9 +9,10 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import UP, along_to_circle, stepped_off, turned
+from graphcam.drafting.euclid import RIGHT, UP, turned
+from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Circle, Role, Segments
+from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
@@ -55,18 +56,23 @@ def inversion(
 
     Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
-    hand = pencil.hand("inversion")
-    s, count = integrated.readings["s"], integrated.givens.stations.u.size
-    position = profile_view.inverted_positions(integrated, rotation, hand)
-    feet = stepped_off(offset / mu_l.per_mm, 0j, position)  # on the circle e
-    along = turned(UP, position)  # its tangents
-    starts = along_to_circle(feet, along, 0j, prime_radius / mu_l.per_mm)
-    laid_off = s.value / mu_l.per_mm + hand.dividers(count)
-    pitch = starts + along * laid_off + hand.point(count)
+    hand, s = Hand(pencil, MEANING), integrated.readings["s"]
+    prime = profile_view.prime_circle(hand, prime_radius, mu_l)
+    if offset:
+        circle = hand.circle("offset circle", hand.given("cam centre"), abs(offset) / mu_l.per_mm)
+        rays = profile_view.inverted_positions(hand, integrated, rotation, RIGHT * np.sign(offset))
+        feet = hand.cross("feet", rays, circle)
+        lines = hand.perpendicular("tangents", rays.turned(np.sign(offset)), feet)
+    else:
+        # A central follower has no circle e: its lines are rays through the cam centre.
+        feet = lines = profile_view.inverted_positions(hand, integrated, rotation, UP)
+    motion = hand.take("motion", lines)
+    starts = hand.cross("starts", motion, prime)
+    pitch = hand.lay_off("pitch", starts, motion, hand.carry(s, s.scale / mu_l.per_mm))
+    profile_view.curve_readings(hand, pitch, mu_l)
     givens = InversionGivens(integrated, rotation, prime_radius, mu_l, offset)
-    points = {"feet": feet, "starts": starts, "pitch": pitch, "motion": along}
-    readings = profile_view.curve_readings(pitch, mu_l, hand)
-    return Construction(MEANING, givens, pencil, readings, points, _draw)
+    places = {"feet": feet, "starts": starts, "pitch": pitch, "motion": motion.directions}
+    return hand.finished(givens, _draw, places)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -75,11 +81,13 @@ def inversion(
 def _draw(inverted: OffsetInverted) -> list[Step]:
     mu_l, phi = inverted.givens.mu_l, inverted.givens.integrated.givens.stations.phi
     sigma, e, r0 = sense(inverted.givens.rotation), inverted.givens.offset, inverted.givens.prime_radius
-    feet, starts, pitch = (inverted.first(name) for name in ("feet", "starts", "pitch"))
-    start = complex(turned(starts[0], sigma * phi[0]))  # on the prime circle, where the turn begins
-    # A central follower has no circle e: its lines are rays through the cam centre.
-    circle = (Circle(0j, abs(e) / mu_l.per_mm, Role.CONSTRUCTION),) if e else ()
-    arrow = profile_view.radius_arrow(inverted, start * UP, "e", abs(e)) if e else ()
+    starts, pitch = inverted.acts["starts"], inverted.acts["pitch"]
+    start = complex(turned(starts.shown[0], sigma * phi[0]))  # on the prime circle, where the turn begins
+    circle, arrow = (), ()
+    if e:
+        offset_circle = inverted.acts["offset circle"]
+        circle = (offset_circle.drawn_circle(Role.CONSTRUCTION),)
+        arrow = profile_view.radius_arrow(inverted, offset_circle, start * UP, "e", abs(e))
     circles = say(
         "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the offset e = {e:g} mm are drawn at "
         "{ratio}: {r0_paper:.1f} mm and {e_paper:.1f} mm. The follower's line touches the circle e."
@@ -91,8 +99,10 @@ def _draw(inverted: OffsetInverted) -> list[Step]:
     ends = say(
         "On every tangent the displacement is laid off from the prime circle, in the scale of the profile; the "
         "greatest is {longest:.1f} mm. The ends are points of the pitch curve."
-    ).where(longest=float(np.abs(pitch - starts).max()))
-    lines = (Segments(feet, pitch, Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
+    ).where(longest=float(np.abs(pitch.shown - starts.shown).max()))
+    motion = inverted.acts["motion"]
+    drawn = Segments(motion.shown, pitch.shown, Role.CONSTRUCTION, of=motion.act)
+    lines = (drawn, *profile_view.phase_angles(inverted, start))
     laid_off = Step(say("Displacements laid off"), ends, PROFILE, (), reads=profile_view.CURVE_READINGS)
     return [
         profile_view.prime_step(inverted, say("Prime circle and offset circle"), circles, start, circle, arrow),

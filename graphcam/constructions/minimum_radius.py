@@ -18,23 +18,23 @@ from graphcam.constructions.region import (
     ON_THE_LINE,
     Boundary,
     binding,
-    lowest_on,
+    boundary,
+    feet_and_corners,
+    highest_on,
     nearest,
     permitted_part,
 )
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.curve import faired, farthest_of
-from graphcam.drafting.euclid import UP, foot, meet, turned
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Dimension, Dots, Label, Line, Mark, Points, Region, Role, Segments
+from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
 from graphcam.words import say_in, sequence
-
-START = np.zeros((), dtype=complex)
-"""The start of the lift, the origin of the combined diagram."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,45 +80,48 @@ def least_radius(
 
     Readings: ``prime_radius``, ``offset`` and ``s0`` [mm].
     """
-    hand = pencil.hand("minimum_radius")
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
-    mu, count = s.scale, stations.u.size
+    givens = LeastRadiusGivens(integrated, rotation, limits, offset)
+    hand, sigma = Hand(pencil, MEANING), sense(rotation)
+    s, v = integrated.readings["s"], integrated.readings["v"]
+    start, upright = hand.given("start of the lift"), hand.given("line of motion", along=UP)
+    level = hand.given("zero lift", along=RIGHT)
     # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
-    segment = v.value / np.asarray(mu)[..., None] + hand.dividers(count)
-    ends = -sense(rotation) * segment + UP * (s.paper + hand.line(count))
-    lines = boundaries(ends, integrated, rotation, limits)
-    centre = nearest(lines, START) if offset is None else lowest_on(lines, -offset / mu)
-    return Construction(
-        MEANING,
-        LeastRadiusGivens(integrated, rotation, limits, offset),
-        pencil,
-        hand.readings(mu, "mm", prime_radius=np.abs(centre), offset=-centre.real, s0=-centre.imag),
-        {"ends": ends, "centre": centre} | {line.name: line.touch for line in lines},
-        _draw,
-    )
+    heights = hand.project("displacements", hand.carry(s), upright)
+    ends = hand.lay_off("ends", heights, -sigma * RIGHT, hand.carry(v, v.scale / s.scale))
+    lines = _bounds(hand, givens, ends, start)
+    hand.cross("rise at zero lift", lines[0], level)
+    places = feet_and_corners(hand, lines, start)
+    highest_on(hand, "central", lines, upright, level)
+    if offset is None:
+        centre = nearest(hand, "centre", places, lines, start)
+    else:
+        beside = hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)))
+        centre = highest_on(hand, "centre", lines, beside, level)
+    hand.read("prime_radius", between(start, centre), s.scale)
+    hand.read("offset", between(centre, start, RIGHT), s.scale)
+    hand.read("s0", between(centre, start, UP), s.scale)
+    return hand.finished(givens, _draw, {"ends": ends, "centre": centre} | {line.act.name: line for line in lines})
 
 
-def boundaries(ends: Points, integrated: Integrated, rotation: Rotation, limits: Limits) -> list[Boundary]:
+def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) -> list[Drawn]:
     """The lines that bound the region: the rise's tangent, the return's unless a spring drives it, the rest line.
 
-    ends : (..., m) the D_i of all stations
+    What a line permits lies to its right: of a line at the angle to the motion that leans to the side on which the
+    rise's segments lie, the side away from them.  The return's line and the rest line lean the other way.
     """
-    sigma = sense(rotation)
-    motion, stations = integrated.givens.motion, integrated.givens.stations
+    sigma, limits, integrated = sense(givens.rotation), givens.limits, givens.integrated
 
-    def touching(name: str, direction: int, inward: Points) -> Boundary:
-        return Boundary(name, farthest_of(ends, pieces_of(motion, stations, direction), inward), inward)
+    def touching(name: str, direction: int, limit: float, side: int) -> Drawn:
+        """The tangent at a limit to the curve of the rises (1) or of the returns (-1)."""
+        along = hand.protractor(f"direction of {name}", start, -side * UP, side * limit)
+        pieces = pieces_of(integrated.givens.motion, integrated.givens.stations, direction)
+        return hand.tangent(name, ends, pieces, along.turned(-UP))
 
-    # A line at the angle A to the motion, leaning to the side on which the rise's segments lie, permits the side away
-    # from them; the return's line and the rest line lean the other way.
-    def leaning(angle: float, side: int) -> Points:
-        return -turned(side + 0j, side * angle)
-
-    lines = [touching("rise", 1, leaning(limits.rise, sigma))]
+    lines = [touching("rise", 1, limits.rise, sigma)]
     if limits.return_ is not None:
-        lines.append(touching("return", -1, leaning(limits.return_, -sigma)))
+        lines.append(touching("return", -1, limits.return_, -sigma))
     if limits.rest:
-        lines.append(Boundary("rest", np.broadcast_to(START, ends.shape[:-1]), leaning(limits.rise, -sigma)))
+        lines.append(hand.protractor("rest", start, sigma * UP, -sigma * limits.rise))
     return lines
 
 
@@ -129,8 +132,7 @@ def active(region: LeastRadius) -> list[Boundary]:
 
 def _shown(region: LeastRadius) -> list[Boundary]:
     """The boundaries of the first sample."""
-    integrated, limits = region.givens.integrated, region.givens.limits
-    return boundaries(region.first("ends"), integrated, region.givens.rotation, limits)
+    return [boundary(region.acts[name].first) for name in LINES if name in region.acts]
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -146,18 +148,19 @@ PLACES = {"foot": say("foot"), "apex": say("apex"), "central": say("central")}
 
 
 def _draw(region: LeastRadius) -> list[Step]:
-    integrated = region.givens.integrated
-    stations, limits = integrated.givens.stations, region.givens.limits
-    ends, centre, lines = region.first("ends"), complex(region.first("centre")), _shown(region)
-    others = _alternatives(lines)
-    marked = [place for place in (centre, *others.values()) if not np.isnan(place)]
+    integrated, limits, hand = region.givens.integrated, region.givens.limits, showing(region)
+    stations, heights, ends = integrated.givens.stations, region.acts["displacements"], region.acts["ends"]
+    v, lines, others = ends.shown.real, _shown(region), _alternatives(region)
+    marked = [place.place for place in (region.acts["centre"][0], *others.values()) if not np.isnan(place.place)]
     bottom = min(0.0, *(place.imag for place in marked)) - REGION_DEPTH
-    line = (Line(UP * np.array([bottom, float(ends.imag.max()) + OVERHANG]), Role.AXIS),)
-    laid_off = (Segments(UP * ends.imag, ends, Role.CONSTRUCTION), Dots(ends, Role.CONSTRUCTION))
+    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + OVERHANG]), Role.AXIS),)
+    laid_off = (ends.from_(heights, Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
     # The ends of the phases lie on the line of motion and need no number.
-    named = numbers(ends, stations, np.sign(ends.real) + 0j, shown=np.abs(ends.real) > 1)
-    curves = tuple(Line(faired(ends[piece]), Role.RESULT) for piece in stations.pieces)
-    alternatives = [mark for name, place in others.items() for mark in _cross(place, PLACES[name])]
+    named = numbers(ends, stations, np.sign(v) + 0j, shown=np.abs(v) > 1)
+    curves = tuple(hand.fair("curve", ends.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
+    alternatives = [mark for name, place in others.items() for mark in _cross(hand, place, PLACES[name])]
+    permitted = hand.given("permitted places", permitted_part(lines, _box(ends.shown, bottom)))
+    floor = hand.given("lower edge", UP * bottom, RIGHT)
     return [
         Step(
             say("Velocities at the displacements"),
@@ -165,7 +168,7 @@ def _draw(region: LeastRadius) -> list[Step]:
                 "On the follower's line the displacements are marked; at each of them v is laid off in the scale of "
                 "s, turned by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} "
                 "mm."
-            ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(ends.real).max())),
+            ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(v).max())),
             COMBINED,
             (*line, *laid_off, *named),
             given=line,
@@ -181,9 +184,9 @@ def _draw(region: LeastRadius) -> list[Step]:
             say(
                 "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion "
                 "({angles}); {zero}{further}"
-            ).where(angles=_angles(lines, limits), zero=_at_zero_lift(lines[0]), further=_spring_and_rest(limits)),
+            ).where(angles=_angles(lines, limits), zero=_at_zero_lift(region), further=_spring_and_rest(limits)),
             COMBINED,
-            tuple(mark for line in lines for mark in _limit_line(line, bottom, limits)),
+            tuple(mark for line in lines for mark in _limit_line(region, hand, line, floor)),
         ),
         Step(
             say("The region of the cam centre"),
@@ -191,15 +194,16 @@ def _draw(region: LeastRadius) -> list[Step]:
                 "Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}."
             ).where(names=sequence([PLACES[name] for name in others])),
             COMBINED,
-            (Region(permitted_part(lines, _box(ends, bottom))), *alternatives),
+            (Region(permitted.points, permitted.act), *alternatives),
         ),
-        _result(region, centre),
+        _result(region),
     ]
 
 
-def _result(region: LeastRadius, centre: complex) -> Step:
+def _result(region: LeastRadius) -> Step:
     title, offset = say("The least prime radius"), region.givens.offset
-    if np.isnan(centre):
+    centre, start = region.acts["centre"][0], region.acts["start of the lift"]
+    if np.isnan(centre.place):
         unreadable = say(
             "No cam centre can be read: the lines that bound the region cross one another, or the "
             "line of the offset, at less than a degree."
@@ -214,23 +218,24 @@ def _result(region: LeastRadius, centre: complex) -> Step:
     said = say(
         "{place} {binding} The distance to the start of the lift measures {paper:.2f} mm, so r₀ = {prime_radius:.3f} "
         "mm with e = {offset:.3f} mm and s₀ = {s0:.3f} mm."
-    ).where(place=place, binding=_bound_by(active(region)), paper=abs(centre), **values)
+    ).where(place=place, binding=_bound_by(active(region)), paper=float(region.first("prime_radius")), **values)
+    shown, read = say("r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
     marks = (
-        Line(np.array([0j, centre]), Role.LIMIT),
-        Dots(np.array([centre]), Role.RESULT),
-        Label(centre, "A", towards=-1j + np.sign(centre.real)),
-        Dimension(0j, centre, say("r₀ = {r0:.2f}", r0=values["prime_radius"]), aside=0.0),
-        *_centre_lines(centre, offset),
+        showing(region).join("r₀", start, centre).way(Role.LIMIT),
+        region.acts["centre"].dots(Role.RESULT),
+        centre.label("A", towards=-1j + np.sign(centre.place.real)),
+        Dimension(start.place, centre.place, shown, aside=0.0, of=read),
+        *_centre_lines(region, centre.place),
     )
     return Step(title, said, COMBINED, marks, reads)
 
 
-def _at_zero_lift(line: Boundary) -> Caption:
+def _at_zero_lift(region: LeastRadius) -> Caption:
     """How far from the line of motion the rise's boundary meets zero lift."""
-    place = meet(line.touch, line.along, START, np.asarray(1 + 0j))
+    place = region.acts["rise at zero lift"].place
     if np.isnan(place):
         return say("the rise's meets zero lift too flatly to be read.")
-    return say("the rise's meets zero lift {distance:.1f} mm from the line of motion.", distance=abs(float(place.real)))
+    return say("the rise's meets zero lift {distance:.1f} mm from the line of motion.", distance=abs(place.real))
 
 
 def _spring_and_rest(limits: Limits) -> Caption:
@@ -259,45 +264,46 @@ def _limit(line: Boundary, limits: Limits) -> Caption:
     return degrees(limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise)
 
 
-def _limit_line(line: Boundary, bottom: float, limits: Limits) -> tuple[Mark, ...]:
+def _limit_line(region: LeastRadius, hand: Hand, line: Boundary, floor: Drawn) -> tuple[Mark, ...]:
     """The boundary from a little above its touch down to the bottom, with its angle to the vertical."""
-    touch, along = complex(line.touch), complex(line.along / abs(line.along.imag))
-    above = touch - along * (0.0 if line.name == "rest" else 10.0)
-    below = touch + along * (touch.imag - bottom)
+    drawn, limit = region.acts[line.name].first, region.acts.get(f"direction of {line.name}", region.acts[line.name])
+    above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
+    below = hand.cross(f"{line.name} at the edge", drawn, floor, flat=True)
     # The angle is shown where the line has run a third of its way down.
-    at = touch + along * (touch.imag - bottom) / 3
+    at = hand.divide(f"{line.name} on its way", drawn, below, 1 / 3)
+    upright = hand.erect(f"upright at {line.name}", at)
     first, last = sorted((-np.pi / 2, float(np.angle(line.along))))
     return (
-        Line(np.array([above, below]), Role.LIMIT),
-        Segments(np.array([at]), np.array([at - UP * ANGLE_RADIUS * 1.2]), Role.CONSTRUCTION),
-        AngleMark(at, ANGLE_RADIUS, first, last, _limit(line, limits)),
+        Line(np.array([above, below.place]), Role.LIMIT, of=drawn.act),
+        Segments(at.shown, at.shown - UP * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act),
+        AngleMark(at.place, ANGLE_RADIUS, first, last, _limit(line, region.givens.limits), of=limit.act),
     )
 
 
-def _alternatives(lines: list[Boundary]) -> dict[str, complex]:
+def _alternatives(region: LeastRadius) -> dict[str, Drawn]:
     """Other places that textbooks take: the apex, the foot on the rise's tangent, the central follower's centre."""
-    by_name = {line.name: line for line in lines}
-    rise, return_ = by_name["rise"], by_name.get("return")
-    places = {"foot": foot(START, rise.touch, rise.along)}
-    if return_ is not None:
-        places["apex"] = meet(rise.touch, rise.along, return_.touch, return_.along)
-    places["central"] = lowest_on(lines, 0.0)
-    return {name: complex(place) for name, place in places.items() if np.isfinite(place)}
+    acts = region.acts
+    places = {"foot": acts["foot on rise"], "apex": acts.get("rise and return"), "central": acts["central"][0]}
+    return {name: place for name, place in places.items() if place is not None and np.isfinite(place.place)}
 
 
-def _cross(place: complex, name: Caption) -> tuple[Mark, ...]:
-    arms = 1.5 * np.array([1, 1j])
-    return (Segments(place - arms, place + arms, Role.CONSTRUCTION), Label(place, name, towards=1 - 1j, small=True))
+def _cross(hand: Hand, place: Drawn, name: Caption) -> tuple[Mark, ...]:
+    strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
+    starts, ends = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
+    return (
+        Segments(starts, ends, Role.CONSTRUCTION, of=strokes.act),
+        place.label(name, towards=1 - 1j, small=True),
+    )
 
 
-def _centre_lines(centre: complex, offset: float | None) -> tuple[Mark, ...]:
+def _centre_lines(region: LeastRadius, centre: complex) -> tuple[Mark, ...]:
     """The follower's line seen from the cam centre, and how far the line of motion lies from it."""
     if abs(centre.real) < ON_THE_LINE:
         return ()
-    top = centre.real + UP * 6
+    offset, of = region.givens.offset, region.readings["offset"].act
     return (
-        Line(np.array([centre - 6 * UP, top]), Role.AXIS),
-        Dimension(1j * centre.imag, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0),
+        Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS),
+        Dimension(1j * centre.imag, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0, of=of),
     )
 
 

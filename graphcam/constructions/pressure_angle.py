@@ -8,6 +8,7 @@ needed.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +17,11 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
-from graphcam.drafting.euclid import UP, along_to_circle
-from graphcam.drafting.ink import Construction, Reading, Step, Words, reading, say
-from graphcam.drafting.marks import AngleMark, Arrow, Dots, Label, Line, Mark, Role, Segments
+from graphcam.drafting.acts import Act, Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, reading, say
+from graphcam.drafting.marks import AngleMark, Arrow, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import standard_scale
@@ -73,29 +76,33 @@ def pressure_angle(
 
     Readings at the stations: ``alpha`` [rad], positive on an ordinary rise, and ``transmission`` [rad]; ``s0`` [mm].
     """
-    hand = pencil.hand("pressure_angle")
-    sigma = sense(rotation)
-    s, v, stations = integrated.readings["s"], integrated.readings["v"], integrated.givens.stations
-    mu, count = np.asarray(s.scale), stations.u.size
+    hand, sigma = Hand(pencil, MEANING), sense(rotation)
+    s, v, start = integrated.readings["s"], integrated.readings["v"], hand.given("start of the lift")
+    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
+    ends = hand.lay_off("ends", heights, -sigma * RIGHT, hand.carry(v, v.scale / s.scale))
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
-    centre = along_to_circle(-offset / mu + 0j, np.asarray(-UP), 0j, prime_radius / mu)
-    segment = v.value / mu[..., None] + hand.dividers(count)
-    ends = -sigma * segment + UP * (s.paper + hand.line(count))
-    ray = ends - centre[..., None]
-    alpha = sigma * np.arctan2(-ray.real, ray.imag) + hand.protractor(count)
-    return Construction(
-        MEANING,
-        PressureAngleGivens(integrated, rotation, prime_radius, offset),
-        pencil,
-        angle_readings(alpha) | hand.readings(mu, "mm", s0=-centre.imag),
-        {"ends": ends, "centre": centre},
-        _draw,
-    )
+    beside = hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s))
+    prime = hand.circle("prime circle", start, hand.at_scale(prime_radius, s))
+    centre = hand.cross("centre", hand.erect("line of the offset", beside, -UP), prime)
+    read_angles(hand, UP, hand.join("rays", centre, ends), sigma)
+    hand.read("s0", between(centre, start, UP), s.scale)
+    givens = PressureAngleGivens(integrated, rotation, prime_radius, offset)
+    return hand.finished(givens, _draw, {"ends": ends, "centre": centre})
+
+
+def read_angles(hand: Hand, base: Direction, rays: Drawn, sense: int = 1) -> None:
+    """Measure ``alpha``, and find ``transmission``, 90 degrees - |alpha|, that some schools read instead."""
+    alpha = hand.angle("alpha", base, rays, sense)
+    hand.read("transmission", reckoned(_complement, hand.carry(alpha)), 1.0, rounded=False)
+
+
+def _complement(alpha: Floats) -> Floats:
+    return np.pi / 2 - np.abs(alpha)
 
 
 def angle_readings(alpha: Floats) -> dict[str, Reading]:
-    """The pressure angles [rad], and the transmission angles 90 degrees - |alpha| that some schools read instead."""
-    return {"alpha": reading(alpha, 1.0, "rad"), "transmission": reading(np.pi / 2 - np.abs(alpha), 1.0, "rad")}
+    """The pressure angles [rad], and the transmission angles, as :func:`read_angles` reads them."""
+    return {"alpha": reading(alpha, 1.0, "rad"), "transmission": reading(_complement(alpha), 1.0, "rad")}
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -124,18 +131,12 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     k, sigma = shown_station(measured), sense(measured.givens.rotation)
-    integrated, mu = measured.givens.integrated, measured.readings["s0"].per_mm
-    centre, ends = complex(measured.first("centre")), measured.first("ends")
-    scale = standard_scale((ends[k] - centre).imag * mu, PLAN_HEIGHT)
-    plan = at_scale(PLAN, scale)
-    b = complex(-centre.real, ends[k].imag - centre.imag) * mu / scale.per_mm
-    v = float(integrated.value("v")[k]) / scale.per_mm
-    alpha = float(measured.first("alpha")[k])
-    name = station_names(integrated.givens.stations)[k]
-    d, c = b - sigma * v, complex(sigma * v, 0)
-    # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
-    across, along = sigma * UP * b, UP * v
-    pole = complex(max(b.real, c.real, d.real, 0.0) + max(0.0, -across.real) + 22.0, 8.0)
+    centre, end, mu = measured.acts["centre"].first, measured.acts["ends"].first[k], measured.readings["s0"].per_mm
+    scale = standard_scale((end.place - centre.place).imag * mu, PLAN_HEIGHT)
+    plan, acts = at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm)
+    pole, v1, v2, v21 = (acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
+    across, along, ac = v1.place - pole.place, v2.place - pole.place, abs(acts["C"].place)
+    alpha, name = float(measured.first("alpha")[k]), station_names(measured.givens.integrated.givens.stations)[k]
     closed = say(
         "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
         "has v₂ along the guide, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
@@ -143,7 +144,7 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     similar = say(
         "Through the cam centre A the perpendicular to the motion meets the normal in C. The triangle ABC and the plan "
         "have perpendicular sides, so AC = ds/dφ: {length:.1f} mm · {mu:.4g} = {value:.2f} mm/rad."
-    ).where(length=abs(c), mu=scale.per_mm, value=abs(c) * scale.per_mm)
+    ).where(length=ac, mu=scale.per_mm, value=ac * scale.per_mm)
     turned = say(
         "AC is laid off from B across the motion, turned from v₂ by 90° in the sense of the rotation, to D. The angle "
         "of DA with the motion is the pressure angle at station {name}: {alpha:.2f}°, and the transmission angle "
@@ -153,58 +154,83 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
         "With the adopted cam centre, r₀ = {r0:g} mm and e = {e:g} mm, the rays from A to the ends D of the combined "
         "diagram make the pressure angles with the motion at all stations."
     ).where(r0=measured.givens.prime_radius, e=measured.givens.offset)
-    ray = Segments(np.full(1, centre), ends[k : k + 1], Role.CONSTRUCTION)
-    rays, reads = (Dots(np.array([centre]), Role.RESULT), ray), ("s0", "alpha", "transmission")
+    ray = Segments(centre.shown, end.shown, Role.CONSTRUCTION, of=measured.acts["rays"].act)
+    rays, reads = (centre.dots(Role.RESULT), ray), ("s0", "alpha", "transmission")
+    arrows = velocity_plan(pole.place, across, along, (pole.act, v1.act, v2.act, v21.act))
+    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, across, along)),
-        Step(say("The mechanism's triangle"), similar, plan, _triangle(b, c, sigma)),
-        Step(say("The pressure angle"), turned, plan, _angle(b, d, sigma, alpha)),
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, arrows),
+        Step(say("The mechanism's triangle"), similar, plan, _triangle(acts, sigma)),
+        Step(say("The pressure angle"), turned, plan, _angle(acts, sigma, shown, measured.readings["alpha"].act)),
         Step(say("The pressure angle at every station"), everywhere, COMBINED, rays, reads),
     ]
 
 
-def _triangle(b: complex, c: complex, sigma: int) -> tuple[Mark, ...]:
+def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Mapping[str, Drawn]:
+    """The triangle of the mechanism at a station, enlarged about the cam centre A, and the plan beside it."""
+    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
+    a = hand.enlarged("A", centre, centre, times)
+    b = hand.enlarged("B", measured.acts["displacements"].first[k], centre, times)
+    d = hand.enlarged("D", measured.acts["ends"].first[k], centre, times)
+    v, radius = between(b, d), hand.join("AB", a, b)
+    # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
+    right = max(b.place.real, sigma * float(v.amount), d.place.real, 0.0) + max(0.0, sigma * b.place.imag) + 22.0
+    pole = hand.given("p", complex(right, 8.0))
+    v1, v2 = hand.lay_off("v₁", pole, radius.turned(sigma * UP), between(a, b)), hand.lay_off("v₂", pole, UP, v)
+    normal = hand.perpendicular("normal", hand.join("v₂₁", v1, v2), b)
+    c = hand.cross("C", hand.erect("across the motion", a, RIGHT), normal, flat=True)
+    for name, start, other in (("AC", a, c), ("BD", b, d), ("DA", d, a)):
+        hand.join(name, start, other)
+    hand.take("A, B, C", a, b, c)
+    hand.erect("motion", d, -UP)
+    return hand.acts
+
+
+def _triangle(acts: Mapping[str, Drawn], sigma: int) -> tuple[Mark, ...]:
     """The triangle of the mechanism, with the cam centre A at the origin, and the guide through B."""
+    b, c = acts["B"].place, acts["C"].place
     return (
         Line(np.array([complex(b.real, -6.0), b + 12 * UP]), Role.AXIS),
-        Line(np.array([0j, b]), Role.CURVE),
-        Line(np.array([0j, c]), Role.CURVE),
-        Line(np.array([b + (b - c) * 0.12, c]), Role.CONSTRUCTION),
-        Dots(np.array([0j, b, c])),
-        Label(0j, "A", towards=-1j - sigma),
-        Label(b, "B", towards=1 + 1j),
-        Label(c, "C", towards=-1j + sigma),
+        *(acts[side].way(Role.CURVE) for side in ("AB", "AC")),
+        Line(np.array([b + (b - c) * 0.12, c]), Role.CONSTRUCTION, of=acts["normal"].act),
+        acts["A, B, C"].dots(),
+        *(acts["A"].label("A", -1j - sigma), acts["B"].label("B"), acts["C"].label("C", -1j + sigma)),
     )
 
 
-def _angle(b: complex, d: complex, sigma: int, alpha: float) -> tuple[Mark, ...]:
+def _angle(acts: Mapping[str, Drawn], sigma: int, shown: Caption, read: Act | None) -> tuple[Mark, ...]:
     """A C laid off from B to D, and the angle of D A with the motion."""
+    d, height = acts["D"], acts["B"].place.imag
     return (
-        Line(np.array([b, d]), Role.CURVE),
-        Line(np.array([d, 0j]), Role.LIMIT),
-        Line(np.array([d, d - UP * 0.62 * b.imag]), Role.CONSTRUCTION),
-        Dots(np.array([d])),
-        Label(d, "D", towards=1j - sigma),
-        angle_at(d, -np.pi / 2, float(np.angle(-d)), 0.55 * b.imag, say("α = {alpha:.1f}°", alpha=np.degrees(alpha))),
+        acts["BD"].way(Role.CURVE),
+        acts["DA"].way(Role.LIMIT),
+        Line(np.array([d.place, d.place - UP * 0.62 * height]), Role.CONSTRUCTION, of=acts["motion"].act),
+        *(d.dots(), d.label("D", 1j - sigma)),
+        angle_at(d.place, -np.pi / 2, float(np.angle(-d.place)), 0.55 * height, shown, read),
     )
 
 
-def velocity_plan(pole: complex, across: complex, along: complex) -> tuple[Mark, ...]:
-    """The plan from its pole: v₁ across the radius, v₂ along the motion, and v₂₁ that closes it."""
-    side = np.sign(across.real)
+def velocity_plan(
+    pole: complex, across: complex, along: complex, of: Sequence[Act | None] = (None, None, None, None)
+) -> tuple[Mark, ...]:
+    """The plan from its pole: v₁ across the radius, v₂ along the motion, and v₂₁ that closes it.
+
+    of : the acts that left the pole, v₁, v₂ and v₂₁
+    """
+    side, (start, v1, v2, v21) = np.sign(across.real), of
     return (
-        Arrow(pole, pole + across, Role.CURVE),
-        Arrow(pole, pole + along, Role.CURVE),
-        Arrow(pole + across, pole + along, Role.CURVE),
-        Label(pole + across / 2, "v₁", towards=-UP * side),
-        Label(pole + along / 2, "v₂", towards=-side),
-        Label(pole + (across + along) / 2, "v₂₁", towards=UP + side),
-        Label(pole, "p", towards=-1 - 1j),
+        Arrow(pole, pole + across, Role.CURVE, v1),
+        Arrow(pole, pole + along, Role.CURVE, v2),
+        Arrow(pole + across, pole + along, Role.CURVE, v21),
+        Label(pole + across / 2, "v₁", -UP * side, of=v1),
+        Label(pole + along / 2, "v₂", -side, of=v2),
+        Label(pole + (across + along) / 2, "v₂₁", UP + side, of=v21),
+        Label(pole, "p", -1 - 1j, of=start),
     )
 
 
-def angle_at(place: complex, start: float, end: float, radius: float, text: Words) -> AngleMark:
-    """The smaller of the two angles between two directions [rad]."""
+def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Act | None = None) -> AngleMark:
+    """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
     turn = (end - start + np.pi) % (2 * np.pi) - np.pi
     first, last = sorted((start, start + turn))
-    return AngleMark(place, radius, first, last, text)
+    return AngleMark(place, radius, first, last, text, of)

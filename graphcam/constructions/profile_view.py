@@ -11,15 +11,14 @@ import numpy as np
 from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.curve import faired
-from graphcam.drafting.euclid import UP, stepped_off, turned
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, reading, say
-from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP, turned
+from graphcam.drafting.hand import Direction, Hand, between, showing
+from graphcam.drafting.ink import Caption, Construction, Step, Words, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
-from graphcam.drafting.pencil import Hand
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
-from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.words import sequence
 
@@ -54,17 +53,24 @@ CURVE_READINGS = ("x", "y", "radius", "polar_angle")
 """What is read of a profile's points."""
 
 
-def curve_readings(points: Points, mu_l: Scale, hand: Hand) -> dict[str, Reading]:
-    """``x``, ``y`` and ``radius`` [mm] and the ``polar_angle`` [rad] of points of a profile about the cam centre."""
-    lengths = hand.readings(mu_l.per_mm, "mm", x=points.real, y=points.imag, radius=np.abs(points))
-    return {**lengths, "polar_angle": reading(np.angle(points), 1.0, "rad")}
+def prime_circle(hand: Hand, prime_radius: float, mu_l: Scale) -> Drawn:
+    """The prime circle, at the scale of the profile."""
+    return hand.circle("prime circle", hand.given("cam centre"), prime_radius / mu_l.per_mm)
 
 
-def inverted_positions(integrated: Integrated, rotation: Rotation, hand: Hand) -> Floats:
-    """The angles [rad] by which the frame is turned at the stations, measured off with a protractor."""
+def inverted_positions(hand: Hand, integrated: Integrated, rotation: Rotation, base: Direction) -> Drawn:
+    """The lines through the cam centre that a line of the frame takes at the stations, turned from ``base``."""
     # Numbered against the rotation: in the cam's view the frame goes round the other way.
-    phi = integrated.givens.stations.phi
-    return -sense(rotation) * phi + hand.protractor(phi.size)
+    turns = -sense(rotation) * integrated.givens.stations.phi
+    return hand.protractor("inverted positions", hand.given("cam centre"), base, turns)
+
+
+def curve_readings(hand: Hand, curve: Drawn, mu_l: Scale) -> None:
+    """``x``, ``y`` and ``radius`` [mm] and the ``polar_angle`` [rad] of points of a profile about the cam centre."""
+    centre = hand.given("cam centre")
+    for name, along in (("x", RIGHT), ("y", UP), ("radius", None)):
+        hand.read(name, between(centre, curve, along), mu_l.per_mm)
+    hand.angle("polar_angle", RIGHT, hand.join("polar rays", centre, curve))
 
 
 def divided_by(inverted: Inverted) -> dict[str, Words]:
@@ -74,36 +80,34 @@ def divided_by(inverted: Inverted) -> dict[str, Words]:
     return {"rotation": turning(inverted.givens.rotation), "angles": angles}
 
 
-def pitch_curve(inverted: Inverted) -> Points:
-    """The closed pitch curve of the first sample, for drawing."""
-    return closed_curve(inverted, inverted.first("pitch"))
-
-
-def closed_curve(inverted: Inverted, points: Points) -> Points:
+def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
     """A closed curve through one point a station: faired between jumps, an arc about the cam centre in every dwell.
 
     points : (m,) places on the paper, NaN where there is none
     """
-    integrated = inverted.givens.integrated
-    motion, stations = integrated.givens.motion, integrated.givens.stations
+    hand, integrated = showing(inverted), inverted.givens.integrated
+    motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(inverted.givens.rotation)
     spans = {int(stations.phase[span.start]): span for span in stations.phases}
-    sigma, line = sense(inverted.givens.rotation), list[Points]()
-    at, since = len(points) - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
+    points, centre, parts = points.first, hand.given("cam centre"), list[Drawn]()
+    missing = np.isnan(points.points)
+    at, since = missing.size - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
     for k, phase in enumerate(motion.phases):
         if k in spans:
             span = spans[k]
             pieces = [p for p in stations.pieces if span.start <= p.start < span.stop - 1]
-            line += [faired(points[piece][~np.isnan(points[piece])]) for piece in pieces]
+            kept = [np.flatnonzero(~missing[piece]) + piece.start for piece in pieces]
+            parts += [hand.fair(f"{name} {k}", points[places], [slice(None)]) for places in kept]
             at, since = span.stop - 1, stations.phi[span.stop - 1]
         else:
             turns = motion.starts[k] - since + np.linspace(0, phase.angle, max(2, round(phase.angle / ARC_STEP)))
             # Where the point before the dwell is missing, the one after it lies on the same arc.
-            after = (at + 1) % len(points)
-            back = sigma * ((stations.phi[after] - since) % FULL_TURN)
-            last = turned(points[after], back) if np.isnan(points[at]) else points[at]
-            line.append(stepped_off(last, 0j, -sigma * turns))
-    whole = np.concatenate(line)
-    return whole[~np.isnan(whole)]
+            after = (at + 1) % missing.size
+            end, back = (after, (stations.phi[after] - since) % FULL_TURN) if missing[at] else (at, 0.0)
+            ray = hand.join(f"ray to the dwell {k}", centre, points[end])
+            rays = hand.protractor(f"rays of the dwell {k}", centre, ray, sigma * (back - turns))
+            parts.append(hand.lay_off(f"{name} {k}", centre, rays, between(centre, points[end])))
+    known = ~np.isnan(np.concatenate([part.points for part in parts]))
+    return hand.take(name, *parts, which=np.flatnonzero(known))
 
 
 ROTATION_ARC = 0.9
@@ -112,16 +116,22 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def radius_arrow(inverted: Inverted, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
-    """An arrow from the cam centre to a circle, in the middle of the longest phase, where there is most room."""
+def radius_arrow(inverted: Inverted, circle: Drawn, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
+    """An arrow to a circle from its centre, in the middle of the longest phase, where there is most room.
+
+    start : the direction in which the circle is at the start of the turn; radius : of the machine [mm]
+    """
     motion: Motion = inverted.givens.integrated.givens.motion
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
-    sigma, mu_l = sense(inverted.givens.rotation), inverted.givens.mu_l
-    tip = complex(turned(start / abs(start), -sigma * middle)) * radius / mu_l.per_mm
+    hand, sigma = showing(inverted), sense(inverted.givens.rotation)
+    towards = complex(turned(start / abs(start), -sigma * middle))
+    ray = hand.erect(f"radius {symbol}", circle.first, towards)
+    tip = hand.cross(f"tip of {symbol}", ray, circle.first)
+    text = say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
     return (
-        Arrow(0j, tip, Role.DIMENSION),
-        Label(tip * 0.6, say("{symbol} = {radius:g}", symbol=symbol, radius=radius), towards=tip * UP),
+        Arrow(ray.place, tip.place, Role.DIMENSION, of=ray.act),
+        hand.divide(symbol, ray, tip, 0.6).label(text, tip.place * UP),
     )
 
 
@@ -137,9 +147,10 @@ def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
     sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     rays: Points = np.exp(1j * limits[:-1])
+    of = inverted.acts["inverted positions"].act
     marks = list[Mark]([Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS)])
     for k, (a, b) in enumerate(pairwise(limits)):
-        marks.append(AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k)))
+        marks.append(AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of))
     return marks
 
 
@@ -171,9 +182,9 @@ def prime_step(
     further: tuple[Mark, ...] = (),
 ) -> Step:
     """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them."""
-    centre, r0, mu_l = ground(inverted), inverted.givens.prime_radius, inverted.givens.mu_l
-    prime = Circle(0j, r0 / mu_l.per_mm, Role.CONSTRUCTION)
-    marks = (*centre, prime, *circles, *radius_arrow(inverted, start, "r₀", r0), *further)
+    centre, circle = ground(inverted), inverted.acts["prime circle"]
+    arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
+    marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
     return Step(title, said, PROFILE, marks, given=centre)
 
 
@@ -185,7 +196,7 @@ def pitch_steps(
     inverted: Inverted, laid_off: Step, title: Caption = PITCH_CURVE, said: Caption = PITCH_SAID
 ) -> list[Step]:
     """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
-    pitch, stations = inverted.first("pitch"), inverted.givens.integrated.givens.stations
-    points = (Dots(pitch, Role.CONSTRUCTION), *numbers(pitch, stations, pitch / np.abs(pitch)))
-    curve = Line(pitch_curve(inverted), Role.CURVE, closed=True)
+    pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
+    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, pitch.shown / np.abs(pitch.shown)))
+    curve = closed_curve("pitch curve", inverted, pitch).line(Role.CURVE, closed=True)
     return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]

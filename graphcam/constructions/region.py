@@ -12,8 +12,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.curve import at_greatest
-from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot, meet
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot
+from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Compared, Converges, ReadingMeaning
@@ -22,6 +23,8 @@ from graphcam.plane import dot
 
 ON_THE_LINE = 1e-9
 """A point of the paper this near to a boundary [mm] lies on it: rounding of the arithmetic."""
+UNREAD = 1e300
+"""As far away as nothing on paper [mm]."""
 
 
 LEAST_RADIUS = ReadingMeaning(
@@ -55,26 +58,54 @@ class Boundary:
         """How far inside the boundary a place lies [mm of paper]."""
         return dot(self.inward, place - self.touch)
 
-    @property
-    def first(self) -> Boundary:
-        """The line of the first sample, or the only one."""
-        return Boundary(self.name, np.ravel(self.touch)[0], np.ravel(self.inward)[0])
+
+def boundary(line: Drawn) -> Boundary:
+    """What a line that was drawn bounds, by its name: places to the right of its direction are permitted."""
+    return Boundary(line.act.name, line.points, -UP * line.directions)
 
 
-def nearest(lines: Sequence[Boundary], start: Points) -> Points:
-    """The permitted place nearest to ``start``: a foot of a perpendicular or a corner of the region; NaN if none is.
+def feet_and_corners(hand: Hand, lines: Sequence[Drawn], start: Drawn) -> list[Drawn]:
+    """The feet of the perpendiculars from ``start`` on lines, and where the lines cross: one of them is nearest."""
+    names = [line.act.name for line in lines]
+    across = [hand.perpendicular(f"across {name}", line, start) for name, line in zip(names, lines, strict=True)]
+    feet = zip(names, lines, across, strict=True)
+    return [
+        *(hand.cross(f"foot on {name}", line, normal) for name, line, normal in feet),
+        *(hand.cross(f"{a.act.name} and {b.act.name}", a, b) for a, b in combinations(lines, 2)),
+    ]
 
-    >>> at = np.asarray
-    >>> lines = [Boundary("left", at(0j), at(1 + 0j)), Boundary("below", at(-3j), at(-1j))]
-    >>> complex(nearest(lines, at(-1 + 0j)))
+
+def nearest(hand: Hand, name: str, places: Sequence[Drawn], lines: Sequence[Drawn], start: Drawn) -> Drawn:
+    """Of some places the permitted one nearest to ``start``; NaN if only places that cannot be read are left.
+
+    >>> import graphcam as gc
+    >>> from graphcam.drafting.meaning import Meaning
+    >>> hand = Hand(gc.Pencil(), Meaning("region", say("Region"), say("Two lines bound it.")))
+    >>> start = hand.given("start", -1 + 0j)
+    >>> lines = [hand.given("left", 0j, UP), hand.given("below", -3j, 1)]
+    >>> nearest(hand, "centre", feet_and_corners(hand, lines, start), lines, start).place
     -3j
     """
-    feet = [foot(start, line.touch, line.along) for line in lines]
-    corners = [meet(a.touch, a.along, b.touch, b.along) for a, b in combinations(lines, 2)]
-    places = np.stack(np.broadcast_arrays(*feet, *corners), axis=-1)
-    permitted = np.all([line.clearance(places.T).T >= -ON_THE_LINE for line in lines], axis=0)
-    nearness = np.where(permitted, -np.abs(places - np.asarray(start)[..., None]), -np.inf)
-    return np.where(np.isfinite(nearness.max(axis=-1)), at_greatest(places, nearness), NOWHERE)
+    at = np.stack([place.points for place in places], axis=-1)
+    cut_off = np.any([boundary(line).clearance(at.T).T < -ON_THE_LINE for line in lines], axis=0)
+    distance = np.nan_to_num(np.abs(at - start.points[..., None]), nan=UNREAD)
+    return hand.take(name, *places, which=np.argmin(np.where(cut_off, np.inf, distance), axis=-1)[..., None])[0]
+
+
+def highest_on(hand: Hand, name: str, lines: Sequence[Drawn], upright: Drawn, level: Drawn) -> Drawn:
+    """The highest permitted place of an upright, below a level: the lowest of its meetings with the lines.
+
+    >>> import graphcam as gc
+    >>> from graphcam.drafting.meaning import Meaning
+    >>> hand = Hand(gc.Pencil(), Meaning("region", say("Region"), say("Two lines bound it.")))
+    >>> lines = [hand.given("sloping", -3j, 1 + 1j), hand.given("level", -4j, 1)]
+    >>> upright, zero = hand.given("upright", 2, UP), hand.given("zero", along=1)
+    >>> highest_on(hand, "centre", lines, upright, zero).place
+    (2-4j)
+    """
+    met = [hand.cross(f"{name} on {line.act.name}", upright, line) for line in (*lines, level)]
+    lowest = np.argmin(np.stack([place.points.imag for place in met], axis=-1), axis=-1)
+    return hand.take(name, *met, which=lowest[..., None])[0]
 
 
 def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
@@ -122,20 +153,6 @@ def _nearest_of_three(touches: Points, inwards: Points, start: Points) -> tuple[
     best = np.argmin(np.where(permitted, np.abs(places - start[..., None]), np.inf), axis=-1)
     place = np.take_along_axis(places, best[..., None], -1)[..., 0]
     return np.where(permitted.any(axis=-1), place, NOWHERE), _PAIRS[best]
-
-
-def lowest_on(lines: Sequence[Boundary], x: Floats | float) -> Points:
-    """The highest place on the vertical at x that every boundary permits: the lowest of its meetings with the lines.
-
-    >>> at = np.asarray
-    >>> lines = [Boundary("sloping", at(-3j), at(1 - 1j)), Boundary("level", at(-4j), at(-1j))]
-    >>> complex(lowest_on(lines, 2.0)), complex(lowest_on(lines, -2.0))
-    ((2-4j), (-2-5j))
-    """
-    vertical = np.asarray(x + 0j)
-    meetings = [meet(vertical, np.asarray(UP), line.touch, line.along) for line in lines]
-    heights = np.stack([*(place.imag for place in meetings), np.zeros_like(meetings[0].imag)])
-    return vertical + UP * heights.min(axis=0)
 
 
 def binding(lines: Sequence[Boundary], centre: complex) -> list[Boundary]:

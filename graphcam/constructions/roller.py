@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 from graphcam.constructions.curvature import Curved
 from graphcam.constructions.profile_view import Inverted, closed_curve
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.ink import Caption, Construction, Step, reading, say
-from graphcam.drafting.marks import AngleMark, Circle, Dots, Line, Mark, Points, Role
+from graphcam.drafting.euclid import RIGHT, UP, tangent_of_circle, unit
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import sense
@@ -83,24 +85,26 @@ def roller_radius(
 
     Readings: the ``candidates``, one a term of the rule or the given one, and their least, ``roller_radius`` [mm].
     """
-    inverted, rho = curved.givens.inverted, curved.readings["rho"].paper
-    mu_l = inverted.givens.mu_l.per_mm
-    r0 = pencil.sheets(inverted.givens.prime_radius / mu_l)
+    hand, inverted = Hand(pencil, ROLLER_MEANING), curved.givens.inverted
+    mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
     if given is None:
-        terms = [term.factor * (rho if term.of == "rho" else r0) - term.margin / mu_l for term in rule]
-        candidates = np.stack(terms, axis=-1)
+        prime_radius = between(centre, hand.found(inverted, "starts")[0])
+        candidates = reckoned(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
-        candidates = pencil.sheets([given / mu_l])
+        candidates = between(centre, hand.lay_off("roller", centre, RIGHT, np.array([given / mu_l])))
+    hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
-    least = np.fmin.reduce(candidates, axis=-1)
-    return Construction(
-        ROLLER_MEANING,
-        RollerGivens(curved, rule, given),
-        pencil,
-        {"candidates": reading(candidates, mu_l, "mm"), "roller_radius": reading(least, mu_l, "mm")},
-        {},
-        _draw,
-    )
+    hand.read("roller_radius", reckoned(_least, candidates), mu_l, rounded=False)
+    return hand.finished(RollerGivens(curved, rule, given), _draw, {})
+
+
+def _proposed(rule: tuple[Candidate, ...], mu_l: float, rho: Floats, prime_radius: Floats) -> Floats:
+    """What each term of the rule makes of the two radii, all on paper: (..., k)."""
+    return np.stack([t.factor * (rho if t.of == "rho" else prime_radius) - t.margin / mu_l for t in rule], axis=-1)
+
+
+def _least(candidates: Floats) -> Floats:
+    return np.fmin.reduce(candidates, axis=-1)
 
 
 def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profile:
@@ -111,26 +115,24 @@ def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profil
     Readings: ``radius`` of the touch points from the cam centre [mm]; NaN where another roller circle covers the point.
     Points: ``touch`` (..., m), NaN where covered; ``covered`` the touch points that were dropped.
     """
-    hand = pencil.hand("working_profile")
-    stations, mu_l = inverted.givens.integrated.givens.stations, inverted.givens.mu_l
-    pitch = inverted.points["pitch"]
-    radius = roller / mu_l.per_mm
-    touch = pitch + radius * _inward(pitch, stations, sense(inverted.givens.rotation)) + hand.point(stations.u.size)
+    hand, mu_l = Hand(pencil, PROFILE_MEANING), inverted.givens.mu_l.per_mm
+    stations, sigma, radius = inverted.givens.integrated.givens.stations, sense(inverted.givens.rotation), roller / mu_l
+    found = pitch = hand.found(inverted, "pitch")
+    if roller:
+        tangents = hand.tangents_at("tangents", pitch, partial(_tangents, stations, sigma))
+        circles = hand.circle("roller circles", pitch, radius)
+        found = hand.cross("touch points", tangents.turned(-UP * sigma), circles)
     tremble = TREMBLE * math.hypot(pencil.line, pencil.dividers)
-    covered = _covered(touch, pitch, radius * (1 - TOUCHING) - tremble)
-    kept = np.where(covered, np.nan, touch)
-    return Construction(
-        PROFILE_MEANING,
-        ProfileGivens(inverted, roller),
-        pencil,
-        {"radius": reading(hand.read(np.abs(kept)), mu_l.per_mm, "mm")},
-        {"touch": kept, "covered": np.where(covered, touch, np.nan)},
-        _draw_profile,
-    )
+    covered = _covered(found.points, pitch.points, radius * (1 - TOUCHING) - tremble)
+    nowhere, at = hand.given("nowhere", [np.nan]), np.arange(stations.u.size)
+    touch = hand.take("touch", found, nowhere, which=np.where(covered, at.size, at))
+    dropped = hand.take("covered", found, nowhere, which=np.where(covered, at, at.size))
+    hand.read("radius", between(hand.given("cam centre"), touch), mu_l)
+    return hand.finished(ProfileGivens(inverted, roller), _draw_profile, {"touch": touch, "covered": dropped})
 
 
-def _inward(pitch: Points, stations: Stations, sigma: int) -> Points:
-    """The unit normals of the pitch curve at its points, towards the inside of the cam."""
+def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
+    """The directions of the pitch curve at its points: of the circle through three, or of the arc of a rest."""
     along = np.empty_like(pitch)
     inner = np.ones(stations.u.size, dtype=bool)
     for span in stations.phases:
@@ -146,7 +148,7 @@ def _inward(pitch: Points, stations: Stations, sigma: int) -> Points:
         before = unit(pitch[..., jump] - pitch[..., jump - 1])
         after = unit(pitch[..., jump + 1] - pitch[..., jump])
         along[..., jump] = unit(before * before / along[..., jump - 1] + after * after / along[..., jump + 1])
-    return -UP * sigma * along
+    return along
 
 
 def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
@@ -185,11 +187,10 @@ def _proposal(term: Candidate, radius: float) -> Caption:
 
 def _draw_profile(profile: Profile) -> list[Step]:
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
-    mu_l = inverted.givens.mu_l
-    touch, covered, pitch = profile.first("touch"), profile.first("covered"), inverted.first("pitch")
-    lost, measured = int(np.sum(~np.isnan(covered))), profile.first("radius") * mu_l.per_mm
+    mu_l, covered, measured = inverted.givens.mu_l.per_mm, profile.acts["covered"].first, profile.value("radius")
+    lost = np.flatnonzero(~np.isnan(covered.points))
     radii = {"least": np.nanmin(measured), "greatest": np.nanmax(measured)}
-    curve = Line(closed_curve(inverted, touch), Role.RESULT, closed=True)
+    curve = closed_curve("working profile", inverted, profile.acts["touch"]).line(Role.RESULT, closed=True)
     if not roller:
         caption = say(
             "Without a roller the curve is the working profile itself; its radii run from {least:.2f} to "
@@ -204,54 +205,54 @@ def _draw_profile(profile: Profile) -> list[Step]:
         "cut so.",
         "At {count} stations the touch point lies inside another roller circle: the profile is undercut and cannot be "
         "cut so.",
-        lost,
+        lost.size,
     )
     drawn = say(
         "From every point of the pitch curve the circle of the adopted roller is drawn, r = {roller:g} mm, "
         "{paper:.1f} mm on paper."
-    ).where(roller=roller, paper=roller / mu_l.per_mm)
-    circles = tuple(Circle(complex(at), roller / mu_l.per_mm, Role.CONSTRUCTION) for at in pitch)
+    ).where(roller=roller, paper=roller / mu_l)
+    circle = profile.acts["roller circles"].first
+    circles = tuple(circle[k].drawn_circle(Role.CONSTRUCTION) for k in range(circle.points.size))
     said, marks = envelope, (curve,)
-    if lost:
-        said, marks = sequence([envelope, undercut], " "), (curve, Dots(covered[~np.isnan(covered)], Role.LIMIT))
+    if lost.size:
+        said, marks = sequence([envelope, undercut], " "), (curve, covered[lost].dots(Role.LIMIT))
     measured_anew = say(
         "Where the profile was touched its normal runs through the roller's centre; its angle with the follower's line "
         "is the pressure angle of that station, shown where it is greatest in each phase. It is measured anew on this "
         "drawing, so it agrees with the diagram only as well as the touch points are found."
     )
-    normals = tuple(mark for at in _steepest(profile) for mark in _normal(profile, at))
     return [
         Step(say("Roller circles"), drawn, PROFILE, circles),
         Step(say("Working profile"), said, PROFILE, marks, reads=("radius",)),
-        Step(say("Pressure angles on the profile"), measured_anew, PROFILE, normals),
+        Step(say("Pressure angles on the profile"), measured_anew, PROFILE, _normals(profile)),
     ]
 
 
-def _angles(profile: Profile) -> Floats:
-    """The angles from the follower's line to the profile's normal at the stations [rad], in the first sample."""
-    inverted = profile.givens.inverted
-    pitch = inverted.first("pitch")
-    return np.angle((pitch - profile.first("touch")) / inverted.first("motion"))
+def _normals(profile: Profile) -> tuple[Mark, ...]:
+    """The profile's normal and the follower's line where they enclose the greatest angle in each moving phase.
 
-
-def _steepest(profile: Profile) -> list[int]:
-    """The station of the greatest angle in each moving phase; none where the whole phase is covered."""
-    stations, angles = profile.givens.inverted.givens.integrated.givens.stations, np.abs(_angles(profile))
-    touched = [span for span in stations.phases if not np.isnan(angles[span]).all()]
-    return [int(span.start + np.nanargmax(angles[span])) for span in touched]
-
-
-def _normal(profile: Profile, at: int) -> tuple[Mark, ...]:
-    inverted, angle = profile.givens.inverted, float(_angles(profile)[at])
-    places = (inverted.first("pitch"), inverted.first("motion"), profile.first("touch"))
-    pitch, line, touch = (complex(place[at]) for place in places)
-    normal = (pitch - touch) / abs(pitch - touch)
-    start, end = sorted((float(np.angle(line)), float(np.angle(line)) + angle))
-    return (
-        Line(np.array([pitch, pitch + (NORMAL + 4) * line]), Role.CONSTRUCTION),
-        Line(np.array([touch, pitch + (NORMAL + 4) * normal]), Role.LIMIT),
-        AngleMark(pitch, NORMAL, start, end, say("{alpha:.1f}°", alpha=abs(np.degrees(angle)))),
-    )
+    None where the whole phase is covered.
+    """
+    hand, inverted = showing(profile), profile.givens.inverted
+    motion, pitch, touch = inverted.acts["motion"].first, inverted.acts["pitch"].first, profile.acts["touch"].first
+    normals = hand.join("normals", touch, pitch)
+    alpha = hand.angle("pressure angles", motion, normals)
+    lines, beyond = (hand.lay_off(f"far on {d.act.name}", pitch, d, NORMAL + 4) for d in (motion, normals))
+    marks = list[Mark]()
+    for span in inverted.givens.integrated.givens.stations.phases:
+        angles = np.abs(alpha.paper[span])
+        if np.isnan(angles).all():
+            continue
+        at = int(span.start + np.nanargmax(angles))
+        direction, angle = float(np.angle(motion.directions[at])), float(alpha.paper[at])
+        start, end = sorted((direction, direction + angle))
+        said = say("{alpha:.1f}°", alpha=abs(np.degrees(angle)))
+        marks += [
+            lines[at].line_from(pitch[at], Role.CONSTRUCTION),
+            Line(np.array([touch[at].place, beyond[at].place]), Role.LIMIT, of=normals.act),
+            AngleMark(pitch[at].place, NORMAL, start, end, said, alpha.act),
+        ]
+    return tuple(marks)
 
 
 NORMAL = 26.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,8 +10,9 @@ from graphcam.constructions.board import DrawnFollower
 from graphcam.constructions.profile_view import closed_curve, rotation_arrow
 from graphcam.constructions.roller import Profile
 from graphcam.constructions.views import SCHEME, at_scale
+from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Circle, Label, Line, Role, Segments
+from graphcam.drafting.marks import Label, Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
@@ -43,20 +44,22 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
     profile = drawn.givens.profile
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
     mu_l, sigma = inverted.givens.mu_l, sense(inverted.givens.rotation)
-    outline = closed_curve(inverted, profile.first("touch")) * mu_l.per_mm
-    scale = standard_scale(2 * float(np.nanmax(np.abs(outline))), SIZE)
-    scheme = at_scale(SCHEME, scale)
+    hand, curve = showing(drawn), closed_curve("outline", inverted, profile.acts["touch"])
+    scale = standard_scale(2 * float(np.abs(curve.points).max()) * mu_l.per_mm, SIZE)
+    centre, scheme = hand.given("A"), at_scale(SCHEME, scale)
+    outline = hand.enlarged("outline", curve, centre, mu_l.per_mm / scale.per_mm)
     radius = 0.5 * inverted.givens.prime_radius / scale.per_mm
-    ground = np.arange(-3, 3.1, 1.5) - 5j
+    circle = hand.circle("circle of the rotation", centre, radius)
+    ground = hand.given("ground", np.arange(-3, 3.1, 1.5) - 5j, -1.2 - 1.5j)
     marks = (
-        Line(outline / scale.per_mm, Role.RESULT, closed=True),
+        outline.line(Role.RESULT, closed=True),
         *drawn.givens.follower.scheme(inverted, roller, scale),
-        Circle(0j, 1.2, Role.CURVE),
-        Line(np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j]), Role.CURVE),
-        Segments(ground, ground - 1.2 - 1.5j, Role.HATCH),
-        rotation_arrow(np.pi / 2 - sigma * 1.9, sigma, radius),
-        Label(radius * complex(-sigma, 1), "ω", towards=complex(-sigma)),
-        Label(0j, "A", towards=1 - 1j),
+        hand.circle("shaft", centre, 1.2).drawn_circle(Role.CURVE),
+        hand.given("support", np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j])).line(Role.CURVE),
+        ground.ways(Role.HATCH),
+        replace(rotation_arrow(np.pi / 2 - sigma * 1.9, sigma, radius), of=circle.act),
+        Label(radius * complex(-sigma, 1), "ω", towards=complex(-sigma), of=circle.act),
+        centre.label("A", 1 - 1j),
     )
     said = say("Cam, follower and frame at the start of the turn, at {ratio}.", ratio=ratio_text(scale.per_mm))
     return [Step(say("Scheme of the mechanism"), said, scheme, marks)]

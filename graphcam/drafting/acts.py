@@ -40,7 +40,7 @@ class Kind(StrEnum):
     CROSS = "cross"  # where two lines meet
     FAIR = "fair"  # curve template
     TAKE = "take"  # of what lies there, what one goes on with
-    ENLARGE = "enlarge"  # the same places once more, in another view
+    ENLARGE = "enlarge"  # the same places once more, in another view or on the other side of a line
     READ = "read"  # ruler or protractor: a length, an angle; or in the head, from others
 
 
@@ -74,7 +74,7 @@ class Setting:
 
     amount: Floats
     ends: tuple[Drawn, Drawn] | None = None
-    along: complex | None = None
+    along: Drawn | complex | None = None
     reading: Any = None
     factor: Floats | float = 1.0
     value: float | None = None
@@ -152,7 +152,7 @@ class Drawn:
     @property
     def place(self) -> complex:
         """The one place in the first sample."""
-        return complex(self.first.points)
+        return complex(self.shown.item())
 
     def dots(self, role: Role = Role.CURVE) -> Dots:
         """The places, plotted."""
@@ -172,6 +172,10 @@ class Drawn:
         """Of lines that join places: from each to the other."""
         first = self.first
         return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, of=self.act)
+
+    def way(self, role: Role) -> Line:
+        """Of the line that joins two places: from one to the other."""
+        return Line(self.place + np.array([0j, complex(self.first.directions)]), role, of=self.act)
 
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""

@@ -63,7 +63,7 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     (2+2j)
     """
     tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
-    return at_greatest(tops, dot(direction, tops))
+    return at_greatest(tops, dot(np.asarray(direction)[..., None], tops))
 
 
 def highest_and_lowest(points: Points, pieces: Sequence[slice]) -> Points:

@@ -29,10 +29,14 @@ Direction = Drawn | Points | complex
 Length = Setting | ArrayLike
 
 
-def between(start: Drawn, end: Drawn, along: complex | None = None) -> Setting:
+def between(start: Drawn, end: Drawn, along: Drawn | complex | None = None) -> Setting:
     """The distance of two places, or the signed part of the way along a direction: taken up with dividers, or read."""
-    a, b = _aligned(_places(start), _places(end))
-    amount = np.abs(b - a) if along is None else dot(np.asarray(along), b - a)
+    if along is None:
+        a, b = _aligned(_places(start), _places(end))
+        amount = np.abs(b - a)
+    else:
+        a, b, d = _aligned(_places(start), _places(end), _way(along))
+        amount = dot(euclid.unit(d), b - a)
     return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
 
 
@@ -103,9 +107,10 @@ class Hand:
         """Places, or lines along a direction, that lie on the board before the first act: origin, axes, data."""
         places = np.asarray(points, dtype=np.complex128)
         direction = None if along is None else np.asarray(along, dtype=np.complex128)
-        return self._left(
-            Kind.GIVEN, name, {"points": places, "along": direction}, self.pencil.sheets(places), direction
-        )
+        if direction is not None:
+            places, direction = np.broadcast_arrays(places, direction)
+        takes = {"points": places, "along": direction}
+        return self._left(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
     def found(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
@@ -116,7 +121,7 @@ class Hand:
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
-        if len(drawn) == 1:
+        if len(drawn) == 1 and which is None:
             points, along = drawn[0].points, drawn[0].along
         else:
             points = self._row([each.points for each in drawn])
@@ -131,10 +136,20 @@ class Hand:
         return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
 
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
-        """The same places in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
+        """The same in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
-        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times)
+        along = None if drawn.along is None else drawn.along * times
+        radius = None if drawn.radius is None else drawn.radius * abs(times)
+        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
+
+    def mirrored(self, name: str, drawn: Drawn, axis: Drawn) -> Drawn:
+        """The same places, lines or circles on the other side of a line."""
+        points, start, way = _aligned(_places(drawn), _places(axis), _way(axis))
+        twice = euclid.unit(way) ** 2
+        along = None if drawn.along is None else np.conj(drawn.along) * twice
+        image = start + np.conj(points - start) * twice
+        return self._left(Kind.ENLARGE, name, {"of": drawn, "axis": axis}, image, along, drawn.radius)
 
     def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
         """The same places, each so much higher: on an axis that was found only later."""
@@ -313,11 +328,20 @@ class Hand:
         return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, points.points, along)
 
     def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
-        """A smooth curve through plotted points, piece by piece, in so many short chords a part."""
-        line = [curve.faired(points.points[..., piece], parts) for piece in pieces]
-        return self._left(
-            Kind.FAIR, name, {"points": points, "pieces": tuple(pieces), "parts": parts}, np.concatenate(line, axis=-1)
-        )
+        """A smooth curve through plotted points, piece by piece, in so many short chords a part.
+
+        Of lines through the points their angles are faired too, so that between them lies a family of lines.
+        """
+
+        def faired(values: Points) -> Points:
+            return np.concatenate([curve.faired(values[..., piece], parts) for piece in pieces], axis=-1)
+
+        along = None
+        if points.along is not None:
+            first = points.along[..., :1]
+            along = euclid.turned(first, faired(np.angle(points.along / first) + 0j).real)
+        takes = {"points": points, "pieces": tuple(pieces), "parts": parts}
+        return self._left(Kind.FAIR, name, takes, faired(points.points), along)
 
     # --- readings ----------------------------------------------------------------------------------------------------
 
@@ -344,7 +368,7 @@ class Hand:
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
-        paper = sense * np.angle(e / d)
+        paper = sense * np.angle(e * np.conj(d))
         if self.pencil.protractor:
             paper = paper + self._protractor(paper)
         return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")

@@ -82,8 +82,7 @@ class Sheet:
 
     def _setting(self, setting: Setting) -> dict[str, Any]:
         if setting.ends is not None:
-            along = None if setting.along is None else _number(complex(setting.along))
-            return {"between": self.plain(setting.ends), "along": along}
+            return {"between": self.plain(setting.ends), "along": self.plain(setting.along)}
         if setting.formula is not None:
             return {"reckoned": self.plain(setting.formula), "given": self.plain(setting.given)}
         found = {"carried": self.plain(setting.reading)}
@@ -170,10 +169,11 @@ class SecondBoard:
             return [float(each) for each in plain["array"]], plain["single"]
         if "between" in plain:
             a, b = (self._taken(end) for end in plain["between"])
-            along = None if plain["along"] is None else complex(*plain["along"])
             ways = [q - p for p, q in _pairs(a, b)]
-            read = [abs(w) if along is None else w.real * along.real + w.imag * along.imag for w in ways]
-            return read, a.single and b.single
+            if plain["along"] is None:
+                return [abs(w) for w in ways], a.single and b.single
+            lines, one = self._direction(plain["along"])
+            return [_part(w, d) / abs(d) for w, d in _rows(ways, lines)], a.single and b.single and one
         if "reckoned" in plain:
             given = [self._lengths(each) for each in plain["given"]]
             values = [np.array(each[0] if single else each) for each, single in given]
@@ -221,14 +221,18 @@ class SecondBoard:
             places, single = [int(k) for k in which["array"]], which["single"]
         return Figure([points[k] for k in places], None if along is None else [along[k] for k in places], None, single)
 
-    def _enlarge(self, of: Any, origin: Any = None, times: Any = None, to: Any = None, by: Any = None) -> Figure:
+    def _enlarge(self, of: Any, axis: Any = None, by: Any = None, **view: Any) -> Figure:
         shown = self._taken(of)
+        if axis is not None:
+            return _on_the_other_side(shown, self._taken(axis))
         if by is not None:
             heights, one = self._lengths(by)
             raised = [complex(p.real, p.imag + h) for p, h in _rows(shown.points, heights)]
             return Figure(raised, single=shown.single and one)
-        scale, moved = _one(times), _one(to)
-        return Figure([(p - q) * scale + moved for p, q in _pairs(shown, self._taken(origin))], single=shown.single)
+        scale, moved, origin = _one(view["times"]), _one(view["to"]), self._taken(view["origin"])
+        along = None if shown.along is None else [d * scale for d in shown.along]
+        radius = None if shown.radius is None else [r * abs(scale) for r in shown.radius]
+        return Figure([(p - q) * scale + moved for p, q in _pairs(shown, origin)], along, radius, shown.single)
 
     def _divide(self, start: Any, end: Any, share: Any) -> Figure:
         a, b = self._taken(start), self._taken(end)
@@ -332,8 +336,17 @@ class SecondBoard:
         return Figure([touch], [way * 1j], None, single=True)
 
     def _fair(self, points: Any, pieces: Any, parts: int) -> Figure:
-        shown = self._taken(points).points
-        return Figure([p for piece in pieces for p in _smooth(shown[slice(*piece["slice"])], parts)])
+        plotted = self._taken(points)
+
+        def smooth(places: list[complex]) -> list[complex]:
+            return [p for piece in pieces for p in _smooth(places[slice(*piece["slice"])], parts)]
+
+        if plotted.along is None:
+            return Figure(smooth(plotted.points))
+        angles = [cmath.phase(way) for way in plotted.along]
+        turned = [angles[0] + math.remainder(angle - angles[0], math.tau) for angle in angles]
+        ways = [cmath.rect(1.0, angle.real) for angle in smooth([complex(angle) for angle in turned])]
+        return Figure(smooth(plotted.points), ways)
 
     def _read(self, length: Any = None, base: Any = None, line: Any = None, sense: int = 1) -> tuple[list[float], bool]:
         if length is not None:
@@ -372,6 +385,18 @@ def _where(p: complex, d: complex, q: complex, e: complex, *, flat: bool = False
     if not abs(by) > 0 or (not flat and abs(by) < math.sin(ONE_DEGREE) * abs(d) * abs(e)):
         return NOWHERE
     return complex((c1 * b2 - c2 * b1) / by, (a1 * c2 - a2 * c1) / by)
+
+
+def _on_the_other_side(shown: Figure, axis: Figure) -> Figure:
+    """As far beyond the foot of the perpendicular on the line, and with its directions the same."""
+    q, d = axis.points[0], (axis.along or [])[0]
+
+    def over(p: complex) -> complex:
+        """The image of one place."""
+        return 2 * _where(q, d, p, d * 1j) - p
+
+    along = None if shown.along is None else [over(q + way) - q for way in shown.along]
+    return Figure([over(p) for p in shown.points], along, shown.radius, shown.single and axis.single)
 
 
 def _line_and_circle(p: complex, d: complex, centre: complex, radius: float) -> complex:

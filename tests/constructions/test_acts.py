@@ -65,7 +65,7 @@ def off(here: Any, there: list[float] | list[complex]) -> float:
     assert np.array_equal(unknown, np.isnan(theirs))
     finite = np.isfinite(ours)
     assert np.array_equal(ours[~finite & ~unknown], theirs[~finite & ~unknown])
-    return float(np.max(np.abs(ours - theirs)[finite], initial=0.0))
+    return float(np.max(np.abs(ours[finite] - theirs[finite]), initial=0.0))
 
 
 @EVERY
@@ -108,7 +108,8 @@ def steady(construction: Construction) -> Iterator[str]:
     for key, read in construction.readings.items():
         values = np.where(np.isfinite(read.paper), read.paper, np.nan)
         known = np.isfinite(values).sum(axis=0) > 1
-        if known.any() and not np.nanstd(values[:, known] if known.ndim else values, axis=0).max() > 1e-9:
+        laid_off = np.any(values[:, known] if known.ndim else values)  # a knife edge, of radius zero, is no length
+        if known.any() and laid_off and not np.nanstd(values[:, known] if known.ndim else values, axis=0).max() > 1e-9:
             yield key
 
 

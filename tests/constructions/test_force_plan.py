@@ -10,7 +10,7 @@ from boards import SIZES, coursework, order
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.force_plan import force_plan, round_scale
+from graphcam.constructions.force_plan import BASE, force_plan, round_scale
 from graphcam.drafting.euclid import READABLE_CROSSING
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -65,20 +65,23 @@ def test_the_drawn_forces_converge_to_the_exact_ones_with_second_order(law, name
 
 
 def test_the_scatter_is_what_the_pencil_explains():
-    """Linear propagation: a length of Q errs by the dividers, the direction of F by the protractor."""
+    """Linear propagation: a length of Q, and the two that make the slope of R, err by the dividers; the direction of F
+    by the protractor; its line beside the head of Q is cut at the angle that it makes with R."""
     angles, k = measured(), 5
     perfect = force_plan(angles, LOAD, Pencil(), GUIDE, station=k)
     mu, alpha = perfect.givens.mu_force, float(angles.readings["alpha"].paper[k])
     s = float(angles.givens.integrated.readings["s"].value[k])
     share = 0.12 * (1 + 2 * (60 - s) / 90)
     denominator = math.cos(alpha) - share * math.sin(alpha)
+    load = value(perfect, "load") / mu.per_mm
+    slope = load * math.sin(alpha) / denominator**2 * math.hypot(1, share) / BASE
     for pencil, sigma in (
-        (Pencil(dividers=0.2, samples=4000), 0.2 / denominator),
+        (Pencil(dividers=0.2, samples=4000), 0.2 * math.hypot(1 / denominator, slope)),
         (
             Pencil(protractor=0.01, samples=4000),
-            value(perfect, "load") / mu.per_mm * 0.01 * (math.sin(alpha) + share * math.cos(alpha)) / denominator**2,
+            load * 0.01 * (math.sin(alpha) + share * math.cos(alpha)) / denominator**2,
         ),
-        (Pencil(line=0.2, samples=4000), 0.2),
+        (Pencil(line=0.2, samples=4000), 0.2 * (math.sin(alpha) + share * math.cos(alpha)) / denominator),
     ):
         drawn = force_plan(angles, LOAD, pencil, GUIDE, station=k).readings["normal"].paper
         assert drawn.shape == (4000,)

@@ -248,6 +248,7 @@ def test_a_curve_is_marked_by_its_distance_and_shows_the_worst_place():
     answer = next(each for each in record.answers if each.name == "pitch")
     assert answer.outcome == "wrong"
     assert answer.station == 7
+    assert answer.given == [[z.real, z.imag] for z in bent]
     assert answer.off_paper == pytest.approx(0.1 * abs(pitch[7]), rel=0.5)
     # Half of the curve is not the curve.
     assert outcomes(marked("inversion-translating", pitch=pitch[:13]))["pitch"] == "wrong"

@@ -53,3 +53,44 @@ def test_interrupted_hatching_spares_the_text() -> None:
     assert lines(broken).intersection(box).length == 0
     margin = box.buffer(0.8, join_style="mitre")
     assert lines(broken).length == pytest.approx(lines(drawn).difference(margin).length, rel=1e-9)
+
+
+@pytest.mark.parametrize("spacing", [SPACING, 1.3])
+@pytest.mark.parametrize(
+    "outline",
+    [
+        [1, 50, 50 + 31j],
+        [1 + 100j, 5 + 100j, 4 + 160j, 161j],
+        [-40 - 90j, -30 - 100j, -5 - 20j],
+        [1, 12, 12 + 12j, 15j],
+    ],
+)
+def test_the_lines_of_hatching_are_a_spacing_apart_from_the_origin_on(outline: list[complex], spacing: float) -> None:
+    """So those of two neighbouring regions run into each other."""
+    polygon = shapely.Polygon([(z.real, z.imag) for z in map(complex, outline)])
+    drawn = hatch(np.array(outline), spacing)
+    upwards = np.exp(0.75j * np.pi)
+    levels, reach = (drawn.starts / upwards).real / spacing, (np.array(outline) / upwards).real / spacing
+    np.testing.assert_allclose(levels, np.round(levels), atol=1e-9)
+    # Every multiple that crosses the convex region is there once.
+    assert np.round(levels).tolist() == list(range(int(np.ceil(reach.min())), int(np.floor(reach.max())) + 1))
+    assert lines(drawn).within(polygon.buffer(ROUNDING))
+    assert drawn.role == "hatch"
+    assert SPACING == 3.0
+
+
+def test_lines_are_broken_off_beside_a_text_and_others_are_left() -> None:
+    text = Text(0j, "A", 3.5)
+    box = corners(text)
+    wide, low, high = np.ptp(box.real), box.imag.min(), box.imag.max()
+    through = Strokes(np.array([-10 + 1j, 1 + 1j, -10 + 1j]), np.array([20 + 1j, 20 + 1j, 1 + 1j]), "hatch")
+    broken = interrupted(through, [text])
+    assert broken.starts.tolist() == pytest.approx([-10 + 1j, -10 + 1j, wide + 0.8 + 1j, wide + 0.8 + 1j])
+    assert broken.ends.tolist() == pytest.approx([-0.8 + 1j, -0.8 + 1j, 20 + 1j, 20 + 1j])
+    assert broken.role == "hatch"
+    inside = Strokes(np.array([0.1 + 1j]), np.array([0.2 + 1j]), "hatch")
+    assert len(interrupted(inside, [text]).starts) == 0
+    for y, parts in ((high + 0.79, 2), (high + 0.81, 1), (low - 0.79, 2), (low - 0.81, 1)):
+        beside = Strokes(np.array([-10 + 1j * y]), np.array([20 + 1j * y]), "hatch")
+        assert len(interrupted(beside, [text]).starts) == parts
+    assert interrupted(text, [text]) is text

@@ -72,11 +72,10 @@ def _following(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], explai
     found: set[str] = set()
     own: dict[str, float] = {}
     first = min(each.place for each in compared if each.wrong)
-    shown = min(explained, default=0)
+    # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
+    caused = sorted(explained)[1:]
     for each in compared:
-        # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
-        caused = each.place > shown and each.place in explained
-        if each.wrong and each.place > first and (caused or _follows(answer_key, each, own)):
+        if each.place in caused or (each.wrong and each.place > first and _follows(answer_key, each, own)):
             found.add(each.asked.name)
         if isinstance(each.given, float):
             own[each.asked.name] = each.given

@@ -1,0 +1,105 @@
+"""The figures of a simulation are counts of the records that marking made, every hand of every variant once."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from issued_variants import issued
+
+from graphcam.exercises.marking import simulate as module
+from graphcam.exercises.marking.simulate import SimulatedRow, Simulation, simulate
+
+MISTAKES = ("offset-sign", "base-circle")
+CAREFUL = [(8, None, True), (8, None, True), (8, None, False), (7, "base-circle", False), (8, None, False)]
+"""Marks of 8, the mistake named, and whether it is remarked on as too exact: of five hands on each variant."""
+SLIPS = {
+    "offset-sign": [(8, None, False)] * 2 + [(5, "base-circle", True)] + [(3, "offset-sign", False)] * 2,
+    "base-circle": [(3, "base-circle", False)] * 4 + [(8, "base-circle", False)],
+}
+DRAWS = (0, 2, 2)
+"""Of the three variants, the draw of the parameters that could be diagnosed."""
+
+
+@pytest.fixture
+def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[str, object]]]:
+    """What is simulated of records that are known, what was told of the progress, and all answers marked."""
+    marked: list[dict[str, object]] = []
+    students = iter(DRAWS)
+
+    def chain(records, seed):
+        return SimpleNamespace(records=records, pencil=SimpleNamespace(samples=len(records), seed=seed))
+
+    def answers_of(exercise, chain):
+        return [np.arange(10.0 * k, 10.0 * k + 5) for k in range(4)] + [np.arange(10.0).reshape(5, 2) + 0j]
+
+    records: list = []
+
+    def counted(self, exercise, answer_key, drawn):
+        records[:] = drawn.records
+        original(self, exercise, answer_key, drawn)
+
+    def mark(exercise, answer_key, answers):
+        marked.append(dict(answers.values))
+        total, named, too_exact = records.pop(0)
+        diagnosis = SimpleNamespace(misconception=named) if named else None
+        return SimpleNamespace(total=total, of=8, diagnosis=diagnosis, too_exact=too_exact)
+
+    original = module._Tally.mark
+    monkeypatch.setattr(module._Tally, "mark", counted)
+    monkeypatch.setattr(module, "answers_of", answers_of)
+    monkeypatch.setattr(module, "mark", mark)
+    monkeypatch.setattr(module, "issue", lambda *_: (SimpleNamespace(draw=next(students), task=None), None))
+    monkeypatch.setattr(module, "board_chain", lambda task, pencil: chain(CAREFUL, pencil.seed))
+    changes = {name: SimpleNamespace(change=lambda drawn, each=each: chain(each, 0)) for name, each in SLIPS.items()}
+    monkeypatch.setattr(module, "misconception", changes.__getitem__)
+    asked = [SimpleNamespace(name=name, kind="curve" if name == "p" else "number") for name in "abcdp"]
+    hand = SimpleNamespace(pencil=lambda hands, seed: SimpleNamespace(seed=seeds.append((hands, seed))))
+    seeds: list[tuple[int, int]] = []
+    exercise = SimpleNamespace(name="toy", version=3, misconceptions=MISTAKES, answers=asked, hand=hand)
+    progress: list[tuple[int, int]] = []
+    found = simulate(exercise, b"", 3, 5, lambda *done: progress.append(done))
+    # Every variant has hands of its own, never those of the answer key.
+    assert seeds == [(5, 1), (5, 2), (5, 3)]
+    return found, progress, marked
+
+
+def test_every_record_is_counted_once(figures):
+    found, progress, marked = figures
+    assert (found.exercise, found.version, found.variants) == ("toy", 3, 3)
+    assert (found.careful, found.losing, found.too_exact) == (15, 3, 6)
+    assert found.rows == {
+        "offset-sign": SimulatedRow(15, 6, {"offset-sign": 6, "none": 6, "base-circle": 3}),
+        "base-circle": SimulatedRow(15, 3, {"base-circle": 15}),
+    }
+    assert found.issued == (1, 0, 2)
+    assert progress == [(1, 3), (2, 3), (3, 3)]
+    assert len(marked) == 3 * 15
+    first, points = marked[2], marked[2]["p"]
+    assert [first[name] for name in "abcd"] == [2.0, 12.0, 22.0, 32.0]
+    assert {type(first[name]) for name in "abcd"} == {float}
+    assert points.tolist() == [4, 5]
+
+
+def test_the_rates_are_parts_of_the_hands(figures):
+    found = figures[0]
+    assert found.false_rejections == 3 / 15
+    assert found.false_acceptances == 9 / 30
+    assert found.right_diagnoses == 21 / 30
+    assert found.draws == (1 * 1 + 3 + 3) / 3
+    said = found.to_dict()
+    assert [said[rate] for rate in ("false_rejections", "right_diagnoses", "draws")] == [0.2, 0.7, 7 / 3]
+    assert found.rows["offset-sign"].right("offset-sign") == 6 / 15
+    assert found.rows["offset-sign"].right("polar-angle") == 0.0
+
+
+def test_an_exercise_without_mistakes_has_none_that_pass_or_are_misnamed():
+    found = Simulation("toy", 1, 1, 5, 0, 0, {}, (1,))
+    assert (found.false_acceptances, found.right_diagnoses) == (0.0, 1.0)
+
+
+def test_real_hands_are_all_marked():
+    exercise, _ = issued("integration")
+    found = simulate(exercise, b"any", 1, 4)
+    assert (found.careful, [row.hands for row in found.rows.values()]) == (4, [4] * len(exercise.misconceptions))

@@ -1,0 +1,383 @@
+"""The rulings of title blocks and margins enclose the standards' fields, and every text stands in its own."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from overlaps import overlaps
+from scene import TITLE
+
+from graphcam.sheets.box import Box
+from graphcam.sheets.fonts import width
+from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, Format
+from graphcam.sheets.frame import frame, taken, title_box
+from graphcam.sheets.gauge import gauge, gauge_box
+from graphcam.sheets.layout import compose
+from graphcam.sheets.model import Entity, Stroke, Strokes, Text
+from graphcam.sheets.sampling import box_of, corners
+from graphcam.sheets.title_block import TitleBlock, entry, fitted, stacked, title_block
+
+Field = tuple[float, float, float, float]
+EVERY = [Format(*each) for each in np.array(np.meshgrid([*SIZES], [*MARGINS], ORIENTATIONS)).T.reshape(-1, 3).tolist()]
+NAMED = TitleBlock(**{field.name: field.name[:6].upper() for field in fields(TitleBlock)})
+
+
+def enclosed(entities: list[Entity], *roles: str) -> set[Field]:
+    """The rectangles that lines of these roles enclose: left, bottom, right, top."""
+    lines = [
+        shapely.LineString([(a.real, a.imag), (b.real, b.imag)])
+        for e in entities
+        if isinstance(e, Strokes) and e.role in roles
+        for a, b in zip(e.starts, e.ends, strict=True)
+    ]
+    faces = shapely.polygonize(shapely.get_parts(shapely.unary_union(lines)).tolist())
+    found = [face for face in faces.geoms if face.area == pytest.approx(shapely.box(*face.bounds).area)]
+    return {tuple(round(x, 6) for x in face.bounds) for face in found}
+
+
+def grid(across: list[float], up: list[float]) -> set[Field]:
+    """The fields between lines at these places."""
+    return {(a, c, b, d) for a, b in pairwise(across) for c, d in pairwise(up)}
+
+
+def box_of_text(text: Text) -> Field:
+    at = corners(text)
+    return at.real.min(), at.imag.min(), at.real.max(), at.imag.max()
+
+
+def centre(text: Text) -> complex:
+    """Of the letters, by their capitals: where the text stands in its field."""
+    return complex(corners(text).real.mean(), text.at.imag + text.height / 2)
+
+
+def in_the_middle(text: Text, field: Field) -> bool:
+    left, bottom, right, top = field
+    return centre(text) == pytest.approx(complex((left + right) / 2, (bottom + top) / 2), abs=1e-9)
+
+
+def inside(text: Text, field: Field) -> bool:
+    (left, bottom, right, top), box = field, box_of_text(text)
+    return left <= box[0] and bottom <= box[1] and box[2] <= right and box[3] <= top
+
+
+GOST_LEFT = [0.0, 17.0, 40.0, 55.0, 65.0]
+GOST = (
+    # The table of changes has a column more, and the signatures below its head have none for the sheet.
+    grid([0, 7, 17, 40, 55, 65], [30, 35, 40, 45, 50, 55])
+    | grid(GOST_LEFT, [0, 5, 10, 15, 20, 25, 30])
+    | {(65, 40, 185, 55), (65, 15, 135, 40), (65, 0, 135, 15), (135, 0, 185, 15)}
+    # Stage in three parts, mass, scale, and the numbers of sheets below.
+    | {(135, 35, 150, 40), (150, 35, 167, 40), (167, 35, 185, 40), (150, 20, 167, 35), (167, 20, 185, 35)}
+    | grid([135, 140, 145, 150], [20, 35])
+    | {(135, 15, 155, 20), (155, 15, 185, 20)}
+)  # fmt: skip
+"""Form 1 of GOST 2.104."""
+GOST_ENTRIES = {
+    "number": ((65, 40, 185, 55), 7.0),
+    "name": ((67, 15, 133, 40), 5.0),
+    "material": ((65, 0, 135, 15), 3.5),
+    "mass": ((150, 20, 167, 35), 3.5),
+    "scale": ((167, 20, 185, 35), 3.5),
+    "organisation": ((135, 0, 185, 15), 3.5),
+}
+ISO = {
+    "Responsible department": (0, 27, 48, 36),
+    "Checked by": (48, 27, 84, 36),
+    "Material": (84, 27, 120, 36),
+    "Mass": (120, 27, 138, 36),
+    "Scale": (138, 27, 156, 36),
+    "Document status": (156, 27, 180, 36),
+    "Legal owner": (0, 9, 48, 27),
+    "Group": (0, 0, 48, 9),
+    "Created by": (48, 13.5, 84, 27),
+    "Approved by": (48, 0, 84, 13.5),
+    "Title": (84, 0, 138, 27),
+    "Identification number": (138, 9, 180, 27),
+    "Rev.": (138, 0, 147, 9),
+    "Date": (147, 0, 164, 9),
+    "Sheet": (164, 0, 180, 9),
+}
+ISO_ENTRIES = {
+    "checked": "Checked by",
+    "material": "Material",
+    "mass": "Mass",
+    "scale": "Scale",
+    "organisation": "Legal owner",
+    "group": "Group",
+    "author": "Created by",
+    "approved": "Approved by",
+    "name": "Title",
+    "number": "Identification number",
+}
+
+
+def texts_of(entities: list[Entity]) -> list[Text]:
+    return [e for e in entities if isinstance(e, Text)]
+
+
+def test_the_rulings_of_form_1_enclose_its_fields():
+    block = title_block("gost", 0j, NAMED, 1, 1)
+    assert enclosed(block, "frame", "ruling") == GOST
+    # Bold lines part what GOST 2.104 parts by bold ones: the rows of changes and signatures are thin.
+    bold = enclosed(block, "frame")
+    assert {(0, 30, 7, 35), (17, 0, 40, 30), (135, 20, 150, 35), (65, 15, 135, 40)} <= bold
+    assert {(0, 25, 17, 30), (135, 20, 140, 35)} & bold == set()
+
+
+def test_the_block_is_as_large_as_its_standard_says_and_stands_where_it_is_put():
+    for kind, size in (("gost", (185, 55)), ("iso", (180, 36))):
+        for corner in (0j, 100 + 50j):
+            block = title_block(kind, corner, NAMED, 1, 1)
+            box = box_of([e for e in block if isinstance(e, Strokes)])
+            assert (box.corner, box.width, box.height) == (corner, *size)
+            assert all(box.holds(box_of([text])) for text in texts_of(block))
+
+
+def test_captions_of_form_1_stand_in_their_fields():
+    texts = {t.text: t for t in texts_of(title_block("gost", 0j, TitleBlock(), 3, 12))}
+    head = zip(("Ch.", "Sheet", "Document no.", "Signed", "Date"), pairwise((0, 7, 17, 40, 55, 65)), strict=True)
+    for caption, (left, right) in head:
+        assert in_the_middle(texts[caption], (left, 30, right, 35))
+        assert texts[caption].height <= 2.0
+    for bottom, caption in zip((25, 20, 15, 5, 0), ("Drawn", "Checked", "Tech.", "Norms", "Approved"), strict=True):
+        field = (0, bottom, 17, bottom + 5)
+        assert inside(texts[caption], field)
+        assert (texts[caption].at.real, centre(texts[caption]).imag) == (1.0, bottom + 2.5)
+        assert texts[caption].align == "left"
+    for caption, field in {
+        "Stage": (135, 35, 150, 40),
+        "Mass": (150, 35, 167, 40),
+        "Scale": (167, 35, 185, 40),
+        "Sheet 3": (135, 15, 155, 20),
+        "Sheets 12": (155, 15, 185, 20),
+    }.items():
+        assert in_the_middle(texts[caption], field)
+        assert 2.0 < texts[caption].height <= 2.5
+    assert len(texts) == 15
+
+
+def test_entries_of_form_1_stand_in_their_fields():
+    texts = {t.field: t for t in texts_of(title_block("gost", 0j, NAMED, 1, 1)) if t.field}
+    for name, (field, height) in GOST_ENTRIES.items():
+        assert in_the_middle(texts[name], field)
+        assert inside(texts[name], field)
+        assert texts[name].height == height
+    for name, bottom in (("author", 25), ("checked", 20), ("approved", 0)):
+        assert texts[name].at.real == 18.0
+        assert centre(texts[name]).imag == bottom + 2.5
+        assert texts[name].height == 2.5
+    # The group has no field of its own, and stands with the school.
+    assert set(texts) == {*GOST_ENTRIES, "author", "checked", "approved"}
+    assert texts["organisation"].text == "ORGANI GROUP"
+
+
+def test_the_rulings_of_the_iso_block_enclose_its_fields():
+    block = title_block("iso", 0j, NAMED, 1, 1)
+    assert enclosed(block, "frame", "ruling") == set(ISO.values())
+    assert enclosed(block, "frame") == {(0, 0, 180, 36)}
+
+
+def test_captions_and_entries_of_the_iso_block_stand_in_their_fields():
+    texts = texts_of(title_block("iso", 0j, NAMED, 2, 3))
+    captions = {t.text: t for t in texts if not t.field}
+    entries = {t.field: t for t in texts if t.field}
+    assert set(captions) == {*ISO, "2/3"}
+    assert set(entries) == set(ISO_ENTRIES)
+    for caption, field in ISO.items():
+        assert captions[caption].at.real == field[0] + 1.0
+        assert centre(captions[caption]).imag == pytest.approx(field[3] - 1.9, abs=1e-9)
+        assert captions[caption].height <= 1.8
+        assert inside(captions[caption], field)
+    for name, caption in ISO_ENTRIES.items():
+        left, bottom, right, top = ISO[caption]
+        assert in_the_middle(entries[name], (left, bottom, right, top - 3.2))
+        assert entries[name].height == (5.0 if name == "name" else 3.5)
+    assert in_the_middle(captions["2/3"], (164, 0, 180, 5.8))
+    assert captions["2/3"].height == 3.5
+
+
+@pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "gost"], ids=repr)
+def test_the_binding_margin_has_five_fields_of_the_standard_lengths(paper):
+    entities = [*frame(paper, NAMED, 1, 1).entities]
+    left, bottom = paper.content.left - 12, paper.content.bottom
+    ends = [bottom, bottom + 25, bottom + 60, bottom + 85, bottom + 110, bottom + 145]
+    assert paper.content.left == 20
+    margin = [e for e in entities if isinstance(e, Strokes) and e.role == "frame" and e.starts.real.max() <= 20]
+    assert enclosed([*margin, *sides(paper)], "frame") >= grid([left, left + 5, left + 12], ends)
+    lying = [t for t in texts_of(entities) if t.at.real < 20]
+    captions = ["Orig. no.", "Signed, date", "Replaces no.", "Copy no.", "Signed, date"]
+    assert [t.text for t in lying] == captions
+    for text, (low, high) in zip(lying, pairwise(ends), strict=True):
+        assert text.angle == pytest.approx(np.pi / 2)
+        assert corners(text).imag.mean() == pytest.approx((low + high) / 2)
+        # Half a capital to the left of the base line is the middle of the column.
+        assert text.at.real - text.height / 2 == pytest.approx(left + 2.5)
+        assert text.height <= 2.5
+
+
+def sides(paper: Format) -> list[Entity]:
+    """The left side of the frame, as a line beside the margin."""
+    inside = paper.content
+    return [Strokes(np.array([inside.corner]), np.array([complex(inside.left, inside.top)]), "frame")]
+
+
+@pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "gost"], ids=repr)
+def test_the_number_stands_once_more_in_the_corner_that_is_filed_on_top(paper):
+    entities, inside_frame = [*frame(paper, NAMED, 1, 1).entities], paper.content
+    (number,) = (t for t in texts_of(entities) if t.field == "number" and t.angle)
+    aside = paper.orientation == "portrait" and paper.name != "A4"
+    # Beside the binding margin where the sheet lies when filed, else at the right.
+    field = (
+        (inside_frame.right - 14, inside_frame.top - 70, inside_frame.right, inside_frame.top)
+        if aside
+        else (inside_frame.left, inside_frame.top - 14, inside_frame.left + 70, inside_frame.top)
+    )
+    assert number.angle == pytest.approx(np.pi / 2 if aside else np.pi)
+    assert number.height == 5.0
+    up = 1j * np.exp(1j * number.angle)
+    middle = complex((field[0] + field[2]) / 2, (field[1] + field[3]) / 2)
+    assert number.at + up * number.height / 2 == pytest.approx(middle, abs=1e-9)
+    edges = [Stroke(np.array(inside_frame.corners), "frame", closed=True)]
+    whole = [*(strokes(edge) for edge in edges), *(e for e in entities if isinstance(e, Strokes))]
+    assert field in enclosed(whole, "frame")
+    assert Box(*field).grown(4.0) in taken(paper, 4.0)
+
+
+def strokes(outline: Stroke) -> Strokes:
+    return Strokes(outline.points, np.roll(outline.points, -1), outline.role)
+
+
+@pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "iso"], ids=repr)
+def test_the_border_of_references_is_divided_from_the_centre_in_fields_of_50_mm(paper):
+    """ISO 5457: a border of 5 mm, figures across and letters from above, none of them I or O."""
+    entities, inner = [*frame(paper, NAMED, 1, 1).entities], paper.content
+    outer, middle = inner.grown(5), complex(*paper.size) / 2
+    across = ends_of_fields(middle.real, inner.left, inner.right)
+    up = ends_of_fields(middle.imag, inner.bottom, inner.top)
+    border = [strokes(e) for e in entities if isinstance(e, Stroke)]
+    assert {e.role for e in border} == {"frame", "ruling"}
+    corner = [Strokes(np.array(inner.corners), np.array(outer.corners), "ruling")]
+    cuts = [e for e in entities[1:] if isinstance(e, Strokes) and e.role == "ruling"][:4]
+    faces = shapely.polygonize(
+        shapely.get_parts(
+            shapely.unary_union(
+                [
+                    shapely.LineString([(a.real, a.imag), (b.real, b.imag)])
+                    for e in [*border, *corner, *cuts]
+                    for a, b in zip(e.starts, e.ends, strict=True)
+                ]
+            )
+        ).tolist()
+    )
+    letters = [t for t in texts_of(entities) if t.height == 2.5 and len(t.text) <= 2 and not inner.holds(box_of([t]))]
+    # A field and a reference for each, on both sides; the frame itself encloses one more.
+    assert len(faces.geoms) == 2 * (len(across) + len(up) - 2) + 1
+    figures, names = [str(k + 1) for k in range(len(across) - 1)], "ABCDEFGHJKLMNPQRSTUVWXYZ"[: len(up) - 1]
+    for edge in (inner.bottom - 2.5, inner.top + 2.5):
+        row = {t.text: t.at for t in letters if t.at.imag == edge - 1.25}
+        middles = [complex((a + b) / 2, edge - 1.25) for a, b in pairwise(across)]
+        assert row == pytest.approx(dict(zip(figures, middles, strict=True)))
+    for edge in (inner.left - 2.5, inner.right + 2.5):
+        column = {t.text: t.at for t in letters if t.at.real == edge}
+        middles = [complex(edge, (a + b) / 2 - 1.25) for b, a in pairwise(up[::-1])]
+        assert column == pytest.approx(dict(zip(names, middles, strict=True)))
+    assert {t.align for t in letters} == {"center"}
+    assert len(letters) == 2 * (len(across) + len(up) - 2)
+
+
+def ends_of_fields(centre: float, low: float, high: float) -> list[float]:
+    """Every 50 mm from the centre to both sides; what is left at an end is part of the last field if it is short."""
+    cuts = [x for x in np.arange(centre - 1000, centre + 1001, 50) if low < x < high]
+    return [low, *(x for x in cuts if x - low > 25 and high - x > 25), high]
+
+
+@pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "iso"], ids=repr)
+def test_centring_marks_run_ten_mm_from_the_border_into_the_sheet(paper):
+    marks = next(e for e in frame(paper, NAMED, 1, 1).entities if isinstance(e, Strokes) and e.role == "frame")
+    (wide, high), inner = paper.size, paper.content
+    expected = {
+        (wide / 2, inner.top + 5, wide / 2, inner.top - 5),
+        (wide / 2, inner.bottom - 5, wide / 2, inner.bottom + 5),
+        (inner.left - 5, high / 2, inner.left + 5, high / 2),
+        (inner.right + 5, high / 2, inner.right - 5, high / 2),
+    }
+    assert {(a.real, a.imag, b.real, b.imag) for a, b in zip(marks.starts, marks.ends, strict=True)} == expected
+    kept = taken(paper, 4.0)[2:]
+    for x1, y1, x2, y2 in expected:
+        assert any(
+            (min(x1, x2) - 1, min(y1, y2) - 1, max(x1, x2) + 1, max(y1, y2) + 1)
+            == (box.left, box.bottom, box.right, box.top)
+            for box in kept
+        )
+
+
+@pytest.mark.parametrize("paper", EVERY, ids=repr)
+def test_nothing_else_stands_on_the_room_of_title_block_and_gauge(paper):
+    entities = [*frame(paper, NAMED, 1, 1).entities]
+    block, rule = taken(paper, 4.0)[:2]
+    assert block == title_box(paper).grown(4.0)
+    assert (title_box(paper).right, title_box(paper).bottom) == (paper.content.right, paper.content.bottom)
+    (line,) = (e for e in entities if isinstance(e, Strokes) and e.role == "gauge")
+    at = complex(line.starts[0])
+    assert rule == gauge_box(at).grown(4.0)
+    # In the lower left corner, where the title block leaves room, else above it.
+    beside = paper.content.left + 7 + 105 < title_box(paper).left
+    assert at == complex(paper.content.left + 7, paper.content.bottom + 5 if beside else title_box(paper).top + 5)
+    assert overlaps(compose([], [], NAMED, paper.name, paper.frame, orientation=paper.orientation)) == []
+
+
+def test_the_gauge_is_a_rule_of_100_mm_with_a_line_every_10():
+    line, ticks, *texts = gauge(7 + 5j)
+    assert isinstance(line, Strokes)
+    assert isinstance(ticks, Strokes)
+    assert (line.starts.tolist(), line.ends.tolist()) == ([7 + 5j], [107 + 5j])
+    assert ticks.starts.tolist() == [7 + 10 * k + 5j for k in range(11)]
+    assert [(z.real, z.imag) for z in ticks.ends - ticks.starts] == [(0, 3.0 if k % 5 == 0 else 1.5) for k in range(11)]
+    numbers, (said,) = texts[:3], texts[3:]
+    assert [(t.text, t.at) for t in numbers] == [("0", 7 + 9j), ("50", 57 + 9j), ("100", 107 + 9j)]
+    assert (said.text, said.at, said.height, said.align) == ("mm, true to scale", 82 + 9j, 2.0, "center")
+    assert {(t.height, t.align) for t in numbers} == {(2.5, "center")}
+    room = gauge_box(7 + 5j)
+    assert room.holds(box_of([line, ticks, *texts]))
+    assert (room.left, room.bottom, room.right, room.top) == (3, 3, 112, 13)
+
+
+@pytest.mark.parametrize("align", ["center", "left"])
+def test_a_text_is_lowered_to_seven_tenths_before_it_is_broken(align):
+    text = "two words"
+    wide = width(text, 1.0)
+    for share, lines in ((1.5, 1), (1.0, 1), (0.71, 1), (0.69, 2)):
+        # 2 mm at the sides stay free.
+        found = fitted(text, (10.0, 20.0, 12.0 + share * wide * 5.0, 60.0), 5.0, align)
+        assert len(found) == lines
+        assert found[0].height == pytest.approx(5.0 if lines == 2 else min(5.0, 5.0 * share))
+        assert all(inside(line, (11.0 - 1e-9, 20.5, 11.0 + share * wide * 5.0 + 1e-9, 59.5)) for line in found)
+        left, middle = 11.0, (22.0 + share * wide * 5.0) / 2
+        assert {(line.at.real, line.align) for line in found} == {(left if align == "left" else middle, align)}
+
+
+def test_a_broken_text_is_as_large_as_its_field_allows_and_in_its_middle():
+    words = ["cam", "mechanism", "of", "an", "engine"]
+    field = (0.0, 0.0, 30.0, 14.0)
+    found = fitted(" ".join(words), field, 7.0)
+    height = found[0].height
+    assert " ".join(line.text for line in found) == " ".join(words)
+    assert max(width(line.text, height) for line in found) <= 28.0
+    assert 1.6 * len(found) * height <= 13.0
+    # One step of lowering less would not have fitted.
+    assert height / 7.0 == pytest.approx(0.95 ** round(np.log(height / 7.0) / np.log(0.95)))
+    larger = height / 0.95
+    assert max(width(line.text, larger) for line in found) > 28.0 or 1.6 * len(found) * larger > 13.0
+    assert {round(a.at.imag - b.at.imag, 9) for a, b in pairwise(found)} == {round(1.6 * height, 9)}
+    assert (found[0].at.imag + height + found[-1].at.imag) / 2 == pytest.approx(7.0)
+
+
+def test_nothing_is_written_of_what_is_empty():
+    assert fitted("", (0, 0, 10, 10), 3.5) == []
+    assert [t.at for t in stacked(["a", "", "b"], 10 + 10j, 1.5, 2.0, "left")] == [10 + 10j, 10 + 4j]
+    (text,) = entry(replace(TITLE, mass="3 kg"), "mass", (0, 0, 20, 10), 3.5)
+    assert (text.text, text.field) == ("3 kg", "mass")
