@@ -65,33 +65,44 @@ ROOMS = {
             *("tests/exercises/test_simulated_counts.py", "tests/exercises/test_marking.py"),
         ),
     ),
-    "sheets": Room(("graphcam/sheets",), ("graphcam/sheets", "tests/sheets")),
+    "sheets": Room(
+        ("graphcam/sheets",),
+        (
+            *("graphcam/sheets", "tests/sheets/test_boxes_and_rooms.py", "tests/sheets/test_writing.py"),
+            *("tests/sheets/test_expand.py", "tests/sheets/test_sampling.py", "tests/sheets/test_fields.py"),
+            *("tests/sheets/test_occupancy.py", "tests/sheets/test_tables.py", "tests/sheets/test_rendered.py"),
+            "tests/sheets",
+        ),
+    ),
 }
 
-EXCHANGED: dict[type[ast.AST], tuple[type[ast.AST], ...]] = {
-    ast.Add: (ast.Sub,), ast.Sub: (ast.Add,), ast.Mult: (ast.Div,), ast.Div: (ast.Mult,), ast.FloorDiv: (ast.Mult,),
-    ast.Mod: (ast.Mult,), ast.Pow: (ast.Mult,), ast.MatMult: (ast.Mult,),
-    ast.Lt: (ast.LtE, ast.GtE), ast.LtE: (ast.Lt, ast.Gt), ast.Gt: (ast.GtE, ast.LtE), ast.GtE: (ast.Gt, ast.Lt),
-    ast.Eq: (ast.NotEq,), ast.NotEq: (ast.Eq,), ast.Is: (ast.IsNot,), ast.IsNot: (ast.Is,), ast.In: (ast.NotIn,),
-    ast.NotIn: (ast.In,), ast.And: (ast.Or,), ast.Or: (ast.And,), ast.BitAnd: (ast.BitOr,),
-}  # fmt: skip
+EXCHANGED = {
+    name: others.split()
+    for name, _, others in (
+        pair.partition(" ")
+        for pair in (
+            *("Add Sub", "Sub Add", "Mult Div", "Div Mult", "FloorDiv Mult", "Mod Mult", "Pow Mult", "MatMult Mult"),
+            *("Lt LtE GtE", "LtE Lt Gt", "Gt GtE LtE", "GtE Gt Lt", "Eq NotEq", "NotEq Eq", "Is IsNot", "IsNot Is"),
+            *("In NotIn", "NotIn In", "And Or", "Or And", "BitAnd BitOr"),
+        )
+    )
+}
+"""What is put in place of an operator, by the names that they have in a tree."""
 FUNCTIONS = [
-    ("min", "max"),
-    ("minimum", "maximum"),
-    ("argmin", "argmax"),
-    ("any", "all"),
-    ("floor", "ceil"),
-    ("sin", "cos"),
+    *(("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("any", "all"), ("floor", "ceil"), ("sin", "cos")),
 ]
 PARTS = [("real", "imag"), ("left", "right"), ("top", "bottom"), ("width", "height"), ("start", "end")]
 OPPOSITE = {a: b for pair in FUNCTIONS + PARTS for a, b in (pair, pair[::-1])}
-DISPLAYED = (ast.expr, ast.keyword, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)
+SHOWN = (ast.expr, ast.keyword, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Return)
 """What says more of a mutant than the changed expression alone, which may be a mere number."""
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One fault: what stands in a field of a node of the tree of a file, and what is put there instead."""
+    """One fault: what stands in a field of a node of the tree of a file, and what is put there instead.
+
+    shown : the part of the tree that says what was done; None if it is what is exchanged
+    """
 
     file: str
     tree: ast.Module
@@ -99,6 +110,7 @@ class Mutant:
     field: str
     place: int | None
     new: ast.AST
+    shown: ast.AST | None
 
     @property
     def old(self) -> ast.AST:
@@ -122,11 +134,9 @@ class Mutant:
 
     def difference(self) -> tuple[str, str]:
         """What stood there and what it became, with what stands about it."""
-        shown = isinstance(self.node, DISPLAYED)
-        return (
-            ast.unparse(self.node if shown else self.old),
-            self.source(self.node) if shown else ast.unparse(self.new),
-        )
+        if self.shown is None:
+            return ast.unparse(self.old), ast.unparse(self.new)
+        return ast.unparse(self.shown), self.source(self.shown)
 
     def _put(self, value: ast.AST) -> None:
         if self.place is None:
@@ -143,12 +153,12 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
     """
     match node:
         case ast.BinOp(op=operator) | ast.AugAssign(op=operator) | ast.BoolOp(op=operator):
-            for other in EXCHANGED.get(type(operator), ()):
-                yield _changed(node, op=other())
+            for other in _exchanged(operator):
+                yield _changed(node, op=other)
         case ast.Compare(ops=operators):
             for k, operator in enumerate(operators):
-                for other in EXCHANGED.get(type(operator), ()):
-                    yield _changed(node, ops=[*operators[:k], other(), *operators[k + 1 :]])
+                for other in _exchanged(operator):
+                    yield _changed(node, ops=[*operators[:k], other, *operators[k + 1 :]])
         case ast.UnaryOp(op=ast.USub() | ast.Not(), operand=operand):
             yield operand
         case ast.Constant(value=bool(value)):
@@ -167,6 +177,10 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
             pass
 
 
+def _exchanged(operator: ast.AST) -> list[ast.AST]:
+    return [getattr(ast, name)() for name in EXCHANGED.get(type(operator).__name__, ())]
+
+
 def _changed(node: ast.AST, **fields: object) -> ast.AST:
     new = copy.copy(node)
     for name, value in fields.items():
@@ -177,17 +191,19 @@ def _changed(node: ast.AST, **fields: object) -> ast.AST:
 def mutants(file: str, source: str) -> Iterator[Mutant]:
     """Every mutant of one file, in the order of its text."""
     tree = ast.parse(source)
-    waiting: list[ast.AST] = [tree]
+    waiting: list[tuple[ast.AST, ast.AST | None]] = [(tree, None)]
     while waiting:
-        node = waiting.pop()
-        below: list[ast.AST] = []
+        node, shown = waiting.pop()
+        if not isinstance(node, ast.Slice):
+            shown = node if isinstance(node, SHOWN) else None
+        below: list[tuple[ast.AST, ast.AST | None]] = []
         for field, place, child in _children(node):
-            below.append(child)
+            below.append((child, shown))
             for new in instead(child):
-                yield Mutant(file, tree, node, field, place, new)
+                yield Mutant(file, tree, node, field, place, new, shown)
             condition = field == "test" and isinstance(node, ast.If | ast.IfExp | ast.While)
             if condition and not isinstance(child, ast.Compare | ast.UnaryOp):
-                yield Mutant(file, tree, node, field, place, ast.UnaryOp(ast.Not(), child))
+                yield Mutant(file, tree, node, field, place, ast.UnaryOp(ast.Not(), child), shown)
         waiting += reversed(below)
 
 
@@ -270,11 +286,8 @@ def equivalent(root: Path) -> dict[tuple[str, str, str], str]:
 def judged(room: Room, root: Path, count: int, seed: int, workers: int = 1) -> Iterator[tuple[Mutant, str]]:
     """The mutants drawn, each with what became of it."""
     same = equivalent(root)
-    tests = [
-        path.relative_to(root).as_posix()
-        for test in room.tests
-        for path in (sorted((root / test).glob("test_*.py")) or [root / test])
-    ]
+    files = [path for test in room.tests for path in (sorted((root / test).glob("test_*.py")) or [root / test])]
+    tests = list(dict.fromkeys(path.relative_to(root).as_posix() for path in files))
     with tempfile.TemporaryDirectory() as place:
         folders: SimpleQueue[Path] = SimpleQueue()
         for worker in range(workers):

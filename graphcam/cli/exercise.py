@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from typer import Argument, Option
 
-from graphcam.cli.exercise_export import export
-from graphcam.cli.exercise_grade import grade
-from graphcam.cli.exercise_speed import speed
-from graphcam.cli.shared import DEFAULT_FOLDER, one_message, print_table, progress_lines
+from graphcam.cli.shared import DEFAULT_FOLDER, one_message, print_table, progress_bar, progress_lines
+from graphcam.exercises.exports.systems import LearningSystem
+from graphcam.exercises.running.levels import Level
 
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
@@ -129,5 +129,96 @@ def make(
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 
 
-for command in (grade, export, speed):
-    exercise.command()(command)
+@exercise.command()
+def grade(
+    folder: Annotated[Path, Argument(metavar="DIR", help="The folder with a folder for every student.")],
+    secret_file: Annotated[Path, Option(metavar="F", help="The course's secret.")],
+    out: Annotated[Path, Option(metavar="CSV", help="The grades; reports of that name go beside it.")],
+    exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
+    level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 nothing is run.")] = Level.L0,
+    seconds: Annotated[float, Option(min=0.1, help="What a notebook's code may take.")] = 10.0,
+    workers: Annotated[
+        int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
+    ] = os.cpu_count() or 1,
+    cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
+    feedback: Annotated[Path | None, Option(metavar="DIR", help="A page for every student goes there.")] = None,
+    gradebook: Annotated[str, Option(metavar="URL", help="Also enter the scores here, sqlite:///gradebook.db.")] = "",
+) -> None:
+    """Grade what a course handed in: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
+
+    An interrupted run goes on where it was when it is started again.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise grade hand-ins --secret-file secret --out grades.csv
+
+    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --level L2 --feedback pages
+    """
+    from graphcam.exercises.grading.course_grading import Course, grade_course
+
+    with one_message(), progress_bar("hand-ins") as step:
+        course = Course(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook)
+        said = grade_course(course, step)
+    typer.echo(said)
+
+
+@exercise.command()
+def export(
+    name: Annotated[str, Argument(metavar="NAME", help="An exercise, or the path of its file.")],
+    target: Annotated[LearningSystem, Option("--format", help="The system that it is for.")],
+    count: Annotated[int, Option(min=1, max=1000, metavar="N", help="How many variants.")] = 1,
+    roster: Annotated[Path | None, Option(metavar="CSV", help="A variant for each of these students instead.")] = None,
+    secret_file: Annotated[
+        Path | None, Option(metavar="F", help="The course's secret; without it a new one is made.")
+    ] = None,
+    language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
+    out: Annotated[Path, Option(metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER / "export",
+) -> None:
+    """Export variants of an exercise for Moodle, nbgrader or Gradescope.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise export whole-cam --format moodle --count 20 --out moodle
+
+    graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
+    """
+    from graphcam.exercises.course.course_folder import read_secret
+    from graphcam.exercises.course.roster import read_roster
+    from graphcam.exercises.exports.export import export as write
+
+    with one_message(), progress_bar("variants") as step:
+        secret = read_secret(secret_file) if secret_file else None
+        students = [f"variant-{k:0{len(str(count))}d}" for k in range(1, count + 1)]
+        if roster:
+            students = [student.id for student in read_roster(roster)]
+        write(name, target, students, out, secret, step, language)
+    variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
+    typer.echo(f"{variants} of {name} for {target} in {out}")
+
+
+@exercise.command()
+def speed(
+    names: Annotated[
+        list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
+    ] = None,
+) -> None:
+    """Measure how many hand-ins one core reads and marks in a second, simulated students' as answers.toml.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise speed
+
+    graphcam exercise speed inversion-translating
+    """
+    from graphcam.bench.timing import Timer
+    from graphcam.exercises.definition.exercise_file import find_exercise, library
+    from graphcam.exercises.grading.marking_speed import marking_speed
+
+    progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
+    rows: list[list[str]] = []
+    with one_message():
+        for name in names or library():
+            progress(name)
+            found = marking_speed(find_exercise(name), timer)
+            rows.append([found.exercise, f"{found.careful:.0f}", f"{found.wrong:.0f}"])
+    print_table(("hand-ins a second, one core", "careful", "with a mistake"), rows)

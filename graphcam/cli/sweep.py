@@ -24,7 +24,7 @@ def sweep(
 
     graphcam sweep space.toml --out results.parquet --workers 8
     """
-    from graphcam.sweeps.space_file import load_space
+    from graphcam.sweeps.space import load_space
     from graphcam.sweeps.sweep_file import sweep_to_file
     from graphcam.workers import executor_of
 

@@ -20,7 +20,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.peaks import max_acceleration, max_velocity
+from graphcam.mechanism.stationary import max_acceleration, max_velocity
 from graphcam.showing import by_parts
 from graphcam.words import Caption, sequence
 

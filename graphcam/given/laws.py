@@ -16,9 +16,8 @@ from functools import lru_cache, partial
 import numpy as np
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.circular import sine_cosine
 from graphcam.given.motion_law import Law
-from graphcam.given.pieces import Floats, Side
+from graphcam.given.pieces import Floats, Side, sine_cosine
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 

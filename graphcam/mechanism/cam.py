@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.circular import sine_cosine
 from graphcam.given.follower import Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
-from graphcam.given.pieces import chunks
+from graphcam.given.pieces import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross

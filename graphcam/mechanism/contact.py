@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.spring_load import SpringLoad
-from graphcam.mechanism.one_sided import ROUNDING, ValueAt, greatest
-from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
+from graphcam.mechanism.stationary import ROUNDING, Places, ValueAt, greatest, smooth_pieces, stationary_places
 from graphcam.showing import by_parts
 
 

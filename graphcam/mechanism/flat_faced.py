@@ -17,8 +17,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.kinematics import Appearance, Complexes, Kinematics, Pair, Values
-from graphcam.mechanism.peaks import velocity_range
-from graphcam.mechanism.stationary import stationary_places
+from graphcam.mechanism.stationary import stationary_places, velocity_range
 
 
 @dataclass(frozen=True, eq=False)

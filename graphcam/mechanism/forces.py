@@ -30,8 +30,7 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Values, pair_cross
-from graphcam.mechanism.one_sided import ValueAt, greatest
-from graphcam.mechanism.stationary import Places
+from graphcam.mechanism.stationary import Places, ValueAt, greatest
 from graphcam.showing import by_parts
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)

@@ -19,8 +19,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.one_sided import ValueAt, greatest
-from graphcam.mechanism.stationary import Places
+from graphcam.mechanism.stationary import Places, ValueAt, greatest
 from graphcam.showing import by_parts
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3

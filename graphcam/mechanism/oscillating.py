@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.circular import sine_cosine
 from graphcam.given.follower import Oscillating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
+from graphcam.given.pieces import sine_cosine
 from graphcam.mechanism.kinematics import Appearance, Pair, RollerKinematics, Values
 
 

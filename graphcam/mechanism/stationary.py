@@ -1,15 +1,20 @@
-"""Where a quantity of the motion can have its extremes: the ends of the smooth pieces, and the roots of its slope."""
+"""The extremes of a motion: of its velocity and acceleration, and of any quantity of it, one that jumps included.
+
+An extreme lies at an end of a smooth piece, or where the slope vanishes.  Source of v_max = C_v h/F and a_max =
+C_a h/F^2: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapter 3.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.laws import Floats
+from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Dwell, Motion
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.roots import roots
@@ -80,3 +85,74 @@ def _roots(
     inside = phase[piece]
     bracketed = roots(lambda u: slope(motion.at(inside, u)), u[piece, left], u[piece, left + 1])
     return np.concatenate([inside, phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])
+
+
+ROUNDING = 32 * np.finfo(np.float64).eps
+"""Values that differ by less than this part of their terms are the same value."""
+
+
+class ValueAt(NamedTuple):
+    """A value at a cam angle [rad]; at a jump it is the limit from the named side."""
+
+    value: float
+    phi: float
+    side: Side
+
+
+def greatest(
+    motion: Motion, slope: Callable[[Values], Floats], quantity: Callable[[Places], Floats], size: float = 0.0
+) -> ValueAt:
+    """The supremum of a quantity over the turn, to full precision; of equal ones the first.
+
+    slope : the quantity's derivative by phi, or anything of its sign, as a function of (s, v, a, j)
+    size : of the terms that the quantity is a sum of, if they are larger than itself; NaN values are left out
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "rectangular"), gc.Return(30, pi, "rectangular")])
+    >>> value, phi, side = greatest(motion, lambda values: values[3], lambda places: places.values[2])
+    >>> round(value, 3), phi, side  # the acceleration just after the start, and on to the middle
+    (12.159, 0.0, 'right')
+    """
+    places = stationary_places(motion, slope)
+    values, pieces = quantity(places), len(smooth_pieces(motion)[0])
+    top = np.nanmax(values)
+    best = np.flatnonzero(values >= top - ROUNDING * max(size, abs(top)))
+    k = best[np.argmin(places.phi[best])]
+    # The beginnings of the pieces come first, then their ends.
+    return ValueAt(float(values[k]), float(places.phi[k]), "left" if pieces <= k < 2 * pieces else "right")
+
+
+def velocity_range(motion: Motion) -> tuple[float, float]:
+    """The least v, on a return, and the greatest, on a rise [mm/rad].
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> velocity_range(gc.Motion([gc.Rise(30, 2.5, "cycloidal"), gc.Dwell(2 * pi - 4.5), gc.Return(30, 2.0, "2-3")]))
+    (-22.5, 24.0)
+    """
+    moving = [p for p in motion.phases if not isinstance(p, Dwell)]
+    peaks = [p.direction * p.normalised.peak_velocity * p.lift / p.angle for p in moving]
+    return min(peaks), max(peaks)
+
+
+def max_velocity(motion: Motion) -> float:
+    """The greatest |v| over the turn [mm/rad].
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> max_velocity(gc.Motion([gc.Rise(30, 2.0, "cycloidal"), gc.Return(30, 2 * pi - 2, "cycloidal")]))
+    30.0
+    """
+    return max(p.normalised.peak_velocity * p.lift / p.angle for p in motion.phases if not isinstance(p, Dwell))
+
+
+def max_acceleration(motion: Motion) -> float:
+    """The greatest |a| over the turn [mm/rad^2], of the two sides at a jump.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> max_acceleration(gc.Motion([gc.Rise(30, 2.0, "rectangular"), gc.Return(30, 2 * pi - 2, "rectangular")]))
+    30.0
+    """
+    return max(p.normalised.peak_acceleration * p.lift / p.angle**2 for p in motion.phases if not isinstance(p, Dwell))

@@ -3,18 +3,16 @@
 In a notebook: :func:`~graphcam.notebooks.stages.show_steps` and :func:`~graphcam.notebooks.stages.drawing`,
 :func:`~graphcam.notebooks.shown_tables.compared`, :func:`~graphcam.notebooks.picture.chart`,
 :class:`~graphcam.notebooks.question.Question`, :func:`~graphcam.notebooks.explore.explore` and
-:func:`~graphcam.notebooks.variation.changed`.
+:func:`~graphcam.notebooks.explore.changed`.
 
 The drawings are those of :mod:`graphcam.sheets`: the same marks, the same renderer.
 """
 
-from graphcam.notebooks.explore import Slider, explore
+from graphcam.notebooks.explore import Slider, changed, explore
 from graphcam.notebooks.picture import Picture, chart, picture_of, picture_of_page
-from graphcam.notebooks.playing import player
 from graphcam.notebooks.question import Question
 from graphcam.notebooks.shown_tables import compared, table
-from graphcam.notebooks.stages import drawing, show_steps
-from graphcam.notebooks.variation import changed
+from graphcam.notebooks.stages import drawing, player, show_steps
 
 __all__ = [
     "Picture",

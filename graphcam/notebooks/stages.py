@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,8 +15,14 @@ from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.notebooks.picture import Picture
 from graphcam.plots.step_board import board_of
+from graphcam.report.documents import sheet_of
+from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Page
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Tell, say
+
+if TYPE_CHECKING:
+    from IPython.display import HTML
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,3 +125,22 @@ def show_steps(construction: Construction, *numbers: int, tell: Tell = str, on: 
     for stage in stages(construction, tell, on):
         if not numbers or stage.number in numbers:
             display(stage)
+
+
+HEIGHT = 720
+"""Of the frame in which the player stands, in pixels of a page."""
+
+
+def player(solution: AnySolution) -> HTML:
+    """The step player of a solution as a frame that holds the whole page: nothing is fetched.
+
+    >>> import graphcam as gc
+    >>> player(gc.solve(gc.builtin_task())).data.startswith('<div class="player"><iframe')
+    True
+    """
+    from IPython.display import HTML
+
+    page = escape(player_of(solution, sheet_of(solution)))
+    title = escape(solution.tell(say("Step player")))
+    frame = f'<iframe title="{title}" style="width: 100%; height: {HEIGHT}px" srcdoc="{page}"></iframe>'
+    return HTML(f'<div class="player">{frame}</div>')

@@ -11,7 +11,7 @@ from graphcam.drafting.ink import Points, say
 from graphcam.drafting.units import unit as unit_of
 from graphcam.given.laws import Floats
 from graphcam.report.mechanism_scene import MechanismScene, TurnPhase
-from graphcam.solving.json_values import plain_number
+from graphcam.solving.shown_solution import plain_number
 from graphcam.words import Tell
 
 DECIMALS = 3

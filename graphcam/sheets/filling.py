@@ -11,9 +11,19 @@ from graphcam.drafting.scale import STANDARD_RATIOS
 from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
-from graphcam.sheets.packing import Preference, Room
+from graphcam.sheets.packing import (
+    Preference,
+    Room,
+    bottom_left,
+    bottom_right,
+    high,
+    left,
+    middle,
+    top,
+    top_left,
+    top_right,
+)
 from graphcam.sheets.panels import Panel, apart, clusters, shares, stand
-from graphcam.sheets.preferences import bottom_left, bottom_right, high, left, middle, top, top_left, top_right
 from graphcam.sheets.tables import Block
 
 BORDER = 4.0

@@ -16,8 +16,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.mechanism.cam import Cam
-from graphcam.solving.json_values import plain_quantities, plain_stations
-from graphcam.solving.shown_solution import FILES, ShownSolution
+from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import less_round, warnings_of

@@ -22,7 +22,7 @@ from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.one_sided import ValueAt
+from graphcam.mechanism.stationary import ValueAt
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.words import sequence

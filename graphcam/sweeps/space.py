@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, fields
 from functools import cached_property
+from importlib import resources
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,6 +22,7 @@ from graphcam.given.limits import Limits
 from graphcam.sweeps.designs import Designs, Kind
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
+from graphcam.tasks.task_file import Classes, checked, other_file, parse_toml, read_content
 
 ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
 """What a file gives and gets in degrees."""
@@ -213,3 +216,33 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
     for word in values:
         if word not in known:
             raise DesignError(name, word, "a name or a list of names in quotes", nearest(str(word), known))
+
+
+_REMEDY = "graphcam/data/space.toml in the package is a commented example"
+
+_CLASSES: Classes = {
+    (): Space,
+    ("motion",): SpaceMotionTable,
+    ("cam",): SpaceCamTable,
+    ("limits",): SpaceLimitsTable,
+}
+
+
+def load_space(path: str | Path) -> Space:
+    """The space of designs in a TOML file.
+
+    Raises
+    ------
+    TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong
+
+    >>> len(load_space(example_space()))
+    34850
+    """
+    with other_file("space file", _REMEDY):
+        data = parse_toml(str(path), read_content(path))
+        return checked(Space, _CLASSES, str(path), data, data)
+
+
+def example_space() -> Path:
+    """The space file that comes with graphcam."""
+    return Path(str(resources.files("graphcam").joinpath("data", "space.toml")))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,53 @@ from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.followers import EXACT
-from graphcam.mechanism.kinematics import Kinematics
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Numbers, Sought, greatest
 from graphcam.sweeps.law_tables import Legs
-from graphcam.sweeps.sought import Sharpness, Steepness
+
+
+@dataclass(frozen=True, eq=False)
+class _OfManyCams:
+    kin: Kinematics
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The same of some of the cams."""
+        return type(self)(self.kin.part(which))
+
+
+class Steepness(_OfManyCams):
+    """tan(alpha), which grows with the pressure angle."""
+
+    signed: ClassVar[bool] = True
+
+    def reading(self, values: Values) -> Floats:
+        """tan(alpha)."""
+        (along, across), _ = self.kin.pressure(values)
+        return np.asarray(across / along)
+
+    def slope(self, values: Values) -> Floats:
+        """Of the sign of alpha'."""
+        return pair_cross(*self.kin.pressure(values))
+
+
+class Sharpness(_OfManyCams):
+    """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
+
+    signed: ClassVar[bool] = False
+
+    def reading(self, values: Values) -> Floats:
+        """kappa [1/mm], or -rho [mm] of a flat face's cam."""
+        return self.kin.sharpness(values)
+
+    def slope(self, values: Values) -> Floats:
+        """Of the sign of kappa'."""
+        return self.kin.curvature_slope(values)
+
+    def radius(self, sharpest: Floats) -> Floats:
+        """The least convex radius [mm], inf where nothing is convex; under a flat face the least rho."""
+        return self.kin.radius_of(sharpest)
+
 
 QUANTITIES = (
     *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),

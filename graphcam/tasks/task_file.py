@@ -7,6 +7,8 @@ import functools
 import json
 import re
 import tomllib
+from collections.abc import Generator
+from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -126,6 +128,17 @@ def read_content(path: str | Path) -> bytes:
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise _not_a_file(path, f"not readable ({why})", "check the name and the permissions") from None
+
+
+@contextmanager
+def other_file(kind: str, example: str) -> Generator[None]:
+    """Errors of a file that is no task file, told of that kind of file: a task's example is of no use there."""
+    try:
+        yield
+    except TaskError as error:
+        remedy = example if error.remedy.endswith(EXAMPLE) else error.remedy
+        field, remedy = (text.replace("task file", kind) for text in (error.field, remedy))
+        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:

@@ -6,11 +6,10 @@ from functools import cache
 
 import numpy as np
 
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
 

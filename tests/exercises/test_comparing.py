@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from issued_variants import issued, key
 
-from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.marking.comparing import compare
 

@@ -11,9 +11,8 @@ import pytest
 from issued_variants import issued
 
 from graphcam.exercises.definition.exercise import Asked
-from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.hypothesis import Hypothesis
 from graphcam.exercises.marking import diagnosis as module
 from graphcam.exercises.marking.comparing import ComparedAnswer
 from graphcam.exercises.marking.diagnosis import diagnose

@@ -7,7 +7,7 @@ import pytest
 from issued_variants import issued, key
 from test_drawn_answers import data_of, new, origin
 
-from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.reading.submission_files import from_files

@@ -9,8 +9,7 @@ from russian import english_words
 
 from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise, library, load_exercise
-from graphcam.exercises.definition.misconceptions import misconception
-from graphcam.exercises.definition.mistakes import CATALOGUE
+from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.language import languages
 from graphcam.tasks.task_file import builtin_text
 

@@ -17,9 +17,9 @@ from russian import english_words
 
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
-from graphcam.exercises.definition.answers import Answers
+from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.moodle import moodle_xml

@@ -8,8 +8,8 @@ import math
 import numpy as np
 from issued_variants import issued, key, marked, outcomes
 
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Answers
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Diagnosis, Marked

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from issued_variants import issued, outcomes
 
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.key.answer_key import AnswerKey, Key
+from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
+from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.hypothesis import Hypothesis
 from graphcam.exercises.marking.marking import mark
 
 FIRST = Asked("first", "A length.", "integration", reading="v", unit="mm", marks=1.0)

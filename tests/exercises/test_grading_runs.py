@@ -25,7 +25,7 @@ from graphcam.errors import GraphcamError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise_file import exercise_path
-from graphcam.exercises.grading import course_grading as grading_course, grading_run as run
+from graphcam.exercises.grading import course_grading as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment
 from graphcam.exercises.grading.submission import read_submission
@@ -70,7 +70,7 @@ def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], WorkerPool]:
     def pool(workers: int, *_: str) -> WorkerPool:
         return WorkerPool(partial(ThreadPoolExecutor, workers), workers)
 
-    monkeypatch.setattr(grading_course, "processes", pool)
+    monkeypatch.setattr(run, "processes", pool)
     return pool
 
 
@@ -131,7 +131,7 @@ def number(cell: str) -> bool:
 @pytest.mark.usefixtures("threads")
 def test_an_unguarded_table_holds_formulas(ours: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The check above finds what it looks for."""
-    monkeypatch.setattr("graphcam.exercises.reports.grades.cell", str)
+    monkeypatch.setattr("graphcam.exercises.reports.report_files.cell", str)
     with pytest.raises(AssertionError):
         test_no_cell_is_a_formula(ours, tmp_path)
 
@@ -242,7 +242,7 @@ def test_wrong_input_is_told_before_anything_is_graded(
 
 
 def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
-    store = grading_course.Store.beside(tmp_path / "new" / "grades.csv", assignment())
+    store = run.Store.beside(tmp_path / "new" / "grades.csv", assignment())
     with store.held(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.held():
         pass
     # The next one may, and where nothing was graded nothing is left.
@@ -338,7 +338,7 @@ def test_a_worker_that_dies_costs_one_record_only(tmp_path: Path, monkeypatch: p
         (place / student).mkdir(parents=True)
         (place / student / "answers.toml").write_text("")
     monkeypatch.setattr(run, "grade", deadly.grade)
-    store = grading_course.Store.beside(tmp_path / "grades.csv", assignment())
+    store = run.Store.beside(tmp_path / "grades.csv", assignment())
     records = run.grade_folder(place, assignment(), processes(2), store, AnswerKeys(tmp_path))
     assert [record["student"] for record in records] == sorted(ids)
     broken = [record["student"] for record in records if any("broke down" in note for note in record["notes"])]

@@ -25,9 +25,8 @@ from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.submission import read_submission
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import Record
-from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import missing
-from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells
 
 SECONDS = 2.0
@@ -48,7 +47,7 @@ def assignment(exercise: Exercise) -> Assignment:
 
 @pytest.fixture(scope="module")
 def answer_key(assignment: Assignment) -> str:
-    from graphcam.exercises.key.issuing import issue
+    from graphcam.exercises.key.keying import issue
 
     return issue(assignment.exercise, STUDENT, SECRET)[1].to_json()
 

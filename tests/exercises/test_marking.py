@@ -13,13 +13,13 @@ from issued_variants import SECRET, issued, key, marked, outcomes
 
 from graphcam.constructions.profile_view import pitch_curve
 from graphcam.drafting.pencil import Pencil
-from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Answers
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.curve_distance import distance_from_drawn
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.marking.marking import mark
 

@@ -118,7 +118,7 @@ def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages:
 
 def test_the_report_tells_what_to_teach_again(pages: Path):
     text = (pages / "grades.html").read_text()
-    from graphcam.exercises.definition.misconceptions import misconception
+    from graphcam.exercises.definition.mistakes import misconception
 
     assert str(misconception("offset-sign").said) in text
     assert "<img" not in text

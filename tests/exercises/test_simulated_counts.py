@@ -94,6 +94,12 @@ def test_the_rates_are_parts_of_the_hands(figures):
     assert found.rows["offset-sign"].right("polar-angle") == 0.0
 
 
+def test_a_mistake_that_is_never_named_is_not_diagnosed_at_all():
+    rows = {"offset-sign": SimulatedRow(4, 0, {"none": 4}), "base-circle": SimulatedRow(4, 1, {"base-circle": 4})}
+    found = Simulation("toy", 1, 1, 4, 0, 0, rows, (1,))
+    assert (found.false_acceptances, found.right_diagnoses) == (1 / 8, 4 / 8)
+
+
 def test_an_exercise_without_mistakes_has_none_that_pass_or_are_misnamed():
     found = Simulation("toy", 1, 1, 5, 0, 0, {}, (1,))
     assert (found.false_acceptances, found.right_diagnoses) == (0.0, 1.0)

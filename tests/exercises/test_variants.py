@@ -12,7 +12,7 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Parameter
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.separation import perfect_hands, promising
 
 GOLDEN = {
@@ -213,7 +213,7 @@ def test_what_cannot_be_told_apart_is_not_promising():
 def test_an_exercise_without_a_diagnosable_variant_says_so(monkeypatch):
     from dataclasses import replace
 
-    monkeypatch.setattr("graphcam.exercises.key.issuing.MOST_DRAWS", 2)
+    monkeypatch.setattr("graphcam.exercises.key.keying.MOST_DRAWS", 2)
     exercise = find_exercise("acceleration-and-scales")
     same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
     with pytest.raises(DesignError, match="leave a misconception out"):

@@ -10,10 +10,9 @@ import pytest
 from numpy.testing import assert_array_equal
 from reference import EPS
 
-from graphcam.given.circular import sine_cosine
 from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.given.pieces import CHUNK
+from graphcam.given.pieces import CHUNK, sine_cosine
 
 LONG_ENOUGH = 5 * CHUNK + 37
 """So many angles over a turn are cut into slices, a piece each."""

@@ -16,7 +16,7 @@ from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.pieces import CHUNK
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.peaks import max_acceleration, max_velocity
+from graphcam.mechanism.stationary import max_acceleration, max_velocity
 
 DEG = math.pi / 180
 

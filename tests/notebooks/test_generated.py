@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
-from graphcam.notebooks import changed, extra
+from graphcam.notebooks import changed, running
 from graphcam.notebooks.generate import write_notebook
 from graphcam.notebooks.html_pages import to_html
 from graphcam.notebooks.running import execute
@@ -169,7 +169,7 @@ def test_a_missing_extra_is_named_and_nothing_is_left(tmp_path, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr(extra, "import_module", missing)
+    monkeypatch.setattr(running, "import_module", missing)
     done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--execute"])
     assert done.exit_code == WRONG_INPUT
     assert "pip install 'graphcam[notebooks]'" in done.stderr

@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from graphcam.sheets.box import Box, around_all
-from graphcam.sheets.packing import Room
-from graphcam.sheets.preferences import bottom_left, bottom_right, high, least, left, middle, top, top_left, top_right
+from graphcam.sheets.packing import Room, bottom_left, bottom_right, high, least, left, middle, top, top_left, top_right
 
 WHOLE = st.integers(0, 6)
 BOXES = st.builds(lambda x, y, wide, up: Box(x, y, x + 1 + wide, y + 1 + up), WHOLE, WHOLE, WHOLE, WHOLE)

@@ -14,8 +14,7 @@ from scene import TITLE
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import width
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, Format
-from graphcam.sheets.frame import frame, taken, title_box
-from graphcam.sheets.gauge import gauge, gauge_box
+from graphcam.sheets.frame import frame, gauge, gauge_box, taken, title_box
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of, corners

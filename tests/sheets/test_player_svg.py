@@ -63,6 +63,12 @@ def test_lines_and_texts_lie_where_they_are_drawn():
     assert text.attrib["transform"] == "rotate(-90.00 5 290)"
 
 
+def test_lengths_are_written_to_a_hundredth_without_idle_digits_or_the_sign_of_nought():
+    ends = np.array([-0.004 + 296.5j, 10 + 295.996j, -0.006 + 100.104j, 0.05 + 97j])
+    (line,) = elements(group_svg(Group("a", (Stroke(ends, "curve"),)), HEIGHT))
+    assert line.attrib["d"] == "M0 0.5L10 1L-0.01 196.9L0.05 200"
+
+
 def test_round_things_are_round():
     circle, arc = (
         elements(group_svg(Group("a", (entity,)), HEIGHT))[0].attrib["d"]

@@ -40,7 +40,7 @@ def test_lines_are_their_own_pieces():
     assert [len(ends) for ends in pieces(ENTITIES[7])] == [0, 0]
 
 
-@pytest.mark.parametrize("radius", [0.01, 0.5, 3.0, 200.0])
+@pytest.mark.parametrize("radius", [0.01, 0.02, 0.5, 3.0, 200.0])
 @pytest.mark.parametrize(("start", "end"), [(0.0, 2 * np.pi), (0.5, 2.5), (-1.0, 0.1), (1.0, 1.001)])
 def test_chords_of_a_circle_keep_so_close_to_it_and_are_no_more_than_it_takes(radius, start, end):
     starts, ends = pieces(ArcEntity(5 + 5j, radius, start, end, "curve"))

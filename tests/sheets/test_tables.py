@@ -58,7 +58,8 @@ def test_a_table_is_ruled_about_its_cells(height):
     assert sorted(thin_upright) == pytest.approx(ends[1:-1])
     assert all(each == pytest.approx((0, ends[-1])) for each in [*bold_level.values(), *thin_level.values()])
     assert all(each == pytest.approx((0, rows[-1])) for each in [*bold_upright.values(), *thin_upright.values()])
-    assert (block.box.corner, block.box.width, block.box.height) == (0, *pytest.approx((ends[-1], 8.6 * height)))
+    assert block.box.corner == 0
+    assert (block.box.width, block.box.height) == pytest.approx((ends[-1], 8.6 * height))
     said = texts(block)
     assert (said["Data"].at, said["Data"].align) == (pytest.approx(7.3j * height), "left")
     for row, low in zip((*PLAIN.rows[::-1], PLAIN.header), rows, strict=False):
@@ -107,6 +108,9 @@ def test_a_long_name_is_broken_and_its_row_is_higher_by_its_lines():
     assert first.imag - second.imag == pytest.approx(1.5 * HEIGHT)
     assert (first.imag + second.imag + HEIGHT) / 2 == pytest.approx(middle)
     assert {first.real, second.real} == {0.75 * HEIGHT}
+    # As wide as the widest of its lines.
+    answers = max(width(cell, HEIGHT) for cell in ("answer", "30"))
+    assert block.box.width == pytest.approx(max(width(line, HEIGHT) for line in lines) + answers + 3 * HEIGHT)
     # What is just not longer than 40 letters are high stays whole.
     name = "n" * int(40 * HEIGHT / width("n", HEIGHT))
     assert name in texts(table_block(Table("T", ("", ""), ((name, "1"),)), HEIGHT))

@@ -16,7 +16,7 @@ from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.errors import TaskError
 from graphcam.given.limits import Limits
-from graphcam.sweeps.space_file import load_space
+from graphcam.sweeps.space import load_space
 from graphcam.sweeps.sweep_file import sweep_to_file
 
 SPACE = """

@@ -15,7 +15,7 @@ from reference import EPS, ReferenceArm, ReferenceCam, maximum
 
 import graphcam as gc
 from graphcam.errors import DesignError
-from graphcam.mechanism.peaks import max_acceleration, max_velocity
+from graphcam.mechanism.stationary import max_acceleration, max_velocity
 from graphcam.sweeps import sweep_quantities as asked
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 

@@ -15,13 +15,12 @@ from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.template import sentence
-from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.drawn_layers import ORIGIN
 from graphcam.exercises.reading.notebook import TAG
 from graphcam.exercises.reading.submission_files import DXF, NOTEBOOK, TOML
-from graphcam.notebooks.kernel import PYTHON
+from graphcam.notebooks.running import PYTHON
 from graphcam.report.markdown import number
 from graphcam.report.sheet_contents import title_block
 from graphcam.sheets.layout import compose

@@ -16,7 +16,7 @@ from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
 from graphcam.tasks.sheet_tables import one_of

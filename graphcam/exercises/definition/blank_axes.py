@@ -47,7 +47,7 @@ def finds_room(exercise: Exercise, chain: Chain) -> bool:
 
     >>> from graphcam.exercises.definition.drawn_answers import board_chain
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> from graphcam.exercises.definition.template import fill_in
+    >>> from graphcam.exercises.definition.variant import fill_in
     >>> exercise = find_exercise("acceleration-and-scales")
     >>> given = {name: parameter.values[0] for name, parameter in exercise.parameters.items()}
     >>> tasks = [fill_in(exercise, given | {"rise": rise, "back": 110}) for rise in (100, 140)]

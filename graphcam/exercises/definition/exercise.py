@@ -7,12 +7,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, cast
 
-from graphcam.drafting.pencil import Pencil
+import numpy as np
+
+from graphcam.drafting.marks import Points
+from graphcam.drafting.pencil import Hand, Pencil
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError
-from graphcam.exercises.definition.hands import SteadyPencil
 from graphcam.language import ENGLISH, language, languages
 from graphcam.tasks.sheet_tables import one_of, positive
 from graphcam.words import Tell, Words
@@ -120,6 +122,23 @@ class Asked:
 
 
 @dataclass(frozen=True)
+class SteadyPencil(Pencil):
+    """A :class:`~graphcam.Pencil` with the stream of random numbers that NumPy promises never to change.
+
+    Marks must not change with the version of a library, and a variant's parameters rest on them too.
+
+    >>> bool(np.all(SteadyPencil(line=1.0, samples=1, seed=1).hand("inversion").line(2) ==
+    ...             SteadyPencil(line=1.0, samples=1, seed=1).hand("inversion").line(2)))
+    True
+    """
+
+    def hand(self, construction: str) -> Hand:
+        """As of any pencil, but drawn from the frozen generator."""
+        stream = np.random.RandomState([self.seed, *construction.encode()])
+        return Hand(self, cast("Any", stream))
+
+
+@dataclass(frozen=True)
 class HandTable:
     """``[hand]``: how exactly a careful student draws (standard deviations; see :class:`~graphcam.Pencil`).
 
@@ -149,7 +168,7 @@ class Exercise:
     task : template of a task file's tables: the text "{lift}" stands for a parameter's value, "{rest}" for the angle
         that is missing of 360 degrees
     answers : in the order of the construction, which is the order in which mistakes travel
-    misconceptions : names from the catalogue of :mod:`~graphcam.exercises.definition.misconceptions`, with an argument
+    misconceptions : names from the catalogue of :mod:`~graphcam.exercises.definition.mistakes`, with an argument
         after a colon where one is taken ("wrong-law: cosine")
     axes, sheet : what the student's worksheet shows: empty axes of diagrams over the cam angle, and so many steps of
         each construction, which are then given
@@ -193,3 +212,21 @@ class Exercise:
     def marks(self) -> float:
         """Of all answers together."""
         return sum(asked.marks for asked in self.answers)
+
+
+Given = float | Points
+"""A number, or points (n,) of the paper: complex, in mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """The answers by name, untrusted data; an answer that was left out is not among them.
+
+    values : a number, or points and curves (n,) as complex mm of paper; they may be anything that a file can say
+    problems : answers that stand there and could not be read: a sentence for the student by the answer's name
+    notes : sentences about the submission as a whole
+    """
+
+    values: Mapping[str, Given]
+    problems: Mapping[str, Words] = field(default_factory=dict[str, Words])
+    notes: tuple[Words, ...] = ()

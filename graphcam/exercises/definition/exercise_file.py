@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -10,11 +11,10 @@ from typing import Any
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.exercises.definition.drawn_answers import ask, board_chain
 from graphcam.exercises.definition.exercise import Asked, Exercise, HandTable, Parameter
-from graphcam.exercises.definition.misconceptions import misconception
-from graphcam.exercises.definition.template import fill_in
-from graphcam.exercises.definition.texts import in_language
-from graphcam.language import ENGLISH
-from graphcam.tasks.task_file import EXAMPLE, Classes, Unquoted, checked, parse_toml, read_content
+from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.variant import fill_in
+from graphcam.language import ENGLISH, languages
+from graphcam.tasks.task_file import Classes, Unquoted, checked, other_file, parse_toml, read_content
 
 HOW_TO = "see exercises/README.md"
 NO_KEYS = {"name", "language"}
@@ -66,7 +66,7 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong
     """
     path = Path(path)
-    try:
+    with other_file("exercise file", HOW_TO):
         data = parse_toml(str(path), read_content(path))
         if "motion" in data and "task" not in data:
             remedy = "begin with a copy of one that 'graphcam exercise list' names"
@@ -76,11 +76,6 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
             raise TaskError(str(path), key, Unquoted("an unknown key"), "one that is known", HOW_TO)
         told = in_language(str(path), data, language)
         exercise = checked(Exercise, _classes(data), str(path), told, told)
-    except TaskError as error:
-        # A task's example is of no use here.
-        remedy = HOW_TO if error.remedy.endswith(EXAMPLE) else error.remedy
-        field, remedy = (text.replace("task file", "exercise file") for text in (error.field, remedy))
-        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
     exercise = dataclasses.replace(exercise, name=path.stem, language=language)
     _check(str(path), exercise)
     return exercise
@@ -115,3 +110,43 @@ def _check(path: str, exercise: Exercise) -> None:
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
             raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
+
+
+TEXTS = ("title", "text")
+"""The keys of an exercise and of its answers that a student reads."""
+
+
+def in_language(path: str, tables: Mapping[str, Any], language: str) -> dict[str, Any]:
+    """The tables of an exercise file with every text in one language.
+
+    A text that is not there in the language stays English, as one of a catalog does, or else what is there first.
+
+    >>> in_language("", {"title": {"en": "The cam", "ru": "Кулачок"}, "answers": [{"text": "v"}]}, "ru")
+    {'title': 'Кулачок', 'answers': [{'text': 'v'}]}
+
+    Raises
+    ------
+    TaskError : a text is in a language that there is not
+    """
+    chosen = _chosen(path, "", tables, language)
+    if isinstance(answers := tables.get("answers"), list):
+        chosen["answers"] = [
+            _chosen(path, f"answers[{k}].", each, language) if isinstance(each, dict) else each
+            for k, each in enumerate(answers)
+        ]
+    return chosen
+
+
+def _chosen(path: str, place: str, table: Mapping[str, Any], language: str) -> dict[str, Any]:
+    found = dict(table)
+    for key in TEXTS:
+        texts = table.get(key)
+        if not isinstance(texts, dict) or not texts:
+            continue
+        for name in texts:
+            if name not in languages():
+                expected = "a language, one of " + ", ".join(languages())
+                raise TaskError(path, f"{place}{key}", name, expected, nearest(name, languages()))
+        first = next(iter(texts.values()))
+        found[key] = texts.get(language, texts.get(ENGLISH.name, first))
+    return found

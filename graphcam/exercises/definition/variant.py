@@ -1,15 +1,72 @@
-"""What one student gets of an exercise: parameters drawn from the course's secret and the student's name."""
+"""What one student gets of an exercise: a task with open places, and the parameters that fill them.
+
+They are drawn from the course's secret and the student's name.
+"""
 
 from __future__ import annotations
 
 import hmac
 import json
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
+from graphcam.constructions.axes import turning
+from graphcam.constructions.law_names import LAW_TITLES
+from graphcam.errors import TaskError, nearest
 from graphcam.exercises.definition.exercise import Exercise, Value
-from graphcam.exercises.definition.template import fill_in
 from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import task_of
+from graphcam.words import Tell, Words, say
+
+PLACE = re.compile(r"^\{(-?)([a-z_0-9]+)\}$")
+"""A whole value of the template: a parameter's name in braces, perhaps with a minus."""
+REST = "rest"
+"""The angle that is missing of 360 degrees."""
+
+
+def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "") -> Task:
+    """The task with these parameters, its sheets in the language of the exercise.
+
+    Raises
+    ------
+    TaskError : the template names a parameter that there is not, or no such task can be
+    """
+    path = path or f"exercise {exercise.name}"
+    table = _filled(exercise.task, {**parameters, REST: f"{{{REST}}}"}, path)
+    phases = table.get("motion", {}).get("phases", [])
+    taken = sum(phase["angle"] for phase in phases if isinstance(phase.get("angle"), int | float))
+    task = task_of(path, _filled(table, {REST: 360 - taken}, path))
+    return replace(task, drawing=replace(task.drawing, language=exercise.language))
+
+
+def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> str:
+    """A text of the exercise with its parameters, said in the language of the text.
+
+    >>> sentence("A lift of {lift} mm; it turns {sense}.", {"lift": 0.5, "sense": "cw"})
+    'A lift of 0.5 mm; it turns clockwise.'
+    """
+    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: tell(_said(parameters.get(place[1], place[0]))), text)
+
+
+def _said(value: Value) -> Words:
+    return {"cw": turning("cw"), "ccw": turning("ccw"), **LAW_TITLES}.get(str(value), say("{value}", value=value))
+
+
+def _filled(node: Any, parameters: Mapping[str, Value], path: str) -> Any:
+    if isinstance(node, Mapping):
+        return {key: _filled(value, parameters, path) for key, value in node.items()}
+    if isinstance(node, list | tuple):
+        return [_filled(value, parameters, path) for value in node]
+    place = PLACE.match(node) if isinstance(node, str) else None
+    if place is None:
+        return node
+    sign, name = place.groups()
+    if name not in parameters:
+        raise TaskError(path, "task", node, "a parameter in braces", nearest(name, parameters))
+    value = parameters[name]
+    return -value if sign and not isinstance(value, str) else value
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
 from graphcam.exercises.exports.systems import LearningSystem
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import one_of

@@ -13,7 +13,7 @@ from typing import Any
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.submission import read_submission
 from graphcam.exercises.reports.student_page import OUTCOMES

@@ -12,8 +12,8 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.misconceptions import misconception
-from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import say
 

@@ -15,11 +15,11 @@ from nbformat import NotebookNode
 
 from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
-from graphcam.notebooks.kernel import PYTHON
+from graphcam.notebooks.running import PYTHON
 from graphcam.words import Tell, say
 
 CELL = {"schema_version": 3, "grade": False, "solution": False, "locked": False, "task": False}

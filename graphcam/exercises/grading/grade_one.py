@@ -11,8 +11,7 @@ from functools import partial
 from types import FrameType
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.grading.submission import Submission
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -20,8 +19,7 @@ from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Marked, Record
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.submission_files import DXF, from_files
-from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.resource_limits import ResourceLimits
+from graphcam.exercises.running.levels import Level, ResourceLimits
 
 READING = 10.0
 """Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
@@ -95,7 +93,7 @@ def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerK
         if same and dict(known.parameters) == dict(variant.parameters):
             return known, submission.answer_key
     # Whoever has an answer key needs nothing that draws.
-    from graphcam.exercises.key.issuing import issue
+    from graphcam.exercises.key.keying import issue
 
     _, made = issue(exercise, submission.student, assignment.secret)
     return made, made.to_json()

@@ -8,18 +8,17 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import Any, TypeVar
 
 from pydantic_core import from_json
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Value
-from graphcam.exercises.key.deferred import Deferred
 from graphcam.exercises.key.expectation import Expected, from_stored, stored
 from graphcam.exercises.key.follow_through import Dependence
-from graphcam.exercises.key.hypothesis import Hypothesis
 
 FORMAT = 2
 STORED_AS_THEY_ARE = (
@@ -27,6 +26,68 @@ STORED_AS_THEY_ARE = (
     *("bound", "careful", "too_exact", "alike"),
 )
 """Fields of an answer key whose values are JSON's own."""
+
+
+V = TypeVar("V")
+
+
+class Deferred(Mapping[str, V]):
+    """Values by name that stand there as one JSON text: most submissions are right and need none of them.
+
+    read : makes a value of what the JSON says
+
+    >>> dict(Deferred('{"a": [1, 2]}', sum))
+    {'a': 3}
+    """
+
+    def __init__(self, text: str, read: Callable[[Any], V]) -> None:
+        self._text = text
+        self._read = read
+        self._made: dict[str, V] = {}
+
+    @cached_property
+    def _said(self) -> dict[str, Any]:
+        return from_json(self._text)
+
+    def __getitem__(self, name: str) -> V:
+        if name not in self._made:
+            self._made[name] = self._read(self._said[name])
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._said)
+
+    def __len__(self) -> int:
+        return len(self._said)
+
+
+class Hypothesis:
+    """The expected answers of a student with one mistake, in the order of the exercise.
+
+    They are kept as the answer key says them: marking compares a wrong answer with every mistake of every student,
+    and most of what is drawn, a text of its own, need not even be looked at.
+
+    said : of a number the value and its scatter, of points the text of what :func:`stored` says
+
+    >>> Hypothesis.of([Expected(10.0, 0.5)])[0].deviation(11.0, "number")
+    2.0
+    """
+
+    def __init__(self, said: list[Any]) -> None:
+        self.said = said
+
+    @staticmethod
+    def of(values: Iterable[Expected]) -> Hypothesis:
+        """The hypothesis of these answers."""
+        said = [stored(each) for each in values]
+        return Hypothesis([each if len(each) == 2 else json.dumps(each) for each in said])
+
+    def __getitem__(self, place: int) -> Expected:
+        said = self.said[place]
+        return from_stored(from_json(said) if isinstance(said, str) else said)
+
+    def __iter__(self) -> Iterator[Expected]:
+        return (self[place] for place in range(len(self.said)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,10 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.exercises.definition.answers import Given
-from graphcam.exercises.definition.exercise import Kind
+from graphcam.exercises.definition.exercise import Given, Kind
 from graphcam.exercises.key.curve_distance import distance_from_drawn, distance_to_curve
-from graphcam.exercises.key.pairing import paired
 
 Floats = NDArray[np.float64]
 Scatter = float | Floats
@@ -111,3 +109,18 @@ def from_stored(said: list[Any]) -> Expected:
         return Expected(float(said[0]), float(said[1]))
     value, scatter, bulge = (np.array(each, dtype=np.float64) for each in said)
     return Expected(value.reshape(-1, 2).view(np.complex128)[:, 0], scatter, bulge)
+
+
+def paired(given: Points, wanted: Points) -> Points:
+    """As many points (n,) in the order of the wanted ones, paired so that they lie as near as they can together.
+
+    A drawing does not say which point is which, and a CAD program may save them in another order.  The distances
+    themselves are summed, not their squares, so that one point in a wrong place is left as that one.
+
+    >>> paired(np.array([5 + 1j, 0.2 + 0j]), np.array([0j, 5 + 0j]))
+    array([0.2+0.j, 5. +1.j])
+    """
+    from scipy.optimize import linear_sum_assignment
+
+    _, order = linear_sum_assignment(np.abs(wanted[:, None] - given))
+    return given[order]

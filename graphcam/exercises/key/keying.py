@@ -1,15 +1,18 @@
-"""Making an answer key: the variant drawn by a perfect hand, by many careful ones, and with every mistake."""
+"""Making an answer key: the variant drawn by a perfect hand, by many careful ones, and with every mistake.
+
+Parameters are drawn until every catalogued mistake can be told.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from graphcam.errors import GraphcamError
+from graphcam.errors import DesignError, GraphcamError
 from graphcam.exercises.definition.blank_axes import finds_room
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.variant import Variant
-from graphcam.exercises.key.answer_key import AnswerKey, Key
-from graphcam.exercises.key.hypothesis import Hypothesis
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.variant import Variant, drawn
+from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected
 from graphcam.exercises.key.separation import alike, hypotheses, passing, perfect_hands, promising
@@ -66,3 +69,28 @@ def draw_key(variant: Variant) -> AnswerKey | None:
         dependences=dependences(exercise, drawn.right, keys, bound),
         too_exact=float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
     )
+
+
+MOST_DRAWS = 400
+"""Draws after which an exercise is held to have no variant that can be diagnosed."""
+
+
+def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, AnswerKey]:
+    """The student's variant and its answer key: the first draw in which every mistake can be told from every other.
+
+    The same exercise, student and secret give the same variant on every machine.
+
+    Raises
+    ------
+    DesignError : no draw can be diagnosed
+    """
+    for draw in range(MOST_DRAWS):
+        candidate = drawn(exercise, student, secret, draw)
+        answer_key = draw_key(candidate)
+        if answer_key:
+            return candidate, answer_key
+    remedy = (
+        "widen the parameters, ask for another reading, leave a misconception out, or choose an ordinate and poles for "
+        "which the diagrams fit on the worksheet"
+    )
+    raise DesignError("exercise", exercise.name, f"diagnosable in {MOST_DRAWS} draws", remedy)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.chain import Chain
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.key.scatter import Drawn, answers_of, bulges_of, distances, expected, lengths_of
 

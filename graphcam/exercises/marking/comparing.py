@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphcam.exercises.definition.answers import Answers, Given
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import Answers, Asked, Exercise, Given
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected, Off
 

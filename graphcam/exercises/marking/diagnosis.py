@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.hypothesis import Hypothesis
 from graphcam.exercises.marking.comparing import ComparedAnswer
 from graphcam.exercises.marking.record import Diagnosis
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Answers, Exercise
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.marking.record import Diagnosis, Marked
 
 

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.definition.answers import Answers
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.comparing import ComparedAnswer, compare
 from graphcam.exercises.marking.diagnosis import diagnose
@@ -34,7 +33,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     level : how the answers were come by, for the record
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> from graphcam.exercises.key.issuing import issue
+    >>> from graphcam.exercises.key.keying import issue
     >>> exercise = find_exercise("acceleration-and-scales")
     >>> variant, answer_key = issue(exercise, "Anna", b"secret")
     >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total

@@ -8,12 +8,11 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.exercises.definition.answers import Answers
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Answers, Exercise
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.issuing import issue
+from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.exercises.marking.marking import mark
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.definition.answers import Answers, Given
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.exercise import Answers, Asked, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
 from graphcam.exercises.reading.drawn_layers import Drawn
 from graphcam.exercises.reading.dxf import read_dxf

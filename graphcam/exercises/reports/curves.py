@@ -10,8 +10,7 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.exercise import Kind
-from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.pairing import paired
+from graphcam.exercises.key.expectation import Expected, paired
 
 MARGIN = 5.0
 """mm around what is shown."""

@@ -3,20 +3,143 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from statistics import median
 from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.misconceptions import misconception
+from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.reports.charts import Chart, stacked
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
-from graphcam.exercises.reports.statistics import EDGE, StepErrors, mistakes, step_errors
 from graphcam.exercises.reports.web_pages import page
 from graphcam.words import say
+
+WIDTH, HEIGHT, LETTERS = 640, 70, 18
+"""Pixels: of the chart, and of the line of labels under it."""
+
+
+@dataclass(frozen=True)
+class Bar:
+    """One box, in pixels from the upper left corner; ``kind`` is its class for a colour."""
+
+    kind: str
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Stacked bars over a base line; labels are (x, anchor, text); ``band`` (x, width) is shaded."""
+
+    bars: tuple[Bar, ...]
+    labels: tuple[tuple[float, str, str], ...]
+    band: tuple[float, float] | None = None
+    width: int = WIDTH
+    height: int = HEIGHT + LETTERS
+    base: int = HEIGHT
+
+
+def stacked(
+    counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]], band: tuple[float, float] | None = None
+) -> Chart:
+    """A chart of counts a bar, of several kinds one on the other.
+
+    labels : (part of the width, text);  band : from, to as parts of the width
+
+    >>> chart = stacked({"right": [1, 2]}, [(0.5, "0")])
+    >>> chart.bars[1].height, chart.labels
+    (64.0, ((320.0, 'middle', '0'),))
+    """
+    size = len(next(iter(counts.values())))
+    highest = max([sum(column) for column in zip(*counts.values(), strict=True)] + [1])
+    unit, step = (HEIGHT - 6) / highest, WIDTH / size
+    bars: list[Bar] = []
+    for k in range(size):
+        top = float(HEIGHT)
+        for kind, column in counts.items():
+            if column[k]:
+                height = unit * column[k]
+                top -= height
+                bars.append(Bar(kind, *(round(length, 2) for length in (k * step + 1, top, step - 2, height))))
+    anchors = {0.0: "start", 1.0: "end"}
+    placed = tuple((part * WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
+    return Chart(tuple(bars), placed, band and (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))
+
+
+EDGE = 8.0
+"""Pencil units that the diagrams show; what is farther off is counted in the last bar."""
+BARS = 32
+
+
+@dataclass(frozen=True)
+class StepErrors:
+    """One answer over all students.
+
+    outcomes : how many of each kind that there are
+    bars : of every outcome that has a deviation, how many lie in each of the bars from -EDGE to EDGE pencil units
+    earned : part of the marks that were earned
+    """
+
+    asked: Asked
+    outcomes: Counter[str]
+    bars: dict[str, list[int]]
+    earned: float
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A catalogued mistake: who made it, and what it cost."""
+
+    name: str
+    students: tuple[str, ...]
+    lost: float
+
+
+def step_errors(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[StepErrors]:
+    """The errors of every step, in the order of the construction."""
+    answers = [answer for record in records for answer in record["answers"]]
+    return [_step(asked, [each for each in answers if each["name"] == asked.name]) for asked in exercise.answers]
+
+
+def _step(asked: Asked, answers: list[dict[str, Any]]) -> StepErrors:
+    bars = {outcome: [0] * BARS for outcome in ("right", "follow-through", "wrong")}
+    for answer in answers:
+        if answer["outcome"] in bars:
+            bars[answer["outcome"]][bar_of(answer["deviation"])] += 1
+    possible = sum(answer["of"] for answer in answers)
+    earned = sum(answer["marks"] for answer in answers) / possible if possible else 0.0
+    return StepErrors(asked, Counter(answer["outcome"] for answer in answers), bars, earned)
+
+
+def bar_of(deviation: float | None) -> int:
+    """The bar for a deviation in pencil units; one that cannot be said is beyond all others.
+
+    >>> bar_of(0.1), bar_of(-100.0), bar_of(None)
+    (16, 0, 31)
+    """
+    if deviation is None or not math.isfinite(deviation):
+        return BARS - 1
+    return min(max(int((deviation + EDGE) / (2 * EDGE) * BARS), 0), BARS - 1)
+
+
+def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
+    """The diagnosed mistakes, the costliest first."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for record in records:
+        if record["diagnosis"]:
+            found.setdefault(record["diagnosis"]["misconception"], []).append(record)
+    listed = [
+        Mistake(name, tuple(each["student"] for each in made), sum(each["of"] - each["total"] for each in made))
+        for name, made in found.items()
+    ]
+    return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.name))
+
 
 WEAK = 0.8
 """A step that earned less than this part of its marks is taught again."""

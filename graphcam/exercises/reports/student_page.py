@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.template import sentence
+from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
 from graphcam.exercises.reports.web_pages import page

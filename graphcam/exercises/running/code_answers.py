@@ -11,9 +11,8 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.reading.notebook import cell_source, code_cells, notebook_values
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import shown
-from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.process import Ended
-from graphcam.exercises.running.resource_limits import ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells
 
 

@@ -1,7 +1,8 @@
-"""Levels of isolation, from reading data to the host's own container."""
+"""Levels of isolation, and what a student's code may use up."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 
 
@@ -14,3 +15,42 @@ class Level(StrEnum):
     """A process with limits of time and memory: for practice, since it reads what the grader can read."""
     L2 = "L2"
     """Bubblewrap: no network, no file but Python itself, no process that outlives it."""
+
+
+MEBIBYTE = 1 << 20
+
+
+@dataclass(frozen=True)
+class ResourceLimits:
+    """Limits of one run.
+
+    seconds : of wall time
+    memory : bytes of address space of each process
+    processes : at once, threads among them
+    written : bytes of a file, and of the folder for temporary files
+    handed_out : bytes of answers that are read
+    kept : bytes of output that are kept; the rest is thrown away as it comes
+    """
+
+    seconds: float = 10.0
+    memory: int = 1024 * MEBIBYTE
+    processes: int = 16
+    written: int = 32 * MEBIBYTE
+    handed_out: int = MEBIBYTE
+    kept: int = 20_000
+
+    def resources(self, processes_already: int) -> dict[str, int]:
+        """The limits of :mod:`resource` by name.
+
+        >>> ResourceLimits(seconds=3).resources(0)["RLIMIT_CPU"]
+        4
+        """
+        return {
+            "RLIMIT_AS": self.memory,
+            # For what escapes the clock on the wall.
+            "RLIMIT_CPU": int(self.seconds) + 1,
+            "RLIMIT_NPROC": processes_already + self.processes,
+            "RLIMIT_FSIZE": self.written,
+            "RLIMIT_NOFILE": 128,
+            "RLIMIT_CORE": 0,
+        }

@@ -10,8 +10,7 @@ import tempfile
 from pathlib import Path
 
 from graphcam.errors import GraphcamError
-from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.resource_limits import MEBIBYTE, ResourceLimits
+from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
 from graphcam.exercises.running.sandbox import run_cells, visible
 
 FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)

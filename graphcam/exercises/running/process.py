@@ -12,7 +12,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from io import FileIO
 
-from graphcam.exercises.running.resource_limits import ResourceLimits
+from graphcam.exercises.running.levels import ResourceLimits
 
 CHUNK = 1 << 16
 PATIENCE = 0.05

@@ -17,9 +17,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from graphcam.exercises.running import launcher
-from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.process import Ended, run_limited
-from graphcam.exercises.running.resource_limits import ResourceLimits
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
 SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
