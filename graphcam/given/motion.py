@@ -212,11 +212,6 @@ class Motion(Shown):
         return f"with a lift of {self.lift:.6g} (mm; of an arm, rad)"
 
     @property
-    def piece_starts(self) -> Floats:
-        """(p,) the cam angle at which each piece of a law, and each dwell, begins."""
-        return self._piecewise.starts
-
-    @property
     def breaks(self) -> Floats:
         """The cam angles where a derivative may jump: starts of phases (0 among them) and the laws' inner breaks."""
         inner = [

@@ -91,6 +91,10 @@ class Kinematics(ABC):
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
 
+    def pressure_slope(self, values: Values) -> Floats:
+        """Of the sign of alpha'."""
+        return pair_cross(*self.pressure(values))
+
     @abstractmethod
     def speed(self, values: Values, inset: float) -> Floats:
         """How far the curve parallel to the pitch curve, ``inset`` mm inside of it, runs on [mm/rad].

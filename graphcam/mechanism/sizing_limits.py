@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.hertz import ContactStress, RollerContact
-from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
 
@@ -96,11 +96,7 @@ class TurnPlaces:
         """Where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.load
         kin = cam.kinematics
-
-        def angle_slope(values: Values) -> Floats:
-            return pair_cross(*kin.pressure(values))
-
-        slopes = (angle_slope, kin.curvature_slope, stress.slope)
+        slopes = (kin.pressure_slope, kin.curvature_slope, stress.slope)
         first, *others = (cls.of(cam.motion, load, stationary_places(cam.motion, slope)) for slope in slopes)
         for other in others:
             first = first.joined(other)

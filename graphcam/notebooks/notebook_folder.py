@@ -9,8 +9,7 @@ import nbformat
 
 from graphcam.files import OutputError, whole_folder
 from graphcam.notebooks.generate import notebook_title, write_notebook
-from graphcam.notebooks.html_pages import to_html
-from graphcam.notebooks.printing import NO_BROWSER, browser, print_pdf
+from graphcam.notebooks.html_pages import NO_BROWSER, browser, print_pdf, to_html
 from graphcam.notebooks.running import execute
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task

@@ -31,15 +31,11 @@ def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     """All pages of a drawing, side by side in the model space, each with a layout in paper space that shows it 1:1."""
     with dxf.repeatable():
         document = dxf.sheet_document(drawing)
-        _add_style(document)
+        lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
+        document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
         dxf.draw_pages(document, drawing, _draw_group)
         _add_layouts(document, drawing)
         document.saveas(path)
-
-
-def _add_style(document: Document) -> None:
-    lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
-    document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
 
 
 def _add_layouts(document: Document, drawing: Drawing) -> None:

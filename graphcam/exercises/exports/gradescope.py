@@ -14,8 +14,7 @@ from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_se
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import sentence
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.reports.student_page import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash

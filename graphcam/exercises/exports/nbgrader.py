@@ -13,7 +13,7 @@ import nbformat
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK

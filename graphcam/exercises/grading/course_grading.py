@@ -14,10 +14,9 @@ from graphcam.errors import GraphcamError, TaskError
 from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.grading.grade_one import Assignment, grade, unmarked
+from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_submission, students_in, unmarked
 from graphcam.exercises.grading.gradebook import check_gradebook, enter_scores
 from graphcam.exercises.grading.record_store import Store
-from graphcam.exercises.grading.submission import Submission, read_submission, students_in
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.report_files import write_feedback, write_reports
 from graphcam.exercises.running.levels import Level, ResourceLimits

@@ -13,8 +13,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.grading.grade_one import Assignment, Submission, grade
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of

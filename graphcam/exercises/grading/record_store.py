@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import graphcam
-from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.grading.grade_one import Assignment, Submission
 from graphcam.files import OutputError
 
 
