@@ -1,7 +1,5 @@
 """The report of speed against error: measured, and written with its figures."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """The whole report: what is measured with how much effort, and the same as plain data for strict JSON."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace

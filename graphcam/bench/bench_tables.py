@@ -1,7 +1,5 @@
 """The report as tables of texts, for the terminal and for Markdown, and as one long table of numbers for CSV."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Beside it stand running sums, in memory copies, and the order of the curvature through three points.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What a user would take instead: sampled integration, general optimisers, polygon buffers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from importlib import import_module

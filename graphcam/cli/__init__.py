@@ -1,7 +1,5 @@
 """The command line: each large command has a module, the short ones share one."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import typer

@@ -1,7 +1,5 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
-from __future__ import annotations
-
 import shlex
 from dataclasses import replace
 from importlib import resources

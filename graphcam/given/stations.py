@@ -1,7 +1,5 @@
 """Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

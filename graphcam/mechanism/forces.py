@@ -16,8 +16,6 @@ Sources: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6, tan alpha_max 
 and the length B of the bearing.  The cam's torque is F cos alpha ds/dphi, by virtual work.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

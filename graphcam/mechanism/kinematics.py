@@ -11,8 +11,6 @@ sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where 
 -sigma (q1 x q2)/|q1|^3.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Literal, Self

@@ -1,7 +1,5 @@
 """The step-by-step notebook of a task."""
 
-from __future__ import annotations
-
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 

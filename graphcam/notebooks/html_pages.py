@@ -1,7 +1,5 @@
 """A notebook as a web page of its own: formulas as MathML, figures inside, nothing that is fetched; printed as PDF."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The notebook of a task into a folder: the notebook, its task, and if asked for its pages as HTML and PDF."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

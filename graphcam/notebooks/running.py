@@ -1,7 +1,5 @@
 """Executing a notebook from a clean kernel, with what the extra ``notebooks`` installs, loaded when it is used."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module

@@ -1,7 +1,5 @@
 """What the step player shows of a turning mechanism, as plain data: the page looks it up and turns the cam."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

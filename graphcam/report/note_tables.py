@@ -1,7 +1,5 @@
 """The long tables of the note."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 

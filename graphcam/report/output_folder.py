@@ -5,8 +5,6 @@ one B-spline, all in mm with the cam centre at the origin.  All three hold the p
 too large would lose is left out.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,7 +1,5 @@
 """The sheet of a sized cam: the region of permitted cams over offset and prime radius, and the cam that was found."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The note's paragraphs on the constructions of a translating follower."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

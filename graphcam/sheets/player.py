@@ -4,8 +4,6 @@ The page holds the sheets as SVG with one group for each step, the words and rea
 templates stand in ``data/player``.
 """
 
-from __future__ import annotations
-
 import base64
 import cmath
 import json

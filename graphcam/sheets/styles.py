@@ -1,7 +1,5 @@
 """How lines look: widths and types by ISO 128 and GOST 2.303, one style for each role."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from graphcam.drafting.marks import Role

@@ -3,8 +3,6 @@
 These are the scale of the cam angle, the ordinate and the poles.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -3,8 +3,6 @@
 It mirrors a file (degrees, mm); a design is made of its number when it is needed, so that millions need no memory.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, fields
 from functools import cached_property

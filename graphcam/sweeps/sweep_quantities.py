@@ -1,7 +1,5 @@
 """What a sweep can ask of its cams; every quantity is computed once at most, and only if it is asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Making an exercise for a course: the students' handouts in one folder, the teacher's in another."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The students: a CSV file whose ids are data, whatever they say, and their names as folders; none is a path."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import io

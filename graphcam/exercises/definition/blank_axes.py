@@ -1,7 +1,5 @@
 """The empty axes of a worksheet: how far they reach, and whether a drawing finds room on them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -3,8 +3,6 @@
 The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -5,8 +5,6 @@ with no marks and the feedback that belongs to them.  Moodle takes the first tha
 they are read back exactly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 

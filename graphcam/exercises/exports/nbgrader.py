@@ -4,8 +4,6 @@ The notebook is the same for all; a student's parameters stand on the student's 
 is graded.  A locked cell could not hold them: nbgrader's autograde puts the teacher's cell back in its place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

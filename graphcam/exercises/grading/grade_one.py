@@ -1,7 +1,5 @@
 """One submission: the bytes that lie in its folder, and their grading, which workers do here or on another machine."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import signal

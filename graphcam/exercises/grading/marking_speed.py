@@ -1,7 +1,5 @@
 """How many submissions of an exercise one core reads and marks in a second, at level L0, where nothing is run."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass

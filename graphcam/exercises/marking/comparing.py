@@ -1,7 +1,5 @@
 """Answers beside the key: which of them can be read, how far off they are, and which are wrong."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

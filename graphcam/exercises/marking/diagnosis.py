@@ -1,7 +1,5 @@
 """Which catalogued mistake explains a set of answers: the comparison is in units of scatter."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Monte Carlo of an exercise: how often careful work loses a point, wrong work passes, a mistake is misnamed."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field

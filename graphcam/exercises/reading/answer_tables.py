@@ -1,7 +1,5 @@
 """Answers in a text table: ``answers.toml`` and ``answers.csv``."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """Answers drawn in a CAD program: points and curves on named layers, in mm of paper from the marked origin."""
 
-from __future__ import annotations
-
 from collections import deque
 from dataclasses import dataclass, field
 from itertools import islice

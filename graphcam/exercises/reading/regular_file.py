@@ -1,7 +1,5 @@
 """The bytes of a file that a stranger put there: a regular file of bounded size, or a reason why not."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat

@@ -1,7 +1,5 @@
 """A student's folder: which of its files hold answers, and what they say together."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches

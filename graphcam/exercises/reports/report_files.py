@@ -1,7 +1,5 @@
 """All files of a graded course, written together; the grades are CSV that is safe to open in a spreadsheet."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

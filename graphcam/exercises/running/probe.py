@@ -1,7 +1,5 @@
 """What this machine can hold students' code in, found out by trying."""
 
-from __future__ import annotations
-
 import functools
 import json
 import os
