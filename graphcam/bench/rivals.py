@@ -49,7 +49,7 @@ def samples(motion: Motion, n: int) -> list[tuple[Floats, Floats]]:
 INTEGRATORS: dict[str, Integrator] = {
     "cumulative_trapezoid": lambda x, a: cumulative_trapezoid(cumulative_trapezoid(a, x, initial=0), x, initial=0),
     "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
-    "CubicSpline": lambda x, a: CubicSpline(x, a).antiderivative(2)(x),
+    "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
 """By the names of scipy, each integrating twice: s less its value at the start."""
 

@@ -63,8 +63,7 @@ def bench(
     graphcam bench --out bench
     """
     from graphcam.bench import bench_report as report
-    from graphcam.bench.bench_files import FILES, bench as measure
-    from graphcam.bench.bench_tables import tables
+    from graphcam.bench.bench_files import FILES, bench as measure, tables
 
     with one_message():
         measured = measure(report.QUICK if quick else report.FULL, out, progress_lines(quiet=False))

@@ -197,6 +197,11 @@ class Motion(Shown):
         return float(self.levels.max())
 
     @property
+    def directions(self) -> Floats:
+        """(k,) the direction of each phase: +1 of a rise, -1 of a return, 0 of a dwell."""
+        return np.array([float(phase.direction) for phase in self.phases])
+
+    @property
     def timing(self) -> list[tuple[str, float, float]]:
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [*self.starts.tolist(), FULL_TURN]

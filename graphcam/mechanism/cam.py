@@ -183,7 +183,7 @@ class Cam(Shown):
         """Greatest pressure angles and least convex radii of curvature, found as roots of their derivatives."""
         steep = stationary_places(self.motion, self.kinematics.pressure_slope)
         sharp = stationary_places(self.motion, self.kinematics.curvature_slope)
-        direction = np.array([phase.direction for phase in self.motion.phases])
+        direction = self.motion.directions
         return Extremes(
             self._steepest(steep.where(direction[steep.phase] > 0)),
             self._steepest(steep.where(direction[steep.phase] < 0)),

@@ -72,7 +72,7 @@ class TurnPlaces:
     @classmethod
     def of(cls, motion: Motion, load: SpringLoad, places: Places) -> TurnPlaces:
         """The same places with their loads."""
-        direction = np.array([float(phase.direction) for phase in motion.phases])[places.phase]
+        direction = motion.directions[places.phase]
         return cls(direction, places.values, load.force(places.values, direction))
 
     @classmethod
@@ -88,8 +88,7 @@ class TurnPlaces:
         every = np.repeat(phase, share.size)
         places = Places(every, u.ravel(), motion.angle_at(every, u.ravel()), (s, v, a, j))
         # A dwell is one place.
-        moving = np.array([part.direction != 0 for part in motion.phases])
-        return cls.of(motion, load, places.where(moving[every] | (u.ravel() == 0)))
+        return cls.of(motion, load, places.where((motion.directions[every] != 0) | (u.ravel() == 0)))
 
     @classmethod
     def worst(cls, stress: ContactStress) -> TurnPlaces:

@@ -73,8 +73,6 @@ def _write_xyz(cut: CutProfile, path: Path) -> None:
 
 DXF = "plain", "cad"
 """Kinds of DXF."""
-
-
 SHEETS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
 

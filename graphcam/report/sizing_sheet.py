@@ -28,8 +28,6 @@ TICKS = 6
 """Parts of an axis with numbers, at most."""
 MARGIN = 0.05
 """An axis is at least this part of the greatest radius long, so that a range of one size has an axis too."""
-
-
 BINDING: Mapping[str, Caption] = {
     str(words): words
     for words in (

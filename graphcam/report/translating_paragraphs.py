@@ -20,8 +20,6 @@ from graphcam.words import Caption, Words, say, sequence
 
 ONE_DEGREE = math.radians(1)
 TAN = say("\\tan")
-
-
 CONDITIONS = {
     "rise": say(
         "- rise: ${left} \\ge v - s {tangent} = {v} - {s} {tangent} = {least}$ mm, where the tangent touches the "

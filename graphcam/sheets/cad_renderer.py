@@ -5,21 +5,18 @@ DIMENSION, the frame with its title block is a block whose entries are ATTRIBs, 
 space that shows it 1:1.  Not every reader knows these; the plain file is for all of them.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from ezdxf.document import Drawing as Document
+from ezdxf.layouts import Modelspace
 
 from graphcam.sheets import dxf_renderer as dxf
 from graphcam.sheets.dxf_renderer import LETTERS, draw, layer, set_text, xy
 from graphcam.sheets.expand import GAP, OVERRUN
 from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing as Document
-    from ezdxf.layouts import Modelspace
 
 STYLE = "GRAPHCAM"
 """The name of the style of dimensions."""

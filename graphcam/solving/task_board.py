@@ -105,8 +105,6 @@ ROOMS = {
     ("A4", "portrait"): DiagramRoom(3.0, 75.0, 65.0, 40.0),
 }
 """By format and orientation."""
-
-
 WITHOUT_ANGLES = 1.6
 """So many times its height the displacement may have where no diagram of the pressure angle stands under it; not on A4,
 where the combined diagram, which has the same scale, would be wider than the sheet."""

@@ -8,8 +8,7 @@ import numpy as np
 
 from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.comparing import ComparedAnswer, compare
-from graphcam.exercises.marking.diagnosis import diagnose
+from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagnose
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.record import Marked, Outcome, Record
 
