@@ -1,7 +1,5 @@
 """What an exercise is: a task with open parameters, the answers asked, and the mistakes it can tell."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping
