@@ -10,7 +10,7 @@ from functools import cached_property
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_outline import three_arcs
 from graphcam.constructions.arc_roller import ArcStations, arc_roller, divide_arcs
-from graphcam.constructions.drawings import Drawings, Drawn
+from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
@@ -60,18 +60,18 @@ class ArcChain(Drawings):
         """The parts of the arcs."""
         return divide_arcs(self.board.divisions)
 
-    @Drawn
+    @DrawnOnce
     def three_arcs(self) -> Construction:
         """Centres and points of touching."""
         board = self.board
         return three_arcs(board.given, board.dwell, board.mu_l, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def arc_roller(self) -> Construction:
         """Lift, velocity and acceleration at the stations."""
         return arc_roller(self.three_arcs, self.board.roller_radius, self.stations, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def arc_diagrams(self) -> Construction:
         """The same over the cam angle, and the greatest values."""
         return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil, self.board.heights)

@@ -14,7 +14,7 @@ from graphcam.constructions.adoption import ROUNDING_SLACK, lies_in, multiple, n
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
 from graphcam.constructions.differentiation import measured_differentiation
-from graphcam.constructions.drawings import Drawings, Drawn
+from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
 from graphcam.constructions.roller import roller_radius, working_profile
 from graphcam.constructions.scheme import scheme
@@ -67,19 +67,19 @@ class Chain(Drawings):
         measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
         return (*self.board.follower.constructions, *measured, *self.further)
 
-    @Drawn
+    @DrawnOnce
     def acceleration(self) -> Construction:
         """The acceleration diagram."""
         board = self.board
         given = board.motion, board.stations, board.ordinate, board.mu_phi, board.follower.unit
         return acceleration_diagram(*given, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def integration(self) -> Construction:
         """Velocity and displacement by two graphical integrations."""
         return integration(self.acceleration, self.board.poles, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def differentiation(self) -> Construction:
         """Velocity and acceleration of a measured motion by graphical differentiation, at the scales of the others.
 
@@ -93,44 +93,44 @@ class Chain(Drawings):
         mu_s = Scale(float(self.perfect.integration.readings["s"].scale), board.follower.unit)
         return measured_differentiation(board.motion, parts, board.mu_phi, mu_s, (second, first), self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def minimum_radius(self) -> Construction:
         """The least prime radius, and where the follower stands."""
         return self._least_radius(self.board.follower.place)
 
-    @Drawn
+    @DrawnOnce
     def pressure_angle(self) -> Construction:
         """The pressure angle at every station of the adopted cam."""
         follower, rotation = self.board.follower, self.board.rotation
         return follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def angle_diagram(self) -> Construction:
         """The pressure angle over the cam angle."""
         return angle_diagram(self.pressure_angle, self.board.mu_phi, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def inversion(self) -> Construction:
         """The pitch curve of the adopted cam."""
         follower, rotation, scale = self.board.follower, self.board.rotation, self.profile_scale
         return follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def curvature(self) -> Construction:
         """The least radius of curvature of the pitch curve."""
         return self.board.follower.curvature(self, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def roller(self) -> Construction:
         """What the rule proposes for the roller."""
         return roller_radius(self.curvature, self.board.roller_rule, self.board.roller_radius, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def working_profile(self) -> Construction:
         """The profile that the roller runs on."""
         return working_profile(self.inversion, self.roller_radius, self.pencil)
 
-    @Drawn
+    @DrawnOnce
     def scheme(self) -> Construction:
         """The mechanism at the start of the turn."""
         return scheme(self.working_profile, self.board.follower)

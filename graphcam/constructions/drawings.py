@@ -18,7 +18,7 @@ Draw = Callable[[Any], Construction]
 """Draws a construction from the chain that it belongs to."""
 
 
-class Drawn:
+class DrawnOnce:
     """The attribute of a chain that draws one of its constructions; it decorates the function that does."""
 
     def __init__(self, draw: Draw) -> None:
@@ -29,10 +29,10 @@ class Drawn:
         chain.own = {**chain.own, name: self.draw}
 
     @overload
-    def __get__(self, chain: None, kind: type[Drawings]) -> Drawn: ...
+    def __get__(self, chain: None, kind: type[Drawings]) -> DrawnOnce: ...
     @overload
     def __get__(self, chain: Drawings, kind: type[Drawings]) -> Construction: ...
-    def __get__(self, chain: Drawings | None, kind: type[Drawings]) -> Drawn | Construction:
+    def __get__(self, chain: Drawings | None, kind: type[Drawings]) -> DrawnOnce | Construction:
         return self if chain is None else chain.drawn(self.name)
 
 

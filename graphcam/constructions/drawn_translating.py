@@ -85,7 +85,7 @@ class DrawnTranslating(DrawnFollower):
         times, centre = complex(back) * inverted.givens.mu_l.per_mm / scale.per_mm, hand.given("A")
         foot = hand.enlarged("foot", hand.given("first foot", inverted.first("feet")[0]), centre, times)
         prime = hand.circle("prime circle", centre, inverted.givens.prime_radius / scale.per_mm)
-        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime)
+        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime, flat=True)
         b = hand.lay_off("B", start, UP, integrated.givens.motion.levels[0] / scale.per_mm)
         tail = hand.lay_off("tail", hand.lay_off("beside the stem", b, RIGHT, 4.0), UP, STEM + 1)
         return (
