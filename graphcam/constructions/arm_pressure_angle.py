@@ -109,7 +109,7 @@ def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
     v1 = hand.lay_off("v₁", pole, hand.join("AB", a, b).turned(sigma * UP), between(a, b))
     v2 = hand.lay_off("v₂", pole, hand.join("BD", b, d).turned(-sigma * UP), between(b, d))
     across, along, v21 = v1.place - pole.place, v2.place - pole.place, hand.join("v₂₁", v1, v2)
-    arrows = velocity_plan(pole.place, across, along, (pole.act, v1.act, v2.act, v21.act))
+    arrows = velocity_plan(pole, v1, v2, v21)
     closed = say(
         "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
         "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."

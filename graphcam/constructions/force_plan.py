@@ -222,7 +222,7 @@ def _normal_line(normal: Drawn, length: float, alpha: float) -> tuple[Mark, ...]
     return (
         Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act),
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        replace(angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said), of=normal.act),
+        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said, normal.act),
     )
 
 
