@@ -19,7 +19,6 @@ from graphcam.constructions.region import (
     Boundary,
     binding,
     boundary,
-    feet_and_corners,
     highest_on,
     nearest,
     permitted_part,
@@ -28,7 +27,7 @@ from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Step, Words, say
+from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Points, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -81,26 +80,34 @@ def least_radius(
     Readings: ``prime_radius``, ``offset`` and ``s0`` [mm].
     """
     givens = LeastRadiusGivens(integrated, rotation, limits, offset)
-    hand, sigma = Hand(pencil, MEANING), sense(rotation)
-    s, v = integrated.readings["s"], integrated.readings["v"]
-    start, upright = hand.given("start of the lift"), hand.given("line of motion", along=UP)
-    level = hand.given("zero lift", along=RIGHT)
-    # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
-    heights = hand.project("displacements", hand.carry(s), upright)
-    ends = hand.lay_off("ends", heights, -sigma * RIGHT, hand.carry(v, v.scale / s.scale))
-    lines = _bounds(hand, givens, ends, start)
+    hand, s = Hand(pencil, MEANING), integrated.readings["s"]
+    start, level = hand.given("start of the lift"), hand.given("zero lift", along=RIGHT)
+    lines = _bounds(hand, givens, velocities(hand, integrated, rotation), start)
     hand.cross("rise at zero lift", lines[0], level)
-    places = feet_and_corners(hand, lines, start)
-    highest_on(hand, "central", lines, upright, level)
-    if offset is None:
-        centre = nearest(hand, "centre", places, lines, start)
-    else:
-        beside = hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)))
-        centre = highest_on(hand, "centre", lines, beside, level)
+    near = nearest(hand, "nearest", lines, start)
+    highest_on(hand, "central", lines, hand.given("line of motion", along=UP), level)
+    if offset is not None:
+        near = highest_on(hand, "highest", lines, offset_line(hand, start, offset, s), level)
+    centre = hand.take("centre", near)
     hand.read("prime_radius", between(start, centre), s.scale)
     hand.read("offset", between(centre, start, RIGHT), s.scale)
     hand.read("s0", between(centre, start, UP), s.scale)
-    return hand.finished(givens, _draw, {"ends": ends, "centre": centre} | {line.act.name: line for line in lines})
+    return hand.finished(
+        givens, _draw, {"ends": hand.acts["ends"], "centre": centre} | {line.act.name: line for line in lines}
+    )
+
+
+def velocities(hand: Hand, integrated: Integrated, rotation: Rotation) -> Drawn:
+    """The ends of v, laid off at the displacements in the scale of s, turned by 90 degrees in the sense of the cam."""
+    s, v = integrated.readings["s"], integrated.readings["v"]
+    # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
+    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
+    return hand.lay_off("ends", heights, -sense(rotation) * RIGHT, hand.carry(v, v.scale / s.scale))
+
+
+def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
+    """The line on which the cam centre lies at an offset [mm], in the scale of s: downwards."""
+    return hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)), -UP)
 
 
 def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) -> list[Drawn]:
@@ -151,7 +158,7 @@ def _draw(region: LeastRadius) -> list[Step]:
     integrated, limits, hand = region.givens.integrated, region.givens.limits, showing(region)
     stations, heights, ends = integrated.givens.stations, region.acts["displacements"], region.acts["ends"]
     v, lines, others = ends.shown.real, _shown(region), _alternatives(region)
-    marked = [place.place for place in (region.acts["centre"][0], *others.values()) if not np.isnan(place.place)]
+    marked = [place.place for place in (region.acts["centre"].first, *others.values()) if not np.isnan(place.place)]
     bottom = min(0.0, *(place.imag for place in marked)) - REGION_DEPTH
     line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + OVERHANG]), Role.AXIS),)
     laid_off = (ends.from_(heights, Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
@@ -202,7 +209,7 @@ def _draw(region: LeastRadius) -> list[Step]:
 
 def _result(region: LeastRadius) -> Step:
     title, offset = say("The least prime radius"), region.givens.offset
-    centre, start = region.acts["centre"].first[0], region.acts["start of the lift"].first
+    centre, start = region.acts["centre"].first, region.acts["start of the lift"].first
     if np.isnan(centre.place):
         unreadable = say(
             "No cam centre can be read: the lines that bound the region cross one another, or the "

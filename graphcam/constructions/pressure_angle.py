@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.integration import Integrated
+from graphcam.constructions.minimum_radius import offset_line, velocities
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, reading, say
+from graphcam.drafting.ink import Caption, Construction, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arrow, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -76,18 +77,18 @@ def pressure_angle(
 
     Readings at the stations: ``alpha`` [rad], positive on an ordinary rise, and ``transmission`` [rad]; ``s0`` [mm].
     """
-    hand, sigma = Hand(pencil, MEANING), sense(rotation)
-    s, v, start = integrated.readings["s"], integrated.readings["v"], hand.given("start of the lift")
-    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
-    ends = hand.lay_off("ends", heights, -sigma * RIGHT, hand.carry(v, v.scale / s.scale))
+    hand = Hand(pencil, MEANING)
+    s, start, ends = integrated.readings["s"], hand.given("start of the lift"), velocities(hand, integrated, rotation)
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
-    beside = hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s))
-    prime = hand.circle("prime circle", start, hand.at_scale(prime_radius, s))
-    line = hand.erect("line of the offset", beside, -UP)
+    line, prime = (
+        offset_line(hand, start, offset, s),
+        hand.circle("prime circle", start, hand.at_scale(prime_radius, s)),
+    )
     met, touch = hand.cross("circle and line", line, prime), hand.project("touch", start, line)
     # A line that misses the circle, by the hand's errors, is taken to touch it.
-    centre = hand.take("centre", met, touch, which=np.isnan(met.points).astype(int)[..., None])[0]
-    read_angles(hand, UP, hand.join("rays", centre, ends), sigma)
+    either = hand.take("circle or touch", met, touch, which=np.isnan(met.points).astype(int)[..., None])
+    centre = hand.take("centre", either[0])
+    read_angles(hand, UP, hand.join("rays", centre, ends), sense(rotation))
     hand.read("s0", between(centre, start, UP), s.scale)
     givens = PressureAngleGivens(integrated, rotation, prime_radius, offset)
     return hand.finished(givens, _draw, {"ends": ends, "centre": centre})
@@ -101,11 +102,6 @@ def read_angles(hand: Hand, base: Direction, rays: Drawn, sense: int = 1) -> Non
 
 def _complement(alpha: Floats) -> Floats:
     return np.pi / 2 - np.abs(alpha)
-
-
-def angle_readings(alpha: Floats) -> dict[str, Reading]:
-    """The pressure angles [rad], and the transmission angles, as :func:`read_angles` reads them."""
-    return {"alpha": reading(alpha, 1.0, "rad"), "transmission": reading(_complement(alpha), 1.0, "rad")}
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -134,7 +130,7 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     k, sigma = shown_station(measured), sense(measured.givens.rotation)
-    centre, end, mu = measured.acts["centre"].first[0], measured.acts["ends"].first[k], measured.readings["s0"].per_mm
+    centre, end, mu = measured.acts["centre"].first, measured.acts["ends"].first[k], measured.readings["s0"].per_mm
     scale = standard_scale((end.place - centre.place).imag * mu, PLAN_HEIGHT)
     plan, acts = at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm)
     pole, v1, v2, v21 = (acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
@@ -170,7 +166,7 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
 
 def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Mapping[str, Drawn]:
     """The triangle of the mechanism at a station, enlarged about the cam centre A, and the plan beside it."""
-    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first[0]
+    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
     a = hand.enlarged("A", centre, centre, times)
     b = hand.enlarged("B", measured.acts["displacements"].first[k], centre, times)
     d = hand.enlarged("D", measured.acts["ends"].first[k], centre, times)
@@ -213,14 +209,14 @@ def _angle(acts: Mapping[str, Drawn], sigma: int, shown: Caption, read: Act | No
 
 
 def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn) -> tuple[Mark, ...]:
-    """The plan from its pole: v₁ across the radius, v₂ along the motion, and v₂₁ that closes it."""
-    p, across, along = pole.place, v1.place, v2.place
-    side = np.sign((across - p).real)
+    """The plan from its pole: v₁ across the radius, v₂ along the motion, and the line v₂₁ that closes it."""
+    start, one, other = pole.place, v1.place, v2.place
+    side = np.sign((one - start).real)
     return (
-        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(across, along, Role.CURVE, v21.act)),
-        Label((p + across) / 2, "v₁", -UP * side, of=v1.act),
-        Label((p + along) / 2, "v₂", -side, of=v2.act),
-        Label((across + along) / 2, "v₂₁", UP + side, of=v21.act),
+        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE, v21.act)),
+        Label((start + one) / 2, "v₁", -UP * side, of=v1.act),
+        Label((start + other) / 2, "v₂", -side, of=v2.act),
+        Label((one + other) / 2, "v₂₁", UP + side, of=v21.act),
         pole.label("p", -1 - 1j),
     )
 

@@ -23,8 +23,6 @@ from graphcam.plane import dot
 
 ON_THE_LINE = 1e-9
 """A point of the paper this near to a boundary [mm] lies on it: rounding of the arithmetic."""
-UNREAD = 1e300
-"""As far away as nothing on paper [mm]."""
 
 
 LEAST_RADIUS = ReadingMeaning(
@@ -64,32 +62,23 @@ def boundary(line: Drawn) -> Boundary:
     return Boundary(line.act.name, line.points, -UP * line.directions)
 
 
-def feet_and_corners(hand: Hand, lines: Sequence[Drawn], start: Drawn) -> list[Drawn]:
-    """The feet of the perpendiculars from ``start`` on lines, and where the lines cross: one of them is nearest."""
-    names = [line.act.name for line in lines]
-    across = [hand.perpendicular(f"across {name}", line, start) for name, line in zip(names, lines, strict=True)]
-    feet = zip(names, lines, across, strict=True)
-    return [
-        *(hand.cross(f"foot on {name}", line, normal) for name, line, normal in feet),
-        *(hand.cross(f"{a.act.name} and {b.act.name}", a, b) for a, b in combinations(lines, 2)),
-    ]
-
-
-def nearest(hand: Hand, name: str, places: Sequence[Drawn], lines: Sequence[Drawn], start: Drawn) -> Drawn:
-    """Of some places the permitted one nearest to ``start``; NaN if only places that cannot be read are left.
+def nearest(hand: Hand, name: str, lines: Sequence[Drawn], start: Drawn) -> Drawn:
+    """The permitted place nearest to ``start``: a foot of a perpendicular or a corner of the region; NaN if none is.
 
     >>> import graphcam as gc
     >>> from graphcam.drafting.meaning import Meaning
     >>> hand = Hand(gc.Pencil(), Meaning("region", say("Region"), say("Two lines bound it.")))
-    >>> start = hand.given("start", -1 + 0j)
     >>> lines = [hand.given("left", 0j, UP), hand.given("below", -3j, 1)]
-    >>> nearest(hand, "centre", feet_and_corners(hand, lines, start), lines, start).place
+    >>> nearest(hand, "centre", lines, hand.given("start", -1)).place
     -3j
     """
+    places = [hand.cross(f"foot on {line.act.name}", line, hand.perpendicular("across", line, start)) for line in lines]
+    places += [hand.cross(f"{a.act.name} and {b.act.name}", a, b) for a, b in combinations(lines, 2)]
     at = np.stack([place.points for place in places], axis=-1)
-    cut_off = np.any([boundary(line).clearance(at.T).T < -ON_THE_LINE for line in lines], axis=0)
-    distance = np.nan_to_num(np.abs(at - start.points[..., None]), nan=UNREAD)
-    return hand.take(name, *places, which=np.argmin(np.where(cut_off, np.inf, distance), axis=-1)[..., None])[0]
+    permitted = np.all([boundary(line).clearance(at.T).T >= -ON_THE_LINE for line in lines], axis=0)
+    best = np.argmin(np.where(permitted, np.abs(at - start.points[..., None]), np.inf), axis=-1)
+    which = np.where(permitted.any(axis=-1), best, len(places))[..., None]
+    return hand.take(name, *places, hand.given("nowhere", NOWHERE), which=which)[0]
 
 
 def highest_on(hand: Hand, name: str, lines: Sequence[Drawn], upright: Drawn, level: Drawn) -> Drawn:

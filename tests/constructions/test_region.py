@@ -11,7 +11,6 @@ from graphcam.constructions.region import (
     Boundary,
     binding,
     boundary,
-    feet_and_corners,
     highest_on,
     nearest,
     nearest_of_many,
@@ -40,8 +39,7 @@ def leaning(hand: Hand, name: str, angle: float, side: int, depth: float | np.nd
 
 def nearest_place(hand: Hand, lines: list[Drawn]) -> np.ndarray:
     """The one that is nearest to the origin."""
-    start = hand.given("start")
-    return nearest(hand, "centre", feet_and_corners(hand, lines, start), lines, start).points
+    return nearest(hand, "centre", lines, hand.given("start")).points
 
 
 @same_every_time
