@@ -16,7 +16,7 @@ from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.given.follower import Rotation, sense
+from graphcam.given.follower import Rotation
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,9 +74,8 @@ def arm_inversion(
 
 def _draw(inverted: Construction[ArmInversionGivens]) -> list[Step]:
     integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
-    sigma, c, r0 = sense(inverted.givens.rotation), inverted.givens.distance, inverted.givens.prime_radius
-    pivots, starts = inverted.acts["pivots"], inverted.acts["starts"].shown
-    start = complex(turned(starts[0], sigma * integrated.givens.stations.phi[0]))  # where the turn begins
+    c, r0 = inverted.givens.distance, inverted.givens.prime_radius
+    pivots, start = inverted.acts["pivots"], profile_view.start_of_turn(inverted)
     circle = (inverted.acts["pivot circle"].drawn_circle(Role.CONSTRUCTION),)
     drawn = say(
         "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the pivot, c = {c:g} mm, are drawn at "

@@ -19,7 +19,7 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import Rotation, Translating, sense
+from graphcam.given.follower import Rotation, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.spring_load import SpringLoad
@@ -80,12 +80,10 @@ class DrawnTranslating(DrawnFollower):
     def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
         """Roller, stem and guide."""
         integrated, hand = inverted.givens.integrated, showing(inverted)
-        # Turned back by the station's cam angle, the foot of the first station lies level with the cam centre.
-        back = np.exp(1j * sense(inverted.givens.rotation) * integrated.givens.stations.phi[0])
-        times, centre = complex(back) * inverted.givens.mu_l.per_mm / scale.per_mm, hand.given("A")
-        foot = hand.enlarged("foot", hand.given("first foot", inverted.first("feet")[0]), centre, times)
-        prime = hand.circle("prime circle", centre, inverted.givens.prime_radius / scale.per_mm)
-        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime, flat=True)
+        # The sketch shows the cam as it was adopted, so its follower stands at the given offset.
+        foot = hand.lay_off("foot", hand.given("A"), RIGHT, inverted.givens.offset / scale.per_mm)
+        prime = hand.circle("prime circle", hand.given("A"), inverted.givens.prime_radius / scale.per_mm)
+        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime)
         b = hand.lay_off("B", start, UP, integrated.givens.motion.levels[0] / scale.per_mm)
         tail = hand.lay_off("tail", hand.lay_off("beside the stem", b, RIGHT, 4.0), UP, STEM + 1)
         return (

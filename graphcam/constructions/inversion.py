@@ -9,14 +9,14 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import RIGHT, UP, turned
+from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.given.follower import Rotation, sense
+from graphcam.given.follower import Rotation
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,10 +83,9 @@ def inversion(
 
 
 def _draw(inverted: OffsetInverted) -> list[Step]:
-    mu_l, phi = inverted.givens.mu_l, inverted.givens.integrated.givens.stations.phi
-    sigma, e, r0 = sense(inverted.givens.rotation), inverted.givens.offset, inverted.givens.prime_radius
+    mu_l, e, r0 = inverted.givens.mu_l, inverted.givens.offset, inverted.givens.prime_radius
     starts, pitch = inverted.acts["starts"], inverted.acts["pitch"]
-    start = complex(turned(starts.shown[0], sigma * phi[0]))  # on the prime circle, where the turn begins
+    start = profile_view.start_of_turn(inverted)
     circle, arrow = (), ()
     if e:
         offset_circle = inverted.acts["offset circle"]

@@ -141,6 +141,14 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
     return Arc(0j, radius, start, end, Role.CURVE, arrow="end" if sigma > 0 else "start")
 
 
+def start_of_turn(inverted: Inverted) -> complex:
+    """Where the turn begins on the prime circle: a start of the lift, turned back; above the centre if none is read."""
+    back = turned(
+        inverted.acts["starts"].shown, sense(inverted.givens.rotation) * inverted.givens.integrated.givens.stations.phi
+    )
+    return complex(np.append(back[~np.isnan(back)], UP)[0])
+
+
 def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
     """The angles of the phases outside the curve, against the rotation, from the point where the lift starts."""
     motion: Motion = inverted.givens.integrated.givens.motion
