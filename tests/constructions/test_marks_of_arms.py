@@ -39,11 +39,9 @@ EVERY = pytest.mark.parametrize("name", ["built-in", *BOARDS])
 
 @cache
 def chain(name: str, pencil: Pencil | None = None) -> Chain:
-    return (
-        gc.solve(gc.builtin_task("arm"), pencil).chain
-        if name == "built-in"
-        else Chain(BOARDS[name], pencil or Pencil())
-    )
+    if name == "built-in":
+        return gc.solve(gc.builtin_task("arm"), pencil).chain
+    return Chain(BOARDS[name], pencil or Pencil())
 
 
 def steps_of(name: str, construction: str, pencil: Pencil | None = None) -> tuple[Construction, list[Step]]:
@@ -130,7 +128,7 @@ def test_the_arm_swings_about_its_pivot_by_the_displacements(name):
 @EVERY
 def test_the_velocities_are_laid_off_along_the_arm_and_a_curve_is_faired_through_their_ends(name):
     region, steps = steps_of(name, "minimum_radius")
-    length, outward, ends, tips = positions(region)
+    _, _, ends, tips = positions(region)
     (laid_off,), curves = marks(steps[1], Segments), marks(steps[1], Line)
     assert_allclose(laid_off.starts, ends, atol=EXACT)
     assert_allclose(laid_off.ends, tips, atol=EXACT)
@@ -140,12 +138,11 @@ def test_the_velocities_are_laid_off_along_the_arm_and_a_curve_is_faired_through
     for text, label in labels(steps[1]).items():
         k = station(region, text)
         assert label.at == pytest.approx(tips[k])
-        assert cmath.phase(label.towards / outward[k]) == pytest.approx(0, abs=EXACT)
+        assert cmath.phase(label.towards / tips[k]) == pytest.approx(0, abs=EXACT)
         assert abs(tips[k] - ends[k]) > 1
     assert numbers(steps[1].caption, r"at most ([\d.]+) mm") == [pytest.approx(np.abs(tips - ends).max(), abs=0.05)]
     assert ("on the rise outward" in str(steps[1].caption)) == (sense(region) > 0)
     assert ("on the rise towards the pivot" in str(steps[1].caption)) == (sense(region) < 0)
-    assert length > 0
 
 
 @EVERY
@@ -188,16 +185,16 @@ def from_edge(place: complex, corners: np.ndarray) -> float:
     return min(found)
 
 
-@EVERY
+@pytest.mark.parametrize("name", ["built-in", *(name for name in BOARDS if name != REACH)])
 def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
     region, steps = steps_of(name, "minimum_radius")
-    length, _, _, tips = positions(region)
+    length, outward, _, tips = positions(region)
     (shaded,), (centre,) = marks(steps[2], Region), marks(steps[3], Dots)
     corners, place = shaded.boundary, complex(centre.points[0])
     assert from_edge(place, corners) < 1e-6
     assert corners.imag.min() == pytest.approx(place.imag - 30)
     assert -1.3 * length - EXACT <= corners.real.min() < corners.real.max() <= EXACT
-    outward, at, sigma = tips / np.abs(tips), directions(region), sense(region)
+    at, sigma = directions(region), sense(region)
     drives = np.where(at > 0, region.givens.limits.rise, region.givens.limits.return_ or math.nan)
     for corner in corners:
         # Seen from every D, no corner is farther from the arm's normal than is permitted to the driven side.
