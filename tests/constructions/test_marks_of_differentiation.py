@@ -303,3 +303,13 @@ def test_every_mark_but_an_axis_names_its_act(kind):
     for step in drawn(kind).steps():
         for mark in step.own:
             assert isinstance(mark.of, Act), (str(step.title), mark)
+
+
+@EVERY
+def test_rise_and_run_are_read_on_the_chords_or_on_the_rays_parallel_to_the_tangents(kind):
+    c = drawn(kind)
+    (plotted, derived, *_, distance, _), _ = passes(kind)
+    ways = np.diff(ends_of_chords(kind, plotted)) if by_chords(kind) else distance + 1j * derived.imag
+    assert_allclose(c.readings["run"].value, ways.real * c.givens.mu_phi.per_mm, atol=EXACT)
+    assert_allclose(c.readings["rise"].value, ways.imag * c.givens.mu_s.per_mm, atol=EXACT)
+    assert (c.readings["run"].unit, c.readings["rise"].unit) == ("rad", c.givens.mu_s.unit)

@@ -1,0 +1,105 @@
+"""What every diagram over the cam angle has drawn about it: axes, limits of the phases, degrees, names of stations."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from boards import coursework_motion
+from numpy.testing import assert_allclose
+
+import graphcam as gc
+from graphcam.constructions.axes import (
+    DEGREES_ROOM,
+    OVERHANG,
+    axes_over_phi,
+    degree_ticks,
+    numbers,
+    once,
+    phi_axes,
+    station_names,
+)
+from graphcam.drafting.hand import Hand
+from graphcam.drafting.ink import say
+from graphcam.drafting.marks import Arrow, Role, Segments
+from graphcam.drafting.meaning import Meaning
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.stations import divide
+
+MOTION = coursework_motion("3-4-5")
+DEGREE = gc.Scale(math.radians(1), "rad")
+HALF_A_DEGREE, TWO_AND_A_HALF = gc.Scale(math.radians(0.5), "rad"), gc.Scale(math.radians(2.6), "rad")
+
+
+def hand() -> Hand:
+    return Hand(Pencil(), Meaning("board", say("Board"), say("Something is drawn.")))
+
+
+@pytest.mark.parametrize("heights", [[3.0, -20.0, 11.0], [5.0, 7.0], [-5.0, -7.0], [np.nan, 4.0]])
+def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_their_heads(heights):
+    across, up, phi, symbol = axes_over_phi(90.0, np.array(heights), "v")
+    assert isinstance(across, Arrow)
+    assert (across.start, across.end, across.role) == (0, 90 + OVERHANG, Role.SCALE)
+    lowest, highest = min(0, np.nanmin(heights)), max(0, np.nanmax(heights))
+    assert (up.start, up.end, up.role) == (lowest * 1j, (highest + OVERHANG) * 1j, Role.SCALE)
+    assert (phi.at, phi.text, symbol.at, symbol.text) == (across.end, "φ", up.end, "v")
+    assert phi.towards.imag < 0 < phi.towards.real
+    assert symbol.towards == -1
+
+
+@pytest.mark.parametrize("scale", [DEGREE, HALF_A_DEGREE])
+def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest(scale):
+    marks = phi_axes(MOTION, scale, np.array([-10.0, 25.0]), "a")
+    (limits,) = (mark for mark in marks if isinstance(mark, Segments))
+    ends = np.array([80, 125, 185, 360]) * math.radians(1) / scale.per_mm
+    assert_allclose(limits.starts, ends - 10j)
+    assert_allclose(limits.ends, ends + 25j)
+    assert limits.role is Role.CONSTRUCTION
+    assert marks[0].end == pytest.approx(ends[-1] + OVERHANG)
+
+
+@pytest.mark.parametrize(("scale", "every"), [(DEGREE, 30), (HALF_A_DEGREE, 30), (TWO_AND_A_HALF, 60)])
+def test_degrees_are_numbered_where_they_lie_below_the_axis_and_have_room(scale, every):
+    strokes, *labels = degree_ticks(scale)
+    degrees = np.arange(every, 361, every)
+    x = degrees * math.radians(1) / scale.per_mm
+    assert_allclose(strokes.starts, x)
+    assert_allclose(strokes.ends, x - 1.5j)
+    assert strokes.role is Role.SCALE
+    assert [label.text for label in labels] == [f"{n}°" for n in degrees]
+    assert_allclose([label.at for label in labels], x)
+    assert {label.towards for label in labels} == {-1j}
+    assert all(label.small for label in labels)
+    assert np.diff(x).min() >= DEGREES_ROOM
+
+
+def test_stations_are_named_at_their_places_in_their_directions_and_know_the_act_that_left_them():
+    stations = divide(MOTION, 6)
+    places = np.arange(14) * (10 + 1j)
+    towards = np.where(np.arange(14) % 2, 1j, -1j)
+    left = hand().given("places", places)
+    labels = numbers(left, stations, towards)
+    names = station_names(stations)
+    assert [label.text for label in labels] == names == [*"0123456", *(f"{k}′" for k in range(7))]
+    assert_allclose([label.at for label in labels], places)
+    assert_allclose([label.towards for label in labels], towards)
+    assert all(label.small and label.of is left.act for label in labels)
+    shown = np.arange(14) > 3
+    assert [label.text for label in numbers(left, stations, 1j, shown)] == names[4:]
+    assert {label.towards for label in numbers(left, stations, 1j, shown)} == {1j}
+
+
+def test_where_stations_stand_close_every_second_or_third_is_named_and_both_ends_of_a_phase():
+    stations = divide(MOTION, 12)
+    for apart, every in ((7.0, 1), (3.1, 2), (2.1, 3)):
+        labels = numbers(hand().given("places", np.arange(26) * apart + 0j), stations, 1j)
+        named = [int(str(label.text)) for label in labels if not str(label.text).endswith("′")]
+        assert named == [*range(0, 12, every), 12]
+        assert min(np.diff(named)) * apart >= 6
+
+
+def test_of_heights_that_fall_on_one_another_each_is_drawn_once():
+    heights = hand().given("heights", np.array([3, 1, 3.0001, -2, 1.0]) * 1j)
+    kept = once(heights)
+    assert_allclose(np.round(heights.points[kept].imag, 3), [-2, 1, 3])
