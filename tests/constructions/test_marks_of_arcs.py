@@ -16,7 +16,7 @@ from test_arc_drawing import CASES, EXAMPLE, MIRRORED, board_of
 import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Step
-from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Role, Segments
+from graphcam.drafting.marks import Arc, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.mechanism.arcs import three_arc_cam
 
 NEAR = 1e-9
@@ -180,6 +180,8 @@ def test_the_third_centre_is_as_far_from_p_as_from_c1_on_the_line_through_g_and_
     step, g, c1, c2 = drawn[at], named(drawn[0], "G").at, named(drawn[1], "C1").at, named(drawn[2], "C2").at
     p, c3 = the(all_of(step, Dots)[0].points)
     side = -1 if prime else 1
+    assert str(step.title) == ("The other root" if prime else "The third centre")
+    assert f"from G {'away from' if prime else 'towards'} C2 to P{prime}." in str(step.caption)
     assert abs((p - g) / (c2 - g) * abs(c2 - g) - side * BOARDS[name][0]["rho1"] / mu) < near
     assert abs(across(c2 - g, c3 - g)) < NEAR
     chord, bisector, line = all_of(step, Line)[:3]
@@ -309,7 +311,7 @@ def test_the_roller_keeps_to_arcs_about_the_same_centres(name):
     for text in "AD":
         assert abs(across(named(step, text).at, named(step, text).towards)) < near
         assert (named(step, text).towards / named(step, text).at).real < 0
-    assert (named(step, "O").at, the(all_of(step, Dots)[0].points)) == (0, [0])
+    assert (named(step, "O").at, named(step, "O").towards, the(all_of(step, Dots)[0].points)) == (0, -1 - 1j, [0])
 
 
 @PERFECT
@@ -386,6 +388,8 @@ def test_the_velocity_is_cut_off_by_the_rod_on_the_perpendicular_to_the_follower
     assert [the(line.points) for line in (rod, velocity, cut)] == [[b, c], [o, k], [b, k]]
     low, high = the(all_of(step, Line)[0].points)
     assert (low.real, high) == (0, pytest.approx((b.imag + BEYOND) * 1j))
+    m = named(steps(name, "arc_roller")[3], "M").at
+    assert low.imag == pytest.approx(min(0.0, m.imag, c.imag) - BEYOND)
     for text, place in (("O", o), ("B", b), ("C1", c), ("K", k)):
         assert named(step, text).at == place
     side = named(step, "B").towards
@@ -458,6 +462,35 @@ def test_the_ordinates_are_the_lift_and_its_derivatives(name, k, key):
     heights = all_of(step, Line)[-1].points.imag
     assert np.allclose(limits.starts, np.array([*edges[1:], *down, 360]) + 1j * heights.min(), atol=1e-6)
     assert np.allclose(limits.ends, np.array([*edges[1:], *down, 360]) + 1j * heights.max(), atol=1e-6)
+
+
+@PERFECT
+def test_the_accelerations_at_the_joints_are_those_on_either_side(name):
+    data, changes = BOARDS[name]
+    motion = three_arc_cam(**data)[0].motion(changes.get("roller", 10.0), dwell_of(name))
+    ends = {"A": (0, 0), "G_before": (0, 1), "G_after": (1, 0), "F_before": (1, 1), "F_after": (2, 0), "D": (2, 1)}
+    rolled = chain(name)["arc_roller"]
+    for end, (arc, u) in ends.items():
+        exact = motion.at(np.array([arc]), np.array([float(u)]))[1][2]
+        assert float(rolled.value(f"a_{end}")) == pytest.approx(float(exact[0]))
+    assert set(steps(name, "arc_roller")[3].reads) == {"v", "a", *(f"a_{end}" for end in ends)}
+    radii = {"prime_radius": motion.prime_radius, "lift": motion.at(np.array([2]), np.array([1.0]))[1][0][0]}
+    radii |= {"roller_radius": radius_of_roller(name) * per_mm(name), "rise": motion.edges[3], "phi_G": motion.edges[1]}
+    for reading, exact in radii.items():
+        assert float(rolled.value(reading)) == pytest.approx(float(exact)), reading
+    path = [arc.radius for arc in all_of(steps(name, "arc_roller")[0], Arc)]
+    least = min(path[-4 if dwell_of(name) else -3], path[-1])  # about C1, and about O
+    assert float(rolled.first("rho")) == pytest.approx(least)
+
+
+@EVERY
+@DIAGRAMS
+def test_the_axes_reach_beyond_the_curve(name, k, key):
+    step = steps(name, "arc_diagrams")[k]
+    heights, (phi, up) = all_of(step, Line)[-1].points.imag, all_of(step, Arrow)
+    assert (phi.start, phi.end) == (0, pytest.approx(368.0, abs=tolerance(name)))
+    assert (up.start, up.end) == (heights.min() * 1j, pytest.approx((heights.max() + 8.0) * 1j))
+    assert set(step.given) >= {phi, up}
 
 
 @EVERY
