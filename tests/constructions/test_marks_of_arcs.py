@@ -318,6 +318,7 @@ def test_the_roller_keeps_to_arcs_about_the_same_centres(name):
 def test_the_cam_angles_of_the_joints_are_the_angles_between_the_lines_from_o(name):
     step, mu = steps(name, "arc_roller")[0], per_mm(name)
     roller, *angles = numbers(step)
+    assert str(step.caption).startswith("The roller's centre" if roller else "The knife edge")
     assert roller == pytest.approx(radius_of_roller(name) * mu)
     centres = [named(steps(name, "three_arcs")[k], text).at for k, text in ((2, "C2"), (3, "C3"), (3, "C3"), (1, "C1"))]
     joints = [named(step, text).at for text in "AGFD"]
@@ -369,6 +370,27 @@ def test_the_rays_divide_the_angle_of_each_arc_equally_and_meet_it_in_the_roller
     assert lift == pytest.approx(abs(rise.points[-1]) - abs(rise.points[0]), abs=max(near, 0.01))
 
 
+SCALES = (0.05, 0.1, 0.2, 0.25, 0.4, 0.5, 1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 15.0, 20.0)
+"""mm of the cam in a mm of paper, of the standard scales."""
+
+
+def fits(size: float, scale: float, room: float) -> bool:
+    """Whether a drawing of that size [mm of paper] has the largest scale at which it is not larger than its room."""
+    return size <= room < size * scale / SCALES[SCALES.index(scale) - 1]
+
+
+@PERFECT
+def test_plan_and_diagrams_are_drawn_as_large_as_there_is_room_for(name):
+    velocity, acceleration = steps(name, "arc_roller")[2:4]
+    places = np.concatenate([all_of(step, Dots)[0].points for step in (velocity, acceleration)])
+    assert fits(max(np.ptp(places.real), np.ptp(places.imag)), scale_of_plan(velocity), 190.0)
+    for step, room in zip(steps(name, "arc_diagrams"), (100.0, 80.0, 60.0), strict=False):
+        heights = all_of(step, Dots)[0].points.imag
+        low, high = min(0.0, heights.min()), max(0.0, heights.max())
+        size = 2 * high if step.view.name == "velocity" else high - low
+        assert fits(size, laid_off_at(step), room), str(step.title)
+
+
 def scale_of_plan(step: Step) -> float:
     """mm of the cam in a mm of the plan."""
     found = re.search(r"at ([\d.]+):([\d.]+):", str(step.caption))
@@ -379,6 +401,10 @@ def scale_of_plan(step: Step) -> float:
 @EVERY
 def test_the_velocity_is_cut_off_by_the_rod_on_the_perpendicular_to_the_followers_line(name):
     step, near = steps(name, "arc_roller")[2], 5 * tolerance(name)
+    parts = len(chain(name).stations.u) // 3 - 1
+    station = 2 * parts + round(parts / 2)  # in the middle of the third arc
+    titles = [str(each.title) for each in steps(name, "arc_roller")[2:]]
+    assert titles == [f"{what} at station {station}" for what in ("Velocity", "Acceleration")]
     rod, velocity, cut = all_of(step, Line)[1:]
     o, b, c, k = the(all_of(step, Dots)[0].points)
     assert o == 0
