@@ -42,8 +42,6 @@ class ArcDiagramsGivens:
     heights: Mapping[str, float]
 
 
-ArcDiagrams = Construction[ArcDiagramsGivens]
-
 MEANING = Meaning(
     "arc_diagrams",
     say("Motion of the follower"),
@@ -73,7 +71,7 @@ MEANING = Meaning(
 
 def arc_diagrams(
     rolled: RollerOnArcs, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
-) -> ArcDiagrams:
+) -> Construction[ArcDiagramsGivens]:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
     rolled : from :func:`~graphcam.constructions.arc_roller.arc_roller`
@@ -128,10 +126,7 @@ TITLES = {
     "s": say("Displacement over the cam angle"),
     "alpha": say("Pressure angle over the cam angle"),
 }
-SPANS = (
-    *(say("rise {angle:.2f}°"), say("dwell {angle:.2f}°")),
-    *(say("return {angle:.2f}°"), say("rest {angle:.2f}°")),
-)
+SPANS = say("rise {angle:.2f}°"), say("dwell {angle:.2f}°"), say("return {angle:.2f}°"), say("rest {angle:.2f}°")
 """The phases and their angles."""
 CARRIED = {
     "a": say(
@@ -156,14 +151,15 @@ CARRIED = {
 }
 
 
-def _draw(plotted: ArcDiagrams) -> list[Step]:
+def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
     if np.isnan(plotted.givens.rolled.first("phi")).any():
-        said = say("Without a path of the roller there is nothing to plot.")
-        return [Step(say("No diagrams"), said, DISPLACEMENT, ())]
+        return [
+            Step(say("No diagrams"), say("Without a path of the roller there is nothing to plot."), DISPLACEMENT, ())
+        ]
     return [_diagram(plotted, name) for name in VIEWS]
 
 
-def _diagram(plotted: ArcDiagrams, name: str) -> Step:
+def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
     curve = _whole_turn(plotted, hand, name)
     low, high = reach(curve.shown.imag)
@@ -190,7 +186,7 @@ def _diagram(plotted: ArcDiagrams, name: str) -> Step:
     return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), (key,), axes)
 
 
-def _whole_turn(plotted: ArcDiagrams, hand: Hand, name: str) -> Drawn:
+def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str) -> Drawn:
     """The curve over the turn: the faired rise, the dwell, the rise mirrored, the rest."""
     places, o, ends = (plotted.acts[each].first for each in (name, "O", "ends"))
     known = [places[span][~np.isnan(places.shown[span])] for span in plotted.givens.rolled.givens.stations.spans]
@@ -207,6 +203,5 @@ def _whole_turn(plotted: ArcDiagrams, hand: Hand, name: str) -> Drawn:
 def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     """The angles of rise, dwell and return."""
     bounds = ends.shown[[0, 3, 4, 7, 8]] + UP * height
-    angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm)
-    spans = zip(pairwise(bounds), SPANS, angles, strict=True)
+    spans = zip(pairwise(bounds), SPANS, np.degrees(np.diff(bounds.real) * mu_phi.per_mm), strict=True)
     return [Dimension(a, b, said.where(angle=angle), of=ends.act) for (a, b), said, angle in spans if angle > 0]

@@ -119,8 +119,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
 def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, Drawn]:
     """The given points: laid off across, and up from there."""
     # A and D are found again, where the dwells' circles touch.
-    points = {point: at for point, at in vars(given).items() if at is not None and point != "rho1"}
-    places = {f"given_{point}" if point in "AD" else point: at for point, at in points.items()}
+    places = {f"given_{p}" if p in "AD" else p: at for p, at in vars(given).items() if at is not None and p != "rho1"}
     x, y = np.array([*places.values()]).T / mu_l.per_mm
     plotted = hand.lay_off("given points", hand.erect("uprights", hand.lay_off("feet", o, RIGHT, x)), UP, y)
     return {name: hand.take(name, plotted, which=k) for k, name in enumerate(places)}
@@ -334,10 +333,8 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
         prime=prime, f=_at(arcs, f), orders=_orders(arcs, name)
     )
-    found = (
-        *(*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role)),
-        *(_dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3)),
-    )
+    found = (*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role))
+    found = (*found, _dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3))
     line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
     if name:
         return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), (*_xy(c3), *_xy(f)))]

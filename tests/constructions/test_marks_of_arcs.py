@@ -16,7 +16,7 @@ from test_arc_drawing import CASES, EXAMPLE, MIRRORED, board_of
 import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Step
-from graphcam.drafting.marks import Arc, Circle, Dimension, Dots, Label, Line, Role, Segments
+from graphcam.drafting.marks import Arc, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.mechanism.arcs import three_arc_cam
 
 NEAR = 1e-9
@@ -180,6 +180,8 @@ def test_the_third_centre_is_as_far_from_p_as_from_c1_on_the_line_through_g_and_
     step, g, c1, c2 = drawn[at], named(drawn[0], "G").at, named(drawn[1], "C1").at, named(drawn[2], "C2").at
     p, c3 = the(all_of(step, Dots)[0].points)
     side = -1 if prime else 1
+    assert str(step.title) == ("The other root" if prime else "The third centre")
+    assert f"from G {'away from' if prime else 'towards'} C2 to P{prime}." in str(step.caption)
     assert abs((p - g) / (c2 - g) * abs(c2 - g) - side * BOARDS[name][0]["rho1"] / mu) < near
     assert abs(across(c2 - g, c3 - g)) < NEAR
     chord, bisector, line = all_of(step, Line)[:3]
@@ -309,13 +311,14 @@ def test_the_roller_keeps_to_arcs_about_the_same_centres(name):
     for text in "AD":
         assert abs(across(named(step, text).at, named(step, text).towards)) < near
         assert (named(step, text).towards / named(step, text).at).real < 0
-    assert (named(step, "O").at, the(all_of(step, Dots)[0].points)) == (0, [0])
+    assert (named(step, "O").at, named(step, "O").towards, the(all_of(step, Dots)[0].points)) == (0, -1 - 1j, [0])
 
 
 @PERFECT
 def test_the_cam_angles_of_the_joints_are_the_angles_between_the_lines_from_o(name):
     step, mu = steps(name, "arc_roller")[0], per_mm(name)
     roller, *angles = numbers(step)
+    assert str(step.caption).startswith("The roller's centre" if roller else "The knife edge")
     assert roller == pytest.approx(radius_of_roller(name) * mu)
     centres = [named(steps(name, "three_arcs")[k], text).at for k, text in ((2, "C2"), (3, "C3"), (3, "C3"), (1, "C1"))]
     joints = [named(step, text).at for text in "AGFD"]
@@ -367,6 +370,27 @@ def test_the_rays_divide_the_angle_of_each_arc_equally_and_meet_it_in_the_roller
     assert lift == pytest.approx(abs(rise.points[-1]) - abs(rise.points[0]), abs=max(near, 0.01))
 
 
+SCALES = (0.05, 0.1, 0.2, 0.25, 0.4, 0.5, 1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 15.0, 20.0)
+"""mm of the cam in a mm of paper, of the standard scales."""
+
+
+def fits(size: float, scale: float, room: float) -> bool:
+    """Whether a drawing of that size [mm of paper] has the largest scale at which it is not larger than its room."""
+    return size <= room < size * scale / SCALES[SCALES.index(scale) - 1]
+
+
+@PERFECT
+def test_plan_and_diagrams_are_drawn_as_large_as_there_is_room_for(name):
+    velocity, acceleration = steps(name, "arc_roller")[2:4]
+    places = np.concatenate([all_of(step, Dots)[0].points for step in (velocity, acceleration)])
+    assert fits(max(np.ptp(places.real), np.ptp(places.imag)), scale_of_plan(velocity), 190.0)
+    for step, room in zip(steps(name, "arc_diagrams"), (100.0, 80.0, 60.0), strict=False):
+        heights = all_of(step, Dots)[0].points.imag
+        low, high = min(0.0, heights.min()), max(0.0, heights.max())
+        size = 2 * high if step.view.name == "velocity" else high - low
+        assert fits(size, laid_off_at(step), room), str(step.title)
+
+
 def scale_of_plan(step: Step) -> float:
     """mm of the cam in a mm of the plan."""
     found = re.search(r"at ([\d.]+):([\d.]+):", str(step.caption))
@@ -377,6 +401,10 @@ def scale_of_plan(step: Step) -> float:
 @EVERY
 def test_the_velocity_is_cut_off_by_the_rod_on_the_perpendicular_to_the_followers_line(name):
     step, near = steps(name, "arc_roller")[2], 5 * tolerance(name)
+    parts = len(chain(name).stations.u) // 3 - 1
+    station = 2 * parts + round(parts / 2)  # in the middle of the third arc
+    titles = [str(each.title) for each in steps(name, "arc_roller")[2:]]
+    assert titles == [f"{what} at station {station}" for what in ("Velocity", "Acceleration")]
     rod, velocity, cut = all_of(step, Line)[1:]
     o, b, c, k = the(all_of(step, Dots)[0].points)
     assert o == 0
@@ -386,6 +414,8 @@ def test_the_velocity_is_cut_off_by_the_rod_on_the_perpendicular_to_the_follower
     assert [the(line.points) for line in (rod, velocity, cut)] == [[b, c], [o, k], [b, k]]
     low, high = the(all_of(step, Line)[0].points)
     assert (low.real, high) == (0, pytest.approx((b.imag + BEYOND) * 1j))
+    m = named(steps(name, "arc_roller")[3], "M").at
+    assert low.imag == pytest.approx(min(0.0, m.imag, c.imag) - BEYOND)
     for text, place in (("O", o), ("B", b), ("C1", c), ("K", k)):
         assert named(step, text).at == place
     side = named(step, "B").towards
@@ -458,6 +488,35 @@ def test_the_ordinates_are_the_lift_and_its_derivatives(name, k, key):
     heights = all_of(step, Line)[-1].points.imag
     assert np.allclose(limits.starts, np.array([*edges[1:], *down, 360]) + 1j * heights.min(), atol=1e-6)
     assert np.allclose(limits.ends, np.array([*edges[1:], *down, 360]) + 1j * heights.max(), atol=1e-6)
+
+
+@PERFECT
+def test_the_accelerations_at_the_joints_are_those_on_either_side(name):
+    data, changes = BOARDS[name]
+    motion = three_arc_cam(**data)[0].motion(changes.get("roller", 10.0), dwell_of(name))
+    ends = {"A": (0, 0), "G_before": (0, 1), "G_after": (1, 0), "F_before": (1, 1), "F_after": (2, 0), "D": (2, 1)}
+    rolled = chain(name)["arc_roller"]
+    for end, (arc, u) in ends.items():
+        exact = motion.at(np.array([arc]), np.array([float(u)]))[1][2]
+        assert float(rolled.value(f"a_{end}")) == pytest.approx(float(exact[0]))
+    assert set(steps(name, "arc_roller")[3].reads) == {"v", "a", *(f"a_{end}" for end in ends)}
+    radii = {"prime_radius": motion.prime_radius, "lift": motion.at(np.array([2]), np.array([1.0]))[1][0][0]}
+    radii |= {"roller_radius": radius_of_roller(name) * per_mm(name), "rise": motion.edges[3], "phi_G": motion.edges[1]}
+    for reading, exact in radii.items():
+        assert float(rolled.value(reading)) == pytest.approx(float(exact)), reading
+    path = [arc.radius for arc in all_of(steps(name, "arc_roller")[0], Arc)]
+    least = min(path[-4 if dwell_of(name) else -3], path[-1])  # about C1, and about O
+    assert float(rolled.first("rho")) == pytest.approx(least)
+
+
+@EVERY
+@DIAGRAMS
+def test_the_axes_reach_beyond_the_curve(name, k, key):
+    step = steps(name, "arc_diagrams")[k]
+    heights, (phi, up) = all_of(step, Line)[-1].points.imag, all_of(step, Arrow)
+    assert (phi.start, phi.end) == (0, pytest.approx(368.0, abs=tolerance(name)))
+    assert (up.start, up.end) == (heights.min() * 1j, pytest.approx((heights.max() + 8.0) * 1j))
+    assert set(step.given) >= {phi, up}
 
 
 @EVERY

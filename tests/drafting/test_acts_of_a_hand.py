@@ -271,6 +271,23 @@ def test_what_is_shown_in_another_view_is_enlarged_turned_and_moved():
     assert_allclose(raised.points, [10 + 7j, 8 + 9j])
 
 
+def test_a_mirror_image_lies_as_far_beyond_the_line_and_has_its_lines_and_radii():
+    hand = exact()
+    axis = hand.given("axis", 1 + 0j, 2 + 2j)
+    lines = hand.mirrored("lines", hand.given("l", np.array([3 + 0j, 1 + 0j]), np.array([1 + 0j, 1 + 1j])), axis)
+    assert_allclose(lines.points, [1 + 2j, 1 + 0j], atol=1e-12)
+    assert_allclose(lines.directions, [1j, 1 + 1j], atol=1e-12)
+    circle = hand.mirrored("circle", hand.circle("c", hand.given("o", 5 + 1j), 3.0), axis)
+    assert_allclose(circle.points, 2 + 4j)
+    assert circle.radius == 3.0
+
+
+def test_a_length_is_read_along_a_line_in_its_direction():
+    hand = exact()
+    a, b = hand.given("a", 0j), hand.given("b", np.array([5 + 5j, -1 + 0j]))
+    assert_allclose(between(a, b, hand.given("line", 9j, 3 + 4j)).amount, [7.0, -0.6])
+
+
 # --- readings --------------------------------------------------------------------------------------------------------
 
 
