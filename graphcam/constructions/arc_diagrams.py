@@ -69,6 +69,7 @@ MEANING = Meaning(
             ),
         ),
     },
+    scales={"acceleration": "max_a", "velocity": "max_v", "displacement": "lift", "angle": "max_alpha"},
 )
 
 
