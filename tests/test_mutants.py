@@ -28,7 +28,8 @@ why = "all are alike"
 """
 
 
-def test_a_fault_that_no_test_finds_survives_and_one_that_is_found_is_killed(tmp_path):
+def test_a_fault_that_no_test_finds_survives_and_one_that_is_found_is_killed(tmp_path, monkeypatch):
+    monkeypatch.setattr("mutants.LIBRARIES", ())
     for name, text in {
         "toy/sums.py": TOY,
         "tests/test_sums.py": "from toy.sums import total\n\ndef test_total():\n    assert total(1, 2) == 3\n",
@@ -57,6 +58,8 @@ def test_a_fault_that_no_test_finds_survives_and_one_that_is_found_is_killed(tmp
         ("-a", ["a"]),
         ("2.5", ["3.5"]),
         ("1j", ["-1j"]),
+        ("0j", ["1j"]),
+        ("a + 0j", []),
         ("True", ["False"]),
         ("min", ["max"]),
         ("z.real", ["z.imag"]),

@@ -8,7 +8,7 @@ angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,20 +19,20 @@ from graphcam.constructions.pressure_angle import (
     ANGLES,
     MeasuredGivens,
     angle_at,
+    read_angles,
     shown_station,
     velocity_plan,
 )
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.euclid import UP, circles_meet
+from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
-from graphcam.given.laws import Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,23 +75,18 @@ def arm_pressure_angle(
     """
     hand = Hand(pencil, MEANING)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
+    pivot, start, tips = drawn["pivot"], drawn["start"], drawn["tips"]
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
-    circles = (
-        hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm),
-        hand.circle("prime circle", drawn.start, prime_radius / mu_l.per_mm),
-    )
-    centre = hand.cross("centre", *circles)
-    normals = hand.perpendicular("normals", drawn.arms, drawn.tips)
-    alpha = hand.angle("alpha", normals, hand.join("rays", drawn.tips, centre))
-    hand.read("transmission", reckoned(_transmission, hand.carry(alpha)), 1.0, rounded=False)
-    hand.angle("psi0", drawn.rest, hand.join("line of centres", drawn.pivot, centre))
+    about_pivot = hand.circle("circle of the centre", pivot, distance / mu_l.per_mm)
+    about_start = hand.circle("prime circle", start, prime_radius / mu_l.per_mm)
+    # Where a triangle has these sides, circles that miss one another by a hand's errors are taken to touch.
+    closes = bool(np.isfinite(circles_meet(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius)))
+    centre = hand.cross("centre", about_pivot, about_start, flat=closes)
+    normals = hand.perpendicular("normals", drawn["arms"], tips)
+    read_angles(hand, normals, hand.join("rays", tips, centre))
+    hand.angle("psi0", drawn["arm at rest"], hand.join("line of centres", pivot, centre))
     givens = ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l)
-    return hand.finished(givens, _draw, {"ends": drawn.ends, "tips": drawn.tips, "centre": centre})
-
-
-def _transmission(alpha: Floats) -> Floats:
-    """90 degrees - |alpha|, which some schools read instead."""
-    return np.pi / 2 - np.abs(alpha)
+    return hand.finished(givens, _draw, {"ends": drawn["ends"], "tips": tips, "centre": centre})
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -101,8 +96,8 @@ PLAN_ARM = 70.0
 
 
 def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
-    k, sigma, arm = shown_station(measured), sense(measured.givens.rotation), measured.givens.arm
-    scale, alpha = standard_scale(arm, PLAN_ARM), float(measured.first("alpha")[k])
+    k, sigma, reading = shown_station(measured), sense(measured.givens.rotation), measured.readings["alpha"]
+    scale, alpha = standard_scale(measured.givens.arm, PLAN_ARM), float(np.degrees(measured.first("alpha")[k]))
     plan, name = at_scale(PLAN, scale), station_names(measured.givens.integrated.givens.stations)[k]
     # Turned so that the line of centres is level, with the cam centre at the origin.
     hand, found = showing(measured), {name: left.first for name, left in measured.acts.items()}
@@ -114,32 +109,29 @@ def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
     pole = hand.given("p", c.place.real + abs(b.place) * 0.6 + 12.0)
     v1 = hand.lay_off("v₁", pole, hand.join("AB", a, b).turned(sigma * UP), between(a, b))
     v2 = hand.lay_off("v₂", pole, hand.join("BD", b, d).turned(-sigma * UP), between(b, d))
-    v21, paper = hand.join("v₂₁", v1, v2), abs(v2.place - pole.place)
-    arrows = velocity_plan(pole.place, v1.place - pole.place, v2.place - pole.place)
-    drawn = tuple(replace(m, of=left.act) for m, left in zip(arrows, (v1, v2, v21, v1, v2, v21, pole), strict=True))
+    across, along, v21 = v1.place - pole.place, v2.place - pole.place, hand.join("v₂₁", v1, v2)
     closed = say(
         "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
         "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
-    ).where(across=abs(v1.place - pole.place), along=paper, closing=abs(complex(v21.directions)))
+    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
     side = say("away from the pivot") if abs(d.place - c.place) >= abs(b.place - c.place) else say("towards the pivot")
     laid_off = say(
         "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at {ratio} the "
         "segment l·ds/dφ = {length:.2f} mm."
-    ).where(paper=paper, side=side, ratio=ratio_text(scale.per_mm), length=paper * scale.per_mm)
+    ).where(paper=abs(along), side=side, ratio=ratio_text(scale.per_mm), length=abs(along) * scale.per_mm)
     measured_angle = say(
         "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and the "
         "transmission angle {transmission:.2f}°. Both are measured in every position of the arm."
-    ).where(name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)))
-    ray, long = hand.join("DA", d, a), abs(d.place)
-    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
-    arc = angle_at(d.place, *(float(np.angle(line.directions)) for line in (normal, ray)), 0.6 * long, shown)
+    ).where(name=name, alpha=alpha, transmission=90 - abs(alpha))
+    ray, long, shown = hand.join("DA", d, a), abs(d.place), say("α = {alpha:.1f}°", alpha=alpha)
+    start, end = (float(np.angle(line.directions)) for line in (normal, ray))
     angle = (
         ray.way(Role.LIMIT),
         hand.lay_off("far on the normal", normal, normal, 0.7 * long).line_from(normal, Role.CONSTRUCTION),
-        replace(arc, of=measured.readings["alpha"].act),
+        angle_at(d.place, start, end, 0.6 * long, shown, reading.act),
     )
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, drawn),
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, v1, v2, v21)),
         Step(say("The segment along the arm"), laid_off, plan, _mechanism(hand, a, b, c, d)),
         Step(say("The pressure angle"), measured_angle, plan, angle, reads=("psi0", "alpha", "transmission")),
     ]

@@ -233,8 +233,8 @@ def _turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
     end, following = pitch[..., ends], pitch[..., ends + onwards]
     chord, along = following - end, -sense(inverted.givens.rotation) * onwards * UP * end
     # The chord of an arc about the cam centre leaves it by half of what the cam has turned.
-    by_turning = np.abs(np.angle(following / end)) / 2
-    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord / along)) > by_turning + CORNER), axis=-1)
+    by_turning = np.abs(np.angle(following * end.conj())) / 2
+    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER), axis=-1)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

@@ -82,9 +82,10 @@ class DrawnTranslating(DrawnFollower):
         integrated, hand = inverted.givens.integrated, showing(inverted)
         # Turned back by the station's cam angle, the foot of the first station lies level with the cam centre.
         back = np.exp(1j * sense(inverted.givens.rotation) * integrated.givens.stations.phi[0])
-        foot = complex(inverted.first("feet")[0] * back) * inverted.givens.mu_l.per_mm / scale.per_mm
-        prime = hand.circle("prime circle", hand.given("A"), inverted.givens.prime_radius / scale.per_mm)
-        start = hand.cross("start of the lift", hand.given("line of motion", foot, UP), prime)
+        times, centre = complex(back) * inverted.givens.mu_l.per_mm / scale.per_mm, hand.given("A")
+        foot = hand.enlarged("foot", hand.given("first foot", inverted.first("feet")[0]), centre, times)
+        prime = hand.circle("prime circle", centre, inverted.givens.prime_radius / scale.per_mm)
+        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime)
         b = hand.lay_off("B", start, UP, integrated.givens.motion.levels[0] / scale.per_mm)
         tail = hand.lay_off("tail", hand.lay_off("beside the stem", b, RIGHT, 4.0), UP, STEM + 1)
         return (

@@ -60,15 +60,19 @@ def inversion(
     hand, s = Hand(pencil, MEANING), integrated.readings["s"]
     prime = profile_view.prime_circle(hand, prime_radius, mu_l)
     if offset:
-        circle = hand.circle("offset circle", hand.given("cam centre"), abs(offset) / mu_l.per_mm)
+        hand.circle("offset circle", hand.given("cam centre"), abs(offset) / mu_l.per_mm)
         rays = profile_view.inverted_positions(hand, integrated, rotation, RIGHT * np.sign(offset))
-        feet = hand.cross("feet", rays, circle)
+        feet = hand.lay_off("feet", rays, rays, abs(offset) / mu_l.per_mm)
         lines = hand.perpendicular("tangents", rays.turned(np.sign(offset)), feet)
     else:
         # A central follower has no circle e: its lines are rays through the cam centre.
-        feet = lines = profile_view.inverted_positions(hand, integrated, rotation, UP)
+        lines = profile_view.inverted_positions(hand, integrated, rotation, UP)
+        feet = hand.take("feet", lines)
     motion = hand.take("motion", lines)
-    starts = hand.cross("starts", motion, prime)
+    met, touch = hand.cross("circle and lines", motion, prime), hand.project("touch", prime, motion)
+    # A line that misses the circle, by the hand's errors, is taken to touch it.
+    at = np.arange(integrated.givens.stations.u.size)
+    starts = hand.take("starts", met, touch, which=np.where(np.isnan(met.points), at.size + at, at))
     pitch = hand.lay_off("pitch", starts, motion, hand.carry(s, s.scale / mu_l.per_mm))
     profile_view.curve_readings(hand, pitch, mu_l)
     givens = InversionGivens(integrated, rotation, prime_radius, mu_l, offset)

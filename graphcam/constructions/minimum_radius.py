@@ -202,7 +202,7 @@ def _draw(region: LeastRadius) -> list[Step]:
 
 def _result(region: LeastRadius) -> Step:
     title, offset = say("The least prime radius"), region.givens.offset
-    centre, start = region.acts["centre"][0], region.acts["start of the lift"]
+    centre, start = region.acts["centre"].first[0], region.acts["start of the lift"].first
     if np.isnan(centre.place):
         unreadable = say(
             "No cam centre can be read: the lines that bound the region cross one another, or the "

@@ -12,7 +12,7 @@ from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP, turned
+from graphcam.drafting.euclid import RIGHT, UP, turned, unit
 from graphcam.drafting.hand import Direction, Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Points, Role, Segments
@@ -157,7 +157,7 @@ def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
 def _outer_radius(inverted: Inverted) -> float:
     """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return max(float(np.nanmax(np.abs(inverted.first("pitch")))), prime) + BEYOND
+    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + BEYOND
 
 
 def ground(inverted: Inverted) -> tuple[Mark, ...]:
@@ -197,6 +197,6 @@ def pitch_steps(
 ) -> list[Step]:
     """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
     pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
-    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, pitch.shown / np.abs(pitch.shown)))
+    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, unit(pitch.shown)))
     curve = closed_curve("pitch curve", inverted, pitch).line(Role.CURVE, closed=True)
     return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]

@@ -147,7 +147,7 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
     for jump in sorted({p.start for p in stations.pieces} - {span.start for span in stations.phases}):
         before = unit(pitch[..., jump] - pitch[..., jump - 1])
         after = unit(pitch[..., jump + 1] - pitch[..., jump])
-        along[..., jump] = unit(before * before / along[..., jump - 1] + after * after / along[..., jump + 1])
+        along[..., jump] = unit(before**2 * along[..., jump - 1].conj() + after**2 * along[..., jump + 1].conj())
     return along
 
 
@@ -189,7 +189,7 @@ def _draw_profile(profile: Profile) -> list[Step]:
     inverted, roller = profile.givens.inverted, profile.givens.roller_radius
     mu_l, covered, measured = inverted.givens.mu_l.per_mm, profile.acts["covered"].first, profile.value("radius")
     lost = np.flatnonzero(~np.isnan(covered.points))
-    radii = {"least": np.nanmin(measured), "greatest": np.nanmax(measured)}
+    radii = {"least": np.fmin.reduce(measured), "greatest": np.fmax.reduce(measured)}
     curve = closed_curve("working profile", inverted, profile.acts["touch"]).line(Role.RESULT, closed=True)
     if not roller:
         caption = say(

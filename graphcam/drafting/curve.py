@@ -12,6 +12,8 @@ from graphcam.drafting.euclid import UP, Floats
 from graphcam.drafting.marks import Points
 from graphcam.plane import dot
 
+NANOMETRES = 6
+"""Places that differ by less [decimals of mm] are one."""
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 
@@ -63,7 +65,8 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     (2+2j)
     """
     tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
-    return at_greatest(tops, dot(np.asarray(direction)[..., None], tops))
+    # Of pieces that reach equally far it is the first, not the one that rounding favours.
+    return at_greatest(tops, np.round(dot(np.asarray(direction)[..., None], tops), NANOMETRES))
 
 
 def highest_and_lowest(points: Points, pieces: Sequence[slice]) -> Points:

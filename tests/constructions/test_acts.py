@@ -35,6 +35,8 @@ from graphcam.errors import DesignError
 
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
+BOARD = 100.0
+"""mm: a crossing at a few degrees enlarges the rounding of what lies far away, and shrinks as far away as it lies."""
 HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
 TASKS = BUILT_IN | RANDOM
@@ -58,14 +60,18 @@ def drawn(name: str, pencil: gc.Pencil | None = None) -> dict[str, Construction]
 
 
 def off(here: Any, there: list[float] | list[complex]) -> float:
-    """The greatest difference [mm, or rad]; what neither board finds does not count."""
+    """The greatest difference [mm, or rad], of what reaches farther than ``BOARD`` as a part of that.
+
+    What neither board finds does not count.
+    """
     ours, theirs = np.ravel(np.asarray(here)), np.asarray(there)
     assert ours.shape == theirs.shape
     unknown = np.isnan(ours)
     assert np.array_equal(unknown, np.isnan(theirs))
     finite = np.isfinite(ours)
     assert np.array_equal(ours[~finite & ~unknown], theirs[~finite & ~unknown])
-    return float(np.max(np.abs(ours[finite] - theirs[finite]), initial=0.0))
+    apart = np.abs(ours[finite] - theirs[finite]) / max(1.0, np.max(np.abs(ours[finite]), initial=0.0) / BOARD)
+    return float(np.max(apart, initial=0.0))
 
 
 @EVERY

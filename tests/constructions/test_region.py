@@ -7,27 +7,51 @@ import pytest
 from hypothesis import assume, given, settings, strategies as st
 from scipy.optimize import minimize
 
-from graphcam.constructions.region import Boundary, binding, lowest_on, nearest, nearest_of_many, permitted_part
+from graphcam.constructions.region import (
+    Boundary,
+    binding,
+    boundary,
+    feet_and_corners,
+    highest_on,
+    nearest,
+    nearest_of_many,
+    permitted_part,
+)
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
+from graphcam.drafting.hand import Hand
+from graphcam.drafting.meaning import Meaning
+from graphcam.drafting.pencil import Pencil
 from graphcam.plane import dot
+from graphcam.words import say
 
 same_every_time = settings(derandomize=True, deadline=None, max_examples=60)
 leanings = st.floats(np.radians(2), np.radians(80))
 
 
-def boundary(angle: float, side: int, depth: float) -> Boundary:
+def a_hand(samples: int | None = None) -> Hand:
+    return Hand(Pencil(samples=samples), Meaning("region", say("Region"), say("Lines bound it.")))
+
+
+def leaning(hand: Hand, name: str, angle: float, side: int, depth: float | np.ndarray) -> Drawn:
     """A line at an angle to the vertical that permits what lies below it, away from ``side``."""
-    inward = -complex(side * np.exp(1j * side * angle))
-    return Boundary(f"{side} {angle}", np.asarray(-UP * depth), np.asarray(inward))
+    return hand.given(name, -UP * np.asarray(depth), -UP * side * np.exp(1j * side * angle))
+
+
+def nearest_place(hand: Hand, lines: list[Drawn]) -> np.ndarray:
+    """The one that is nearest to the origin."""
+    start = hand.given("start")
+    return nearest(hand, "centre", feet_and_corners(hand, lines, start), lines, start).points
 
 
 @same_every_time
 @given(leanings, leanings, leanings, st.floats(1, 50), st.floats(-10, 50), st.floats(-10, 50))
 def test_the_nearest_place_is_the_least_distance_over_the_region(a, b, c, first, second, third):
     """Against quadratic programming."""
-    lines = [boundary(a, 1, first), boundary(b, -1, second), boundary(c, -1, third)]
+    hand, given_lines = a_hand(), [(a, 1, first), (b, -1, second), (c, -1, third)]
+    drawn = [leaning(hand, f"{k}", *each) for k, each in enumerate(given_lines)]
     assume(min(abs(a - other) for other in (b, c)) > 0 and abs(b - c) > np.radians(1))  # readable crossings
-    place = complex(nearest(lines, np.asarray(0j)))
+    place, lines = complex(nearest_place(hand, drawn)), [boundary(line) for line in drawn]
     assert all(line.clearance(np.asarray(place)) > -1e-8 for line in lines)
     found = least_distance(lines)
     assert abs(place) == pytest.approx(found, rel=1e-5, abs=1e-5)
@@ -48,31 +72,33 @@ def least_distance(lines: list[Boundary]) -> float:
 
 @same_every_time
 @given(leanings, leanings, st.floats(1, 50), st.floats(-10, 50), st.floats(-40, 40))
-def test_the_lowest_place_on_a_vertical_is_the_highest_that_is_permitted(a, b, first, second, x):
-    lines = [boundary(a, 1, first), boundary(b, -1, second)]
-    place = lowest_on(lines, x)
-    assert place.real == x
-    assert all(line.clearance(place) > -1e-9 for line in lines)
+def test_the_highest_place_on_a_vertical_is_permitted_and_no_higher_one_is(a, b, first, second, x):
+    hand = a_hand()
+    lines = [leaning(hand, "one", a, 1, first), leaning(hand, "other", b, -1, second)]
+    place = highest_on(hand, "centre", lines, hand.given("upright", x, UP), hand.given("level", along=1)).points
+    assert place.real == pytest.approx(x, abs=1e-9)
+    assert all(boundary(line).clearance(place) > -1e-9 for line in lines)
     above = place + UP * 1e-3
-    assert place.imag == 0 or any(line.clearance(above) < 0 for line in lines)
+    assert place.imag == 0 or any(boundary(line).clearance(above) < 0 for line in lines)
 
 
 def test_every_sample_has_its_own_region():
-    depths = np.array([10.0, 20.0, 30.0])
-    rise = Boundary("rise", -UP * depths, np.asarray(boundary(np.pi / 6, 1, 0).inward))
-    rest = boundary(np.pi / 6, -1, 0)
-    rest = Boundary("rest", np.broadcast_to(rest.touch, 3), rest.inward)
-    together = nearest([rise, rest], np.asarray(0j))
-    alone = [nearest([boundary(np.pi / 6, 1, depth), boundary(np.pi / 6, -1, 0)], np.asarray(0j)) for depth in depths]
-    np.testing.assert_allclose(together, alone, rtol=1e-14)
+    depths, tilt = np.array([10.0, 20.0, 30.0]), np.pi / 6
+    many = a_hand(3)
+    # What lies on the board is alike for all hands; what they drew is not.
+    rise = Drawn(many.given("rise").act, -UP * depths, np.full(3, -UP * np.exp(1j * tilt)), sampled=True)
+    together = nearest_place(many, [rise, leaning(many, "rest", tilt, -1, 0.0)])
+    for depth, found in zip(depths, together, strict=True):
+        one = a_hand()
+        alone = nearest_place(one, [leaning(one, "rise", tilt, 1, depth), leaning(one, "rest", tilt, -1, 0.0)])
+        assert found == pytest.approx(complex(alone), rel=1e-14)
 
 
-def test_a_region_of_no_place_has_no_nearest():
-    upper, lower = (
-        Boundary("above", np.asarray(0j), np.asarray(UP)),
-        Boundary("below", np.asarray(-UP), np.asarray(-UP)),
-    )
-    assert np.isnan(nearest([upper, lower], np.asarray(0j)))
+def test_where_only_an_unreadable_corner_is_left_no_place_is_read():
+    """Two lines that cross at less than a degree, and each cuts off the other's foot."""
+    hand, flat = a_hand(), np.radians(89.6)
+    lines = [leaning(hand, "one", flat, 1, 5.0), leaning(hand, "other", flat, -1, 5.0)]
+    assert np.isnan(nearest_place(hand, lines))
 
 
 def test_the_permitted_part_of_a_square():

@@ -13,6 +13,7 @@ from numpy.testing import assert_allclose
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.profile_view import closed_curve
+from graphcam.drafting.hand import showing
 from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
@@ -238,10 +239,12 @@ def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n)
 @pytest.mark.parametrize("missing", [[12], [13], [12, 13]], ids=["before", "after", "on both sides"])
 def test_a_dwells_arc_is_drawn_from_the_end_that_was_touched(missing):
     profile = chain_of("cw", -10.0)["working_profile"]
-    inverted, touch = profile.givens.inverted, profile.points["touch"].copy()
-    radius = abs(touch[12])
-    touch[missing] = np.nan
-    line = closed_curve(inverted, touch)
+    touch, nowhere = profile.acts["touch"], np.arange(profile.points["touch"].size)
+    radius = abs(profile.points["touch"][12])
+    nowhere[missing] = nowhere.size
+    hand = showing(profile)
+    touched = hand.take("touched", touch, hand.given("nowhere", [np.nan]), which=nowhere)
+    line = closed_curve("profile", profile.givens.inverted, touched).points
     assert np.isfinite(line).all()
     on_the_arc = line[np.abs(np.abs(line) - radius) < 1e-9]
     if len(missing) == 2:

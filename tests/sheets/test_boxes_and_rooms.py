@@ -92,7 +92,7 @@ def test_a_copy_of_a_room_is_filled_by_itself():
     assert other.corner == room.corner
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(st.integers(0, 10**6))
 def test_the_room_that_is_found_is_the_best_that_is_free(seed):
     """Every move on the grid is tried."""

@@ -220,6 +220,11 @@ def test_an_angle_is_drawn_between_its_directions(start, end):
     assert {each.role for each in (arc, first, second)} == {Role.DIMENSION}
 
 
+def test_an_arc_of_nine_millimetres_has_room_for_its_heads():
+    (arc, *_), _ = drawn(AngleMark(0j, 40.0, 0.0, 0.225, "12°"))
+    assert (arc.end - arc.start) * arc.radius == 9.0
+
+
 def test_a_small_angle_has_its_heads_outside_on_tails():
     for angle, tail in ((0.225, 0.0), (0.2249, 0.15)):
         (arc, first, second), _ = drawn(AngleMark(0j, 40.0, 1.0, 1.0 + angle, "12°"))

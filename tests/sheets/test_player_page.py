@@ -13,6 +13,7 @@ import pytest
 from fontTools.ttLib import TTFont
 
 from graphcam.sheets.box import Box
+from graphcam.sheets.fonts import font_file
 from graphcam.sheets.model import Drawing, Entity, Group, Page, Strokes, Text
 from graphcam.sheets.player import WORDS, ReadingText, Slide, player
 
@@ -93,6 +94,13 @@ def test_the_typeface_has_all_letters_that_are_shown_and_not_many_more(page):
     shown += [text for slide in SLIDES for text in (slide.chapter, slide.title, slide.caption)]
     assert set("".join(shown)) <= letters
     assert not {"Щ", "漢", "ß", "Ŝ"} & letters
+
+
+def test_the_typeface_bears_no_date_of_its_own(page):
+    (font,) = re.findall(r"base64,([\w+/=]+)", page)
+    cut = TTFont(BytesIO(base64.b64decode(font)))
+    assert cut["head"].modified == TTFont(font_file())["head"].modified
+    assert "FFTM" not in cut
 
 
 def test_the_same_page_is_written_twice(page):

@@ -1,0 +1,305 @@
+"""What graphical differentiation draws: chords or tangents, rays parallel to them, and what the rays cut off."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import graphcam as gc
+from graphcam.constructions.differentiation import TANGENT, differentiation
+from graphcam.drafting.acts import Act
+from graphcam.drafting.ink import Construction, Step
+from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Role, Segments
+from graphcam.drafting.pencil import Pencil
+
+MU_PHI, MU_S, POLES, TURN = gc.Scale(math.radians(1), "rad"), gc.Scale(0.5, "mm"), (40.0, 50.0), 360.0
+X = np.array([3.0, 32.0, 60.0, 94.0, 121.0, 149.0, 180.0, 213.0, 240.0, 268.0, 301.0, 333.0])
+"""Unequal parts, and no station at the start of the turn."""
+SIGMA = 0.2
+TREMBLING = Pencil(line=SIGMA, dividers=SIGMA, protractor=0.009, seed=5)
+MANY = 6
+"""So many standard deviations no error of a fixed seed's hand is greater than."""
+EXACT = 1e-9
+
+
+def displacement(x):
+    """Ordinates on paper [mm], without a symmetry in which errors could cancel."""
+    phi = np.radians(x)
+    return 2 * (20 - 12 * np.cos(phi - 0.3) + 3 * np.sin(2 * phi))
+
+
+BUILT_IN = ("the built-in task",)
+KINDS = [(by, turn) for by in ("chords", "tangents") for turn in (TURN, None)]
+EVERY = pytest.mark.parametrize("kind", [*KINDS, BUILT_IN], ids=lambda kind: " ".join(map(str, kind)))
+
+
+@cache
+def drawn(kind: tuple, pencil: Pencil | None = None) -> Construction:
+    if kind == BUILT_IN:
+        return gc.solve(gc.builtin_task("measured"), pencil).drawn["differentiation"]
+    by, turn = kind
+    return differentiation(X, displacement(X), MU_PHI, MU_S, POLES, pencil or Pencil(), turn=turn, by=by)
+
+
+def cyclic(kind: tuple) -> bool:
+    return kind == BUILT_IN or kind[1] is not None
+
+
+def by_chords(kind: tuple) -> bool:
+    return kind == BUILT_IN or kind[0] == "chords"
+
+
+def one(step: Step, kind: type, k: int = 0):
+    """The k-th mark of a kind in a step."""
+    return [mark for mark in step.marks if isinstance(mark, kind)][k]
+
+
+def number(caption: object, pattern: str) -> float:
+    """The number that a caption says where the pattern has a group."""
+    return float(re.search(pattern, str(caption)).group(1))
+
+
+def passes(kind: tuple, pencil: Pencil | None = None):
+    """Of both derivations the plotted curve that is derived, the steps, the pole's distance and its index."""
+    c = drawn(kind, pencil)
+    steps = c.steps()
+    plotted = [one(step, Dots).points for step in (steps[0], steps[3], steps[6])]
+    pole_dots = [one(steps[k], Dots).points for k in (2, 5)]
+    assert all(dot.shape == (1,) for dot in pole_dots)
+    for k in (0, 1):
+        yield plotted[k], plotted[k + 1], steps[3 * k + 1 : 3 * k + 4], c.givens.poles[k], "₁₂"[k]
+
+
+def ends_of_chords(kind: tuple, plotted):
+    """The places that chords join: of a turn the first one once more, a turn further on."""
+    return np.append(plotted, plotted[0] + drawn(kind).givens.turn) if cyclic(kind) else plotted
+
+
+# --- what is plotted -------------------------------------------------------------------------------------------------
+
+
+@EVERY
+def test_the_displacement_stands_upright_on_its_stations(kind):
+    c = drawn(kind)
+    step = c.steps()[0]
+    dots, uprights = one(step, Dots), one(step, Segments)
+    assert_allclose(dots.points.real, c.givens.x, atol=EXACT)
+    if kind != BUILT_IN:
+        assert_allclose(dots.points.imag, displacement(X), atol=EXACT)
+    assert_allclose(uprights.starts, c.givens.x, atol=EXACT)
+    assert_allclose(uprights.ends, dots.points, atol=EXACT)
+    assert number(step.caption, r"at (\d+) stations") == c.givens.x.size
+    assert ("goes on with the first" in str(step.caption)) == cyclic(kind)
+
+
+@EVERY
+def test_every_diagram_has_its_axes_and_their_names_at_the_heads(kind):
+    c = drawn(kind)
+    for at, symbol in ((0, "s"), (2, "v"), (5, "a")):
+        step = c.steps()[at]
+        heights = one(c.steps()[{"s": 0, "v": 3, "a": 6}[symbol]], Dots).points.imag
+        end = c.givens.turn or c.givens.x[-1]
+        across, up = one(step, Arrow), one(step, Arrow, 1)
+        assert (across.start, across.end) == (0, pytest.approx(end + 8))
+        assert up.start == pytest.approx(1j * min(0, heights.min()))
+        assert up.end == pytest.approx(1j * (max(0, heights.max()) + 8))
+        names = [one(step, Label), one(step, Label, 1)]
+        assert [(name.text, name.at) for name in names] == [("φ", across.end), (symbol, up.end)]
+        assert names[0].towards.imag < 0 < names[0].towards.real  # beyond the head, below the axis
+        assert names[1].towards == -1  # left of the upright axis
+
+
+@EVERY
+@pytest.mark.parametrize("at", [0, 3, 6])
+def test_the_curve_runs_through_every_plotted_point_and_over_the_ends_of_the_turn(kind, at):
+    c = drawn(kind)
+    step = c.steps()[at]
+    curve, dots = one(step, Line), one(step, Dots)
+    assert curve.role is Role.RESULT
+    # A place in the interval over the end of the turn may lie beyond it: there the curve begins anew.
+    places = np.where(dots.points.real > (c.givens.turn or np.inf), dots.points - (c.givens.turn or 0), dots.points)
+    assert np.abs(places[:, None] - curve.points[None, :]).min(axis=1).max() < EXACT
+    assert np.all(np.diff(curve.points.real) > 0)
+    if cyclic(kind):
+        turn = c.givens.turn
+        widest = np.diff(curve.points.real).max()
+        assert 0 <= curve.points[0].real < widest
+        assert 0 <= turn - curve.points[-1].real < widest
+        # What runs out on the right comes in on the left, with the slope of both.
+        ways = curve.points[1] - curve.points[0], curve.points[-1] - curve.points[-2]
+        gap = curve.points[0] + turn - curve.points[-1]
+        if abs(gap) > 1e-6:
+            middle = np.mean([way.imag / way.real for way in ways])
+            assert gap.imag / gap.real == pytest.approx(middle, abs=0.1 * (1 + abs(middle)))
+    else:
+        assert_allclose(curve.points[[0, -1]], dots.points[[0, -1]], atol=EXACT)
+
+
+# --- chords and tangents ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@pytest.mark.parametrize("kind", [k for k in [*KINDS, BUILT_IN] if by_chords(k)], ids=str)
+def test_chords_join_neighbouring_ordinates_and_come_round(kind, pencil):
+    for plotted, _, (chords, *_), _, _ in passes(kind, pencil):
+        polygon = one(chords, Line)
+        assert_allclose(polygon.points, ends_of_chords(kind, plotted), atol=EXACT)
+        assert polygon.role is Role.LIMIT
+        assert number(chords.caption, r", (\d+) of them") == polygon.points.size - 1
+
+
+def neighbours(kind: tuple, plotted):
+    """Places with one more before and behind, where the turn goes on."""
+    turn = drawn(kind).givens.turn
+    return np.concatenate([plotted[-1:] - turn, plotted, plotted[:1] + turn]) if turn else plotted
+
+
+@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@pytest.mark.parametrize("kind", [k for k in KINDS if not by_chords(k)], ids=str)
+def test_a_tangent_touches_its_point_and_crosses_neither_chord_there(kind, pencil):
+    """Between the slopes of the two chords at a point lies that of the tangent: it passes without crossing them."""
+    for plotted, _, (tangents, *_), _, _ in passes(kind, pencil):
+        lines = one(tangents, Segments)
+        assert_allclose((lines.starts + lines.ends) / 2, plotted, atol=EXACT)
+        assert_allclose(np.abs(lines.ends - lines.starts), 2 * TANGENT, atol=EXACT)
+        assert np.all(lines.ends.real > lines.starts.real)
+        assert number(tangents.caption, r"each of the (\d+) stations") == plotted.size
+        chords = np.angle(np.diff(neighbours(kind, plotted)))
+        inside = slice(None) if cyclic(kind) else slice(1, -1)
+        seen = np.angle(lines.ends - lines.starts)[inside]
+        slack = MANY * pencil.protractor if pencil else EXACT
+        assert np.all(seen >= np.minimum(chords[:-1], chords[1:]) - slack)
+        assert np.all(seen <= np.maximum(chords[:-1], chords[1:]) + slack)
+
+
+@pytest.mark.parametrize("kind", [k for k in KINDS if not by_chords(k)], ids=str)
+def test_a_tangent_has_the_slope_of_the_parabola_through_its_point_and_its_neighbours(kind):
+    for plotted, _, (tangents, *_), _, _ in passes(kind):
+        lines, places = one(tangents, Segments), neighbours(kind, plotted)
+        for k, p in enumerate(plotted):
+            at = min(max(k + cyclic(kind), 1), places.size - 2)
+            a, b, c = ((q.real, q.imag) for q in places[at - 1 : at + 2])
+            slope = np.polyder(np.poly1d(np.polyfit(*zip(a, b, c, strict=True), 2)))(p.real)
+            way = lines.ends[k] - lines.starts[k]
+            assert way.imag / way.real == pytest.approx(slope, abs=1e-8)
+
+
+# --- pole and rays ---------------------------------------------------------------------------------------------------
+
+
+@EVERY
+@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+def test_the_pole_lies_its_distance_to_the_left_and_the_distance_is_set_down_below_the_rays(kind, pencil):
+    slack = MANY * SIGMA if pencil else EXACT
+    for _, _, (_, step, _), distance, index in passes(kind, pencil):
+        pole = complex(one(step, Dots).points[0])
+        assert abs(pole + distance) < slack
+        assert_allclose(one(step, Line).points, [pole, 0], atol=EXACT)
+        name, rays = one(step, Label, 2), one(step, Segments)
+        assert (name.at, name.text) == (pole, f"P{index}")
+        assert name.towards.real < 0 < name.towards.imag
+        measure = one(step, Dimension)
+        assert (measure.start, measure.end) == (pole, 0)
+        assert number(measure.text, rf"H{index} = (\S+)") == pytest.approx(distance)
+        assert number(step.caption, rf"H{index} = ([\d.]+) mm") == pytest.approx(distance)
+        assert measure.aside == pytest.approx(min(0, rays.ends.imag.min()) - 5)
+
+
+def slopes_of(kind: tuple, plotted, step: Step):
+    """The slopes of the chords or of the tangents that are drawn in a step."""
+    tangents = None if by_chords(kind) else one(step, Segments)
+    ways = tangents.ends - tangents.starts if tangents else np.diff(one(step, Line).points)
+    return ways.imag / ways.real
+
+
+@EVERY
+def test_every_ray_is_parallel_to_its_chord_or_tangent_and_every_one_of_those_has_its_ray(kind):
+    for plotted, _, (traced, step, _), distance, _ in passes(kind):
+        rays, slopes = one(step, Segments), slopes_of(kind, plotted, traced)
+        ways = rays.ends - rays.starts
+        assert_allclose(rays.starts, -distance, atol=EXACT)
+        assert_allclose(rays.ends.real, 0, atol=EXACT)
+        beside = np.abs((ways.imag / ways.real)[:, None] - slopes[None, :])
+        assert beside.min(axis=1).max() < EXACT  # parallel to one of them
+        assert beside.min(axis=0).max() * distance < 2e-3  # those that fall on one another are drawn once
+        assert np.diff(rays.ends.imag).min() > 1e-4
+
+
+@EVERY
+def test_what_a_ray_cuts_off_is_carried_straight_across_to_the_middle_or_the_station(kind):
+    for plotted, derived, (traced, step, _), distance, _ in passes(kind):
+        across = one(step, Segments, 1)
+        assert_allclose(across.starts.real, 0, atol=EXACT)
+        assert_allclose(across.starts.imag, across.ends.imag, atol=EXACT)
+        assert_allclose(across.ends, derived, atol=EXACT)
+        assert_allclose(derived.imag, distance * slopes_of(kind, plotted, traced), atol=EXACT)
+        joined = ends_of_chords(kind, plotted)
+        places = (joined[1:] + joined[:-1]).real / 2 if by_chords(kind) else plotted.real
+        assert_allclose(derived.real, places, atol=EXACT)
+
+
+@EVERY
+def test_a_trembling_hand_draws_the_rays_beside_the_pole_parallel_but_for_its_set_square(kind):
+    for plotted, derived, (traced, step, _), _, _ in passes(kind, TREMBLING):
+        rays, across = one(step, Segments), one(step, Segments, 1)
+        pole = complex(one(step, Dots).points[0])
+        directions = np.angle(rays.ends - rays.starts)
+        traced_directions = np.arctan(slopes_of(kind, plotted, traced))
+        assert np.abs(directions[:, None] - traced_directions[None, :]).min(axis=1).max() < MANY * SIGMA / 150
+        assert np.abs(rays.starts - pole).max() < MANY * SIGMA
+        assert_allclose(rays.ends.real, 0, atol=EXACT)
+        assert 0 < np.abs((across.ends - across.starts).imag).max() < MANY * SIGMA
+        assert_allclose(across.ends, derived, atol=EXACT)
+
+
+# --- what is said ----------------------------------------------------------------------------------------------------
+
+
+def top_of_three(heights, at: int, *, round_about: bool) -> float:
+    """The top of the parabola through the highest of equally counted ordinates and its neighbours."""
+    n = len(heights)
+    if not round_about and at in (0, n - 1):
+        at = 1 if at == 0 else n - 2
+    a, b, c = heights[at - 1], heights[at], heights[(at + 1) % n]
+    bend, slope = a - 2 * b + c, (c - a) / 2
+    if not bend < 0 or abs(slope / bend) > 1:
+        return max(heights)
+    return b - slope**2 / (2 * bend)
+
+
+@EVERY
+def test_the_greatest_ordinate_said_is_the_top_of_the_plotted_points(kind):
+    for _, derived, (*_, step), _, _ in passes(kind):
+        found = []
+        for side in (1, -1):
+            heights = list(side * derived.imag)
+            found.append(top_of_three(heights, int(np.argmax(heights)), round_about=cyclic(kind)))
+        assert number(step.caption, r"measures ([-\d.]+) mm") == pytest.approx(max(found), abs=0.006)
+
+
+@EVERY
+def test_the_scales_said_follow_from_the_poles_and_turn_the_greatest_ordinates_into_values(kind):
+    c = drawn(kind)
+    steps = c.steps()
+    mu_v = c.givens.mu_s.per_mm / (c.givens.mu_phi.per_mm * c.givens.poles[0])
+    mu_a = mu_v / (c.givens.mu_phi.per_mm * c.givens.poles[1])
+    said = steps[-1].caption
+    assert number(said, r"μᵥ = μₛ/\(μᵩ·H₁\) = (\S+) ") == pytest.approx(mu_v, rel=1e-4)
+    assert number(said, r"μₐ = μᵥ/\(μᵩ·H₂\) = (\S+) ") == pytest.approx(mu_a, rel=1e-4)
+    for name, step, mu in (("velocity is", steps[3], mu_v), ("acceleration", steps[6], mu_a)):
+        paper = number(step.caption, r"measures ([-\d.]+) mm")
+        assert number(said, rf"greatest {name} (\S+) ") == pytest.approx(paper * mu, rel=2e-4)
+    for view, mu in ((steps[0].view, c.givens.mu_s.per_mm), (steps[3].view, mu_v), (steps[6].view, mu_a)):
+        assert number(view.title, r"μ. = (\S+) ") == pytest.approx(mu, rel=1e-3)
+
+
+@EVERY
+def test_every_mark_but_an_axis_names_its_act(kind):
+    for step in drawn(kind).steps():
+        for mark in step.own:
+            assert isinstance(mark.of, Act), (str(step.title), mark)
