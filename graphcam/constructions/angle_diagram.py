@@ -49,6 +49,7 @@ MEANING = Meaning(
         ),
     },
     "report.paragraphs.greatest_angles",
+    scales={"angle": "max_rise"},
 )
 
 

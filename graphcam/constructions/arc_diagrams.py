@@ -66,6 +66,7 @@ MEANING = Meaning(
             ),
         ),
     },
+    scales={"acceleration": "max_a", "velocity": "max_v", "displacement": "lift", "angle": "max_alpha"},
 )
 
 

@@ -26,7 +26,7 @@ from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane import cross, dot
 from graphcam.words import sequence
 
-ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y")
+ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"))
 OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
@@ -69,6 +69,7 @@ MEANING = Meaning(
             for axis in "xy"
         },
     },
+    scales={"arcs": "base"},
 )
 
 

@@ -28,7 +28,9 @@ from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
 from graphcam.words import joined
 
-ROLLER = View("roller", say("The roller on the arcs"), across="roller x", up="roller y")
+ROLLER = View(
+    "roller", say("The roller on the arcs"), "roller x", "roller y", scale=say("The roller on the arcs, {ratio}")
+)
 PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
@@ -122,6 +124,7 @@ MEANING = Meaning(
         },
         **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name),)) for name, title in ENDS.items()},
     },
+    scales={"roller": "x"},
 )
 
 

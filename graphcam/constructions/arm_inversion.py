@@ -35,6 +35,7 @@ MEANING = Meaning(
         "the arm is turned by its displacement: the places that its end takes make the cam."
     ),
     profile_view.CURVE,
+    scales={"profile": "x"},
 )
 
 

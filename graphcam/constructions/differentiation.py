@@ -71,6 +71,8 @@ MEANING = Meaning(
         "max_v": ReadingMeaning(say("greatest v"), "max v", "lift/rad"),
         "max_a": ReadingMeaning(say("greatest a"), "max a", "lift/rad²"),
     },
+    scales={VIEWS["s"].name: "rise", VIEWS["v"].name: "v", VIEWS["a"].name: "a"},
+    scales_found_by="integration",
 )
 
 

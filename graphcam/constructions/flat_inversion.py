@@ -41,6 +41,7 @@ MEANING = Meaning(
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
         **profile_view.CURVE,
     },
+    scales={"profile": "x"},
 )
 
 

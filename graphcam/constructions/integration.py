@@ -90,6 +90,8 @@ MEANING = Meaning(
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
     "report.paragraphs.integration",
+    scales={"acceleration": "a", "velocity": "v", "displacement": "s", "combined": "s"},
+    scales_found_by="integration",
 )
 
 

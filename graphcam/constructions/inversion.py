@@ -38,6 +38,7 @@ MEANING = Meaning(
     ),
     profile_view.CURVE,
     "report.translating_paragraphs.inversion",
+    scales={"profile": "x"},
 )
 
 

@@ -7,13 +7,27 @@ from dataclasses import replace
 from graphcam.drafting.ink import View, say
 from graphcam.drafting.scale import Scale, ratio_text
 
-ACCELERATION = View("acceleration", say("Acceleration"), across="phi", up="a")
-VELOCITY = View("velocity", say("Velocity"), across="phi", up="v")
-DISPLACEMENT = View("displacement", say("Displacement"), across="phi", up="s")
-ANGLE = View("angle", say("Pressure angle"), across="phi", up="alpha")
-COMBINED = View("combined", say("Displacement and velocity: the least radius"), across="offset", up="s")
+ACCELERATION = View(
+    "acceleration", say("Acceleration"), across="phi", up="a", scale=say("Acceleration a, μₐ = {mu:.4g} ({unit})/mm")
+)
+VELOCITY = View("velocity", say("Velocity"), across="phi", up="v", scale=say("Velocity v, μᵥ = {mu:.4g} ({unit})/mm"))
+DISPLACEMENT = View(
+    "displacement", say("Displacement"), across="phi", up="s", scale=say("Displacement s, μₛ = {mu:.4g} {unit}/mm")
+)
+ANGLE = View(
+    "angle", say("Pressure angle"), across="phi", up="alpha", scale=say("Pressure angle α, μ = {degrees:g}°/mm")
+)
+COMBINED = View(
+    "combined",
+    say("Displacement and velocity: the least radius"),
+    across="offset",
+    up="s",
+    scale=say("Least radius, μₛ = {mu:.4g} {unit}/mm"),
+)
 PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")
-PROFILE = View("profile", say("Cam profile by inversion"), across="cam x", up="cam y")
+PROFILE = View(
+    "profile", say("Cam profile by inversion"), across="cam x", up="cam y", scale=say("Cam profile, {ratio}")
+)
 CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
 SCHEME = View("scheme", say("Scheme of the mechanism"), across="scheme x", up="scheme y")
 REGION = View("region", say("Arm positions: the least radius"), across="region x", up="region y")

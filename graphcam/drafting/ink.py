@@ -33,6 +33,7 @@ class View:
 
     answer : what the title says that is only found by drawing, if anything: a sheet is blank there until the
         construction ``found_by`` is drawn
+    scale : its title with its scale, as {mu} and {unit}, {degrees} or {ratio}, if it says that
     """
 
     name: str
@@ -41,6 +42,7 @@ class View:
     up: str
     answer: Caption | None = None
     found_by: str = ""
+    scale: Caption | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)

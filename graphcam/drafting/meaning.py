@@ -77,6 +77,8 @@ class Meaning:
     title : of its chapter
     why : the paragraph that stands before its steps
     readings : those that a reader takes, by name; what else it reads is an aid of the draughtsman
+    scales : the views whose scales it settles, each with a reading that is drawn in that scale
+    scales_found_by : the construction by which they are found, if they are not chosen: they are answers then
     calculation : the function of a room above that puts its numbers into formulas for the note, such as
         "report.paragraphs.roller"; without one the captions of its steps tell it
     """
@@ -86,6 +88,8 @@ class Meaning:
     why: Caption
     readings: Mapping[str, ReadingMeaning] = field(default_factory=dict[str, ReadingMeaning])
     calculation: str = ""
+    scales: Mapping[str, str] = field(default_factory=dict[str, str])
+    scales_found_by: str = ""
 
     def reading(self, name: str) -> ReadingMeaning:
         """What one of its readings is.

@@ -9,7 +9,6 @@ import numpy as np
 
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
-from graphcam.drafting.scale import ratio_text
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.report.contents import Contents
@@ -24,7 +23,7 @@ from graphcam.report.note import (
     whole_note,
 )
 from graphcam.report.note_tables import station_table
-from graphcam.report.sheet_contents import diagram_titles, title_block, titled
+from graphcam.report.sheet_contents import scaled_steps, title_block
 from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution
@@ -45,26 +44,14 @@ DRAWN = say("drawn")
 
 def arcs_contents(solution: ArcsSolution) -> Contents:
     """What stands on its sheets: the arcs, the roller on them, the diagrams, the data, drawn against exact values."""
-    titles, quantities = _titles(solution), solution.comparison.quantities
-    steps = tuple((name, titled(step, titles)) for name, c in solution.drawn.items() for step in c.steps())
+    quantities = solution.comparison.quantities
     # In two tables, so that they fit on the smallest format.
     on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared}
     of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
     of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
     results = comparison(of_arcs), comparison(of_motion)
     title = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
-    return Contents(solution, title, solution.drawn, steps, (_data(solution),), results)
-
-
-def _titles(solution: ArcsSolution) -> dict[str, Caption]:
-    """The views' titles with their scales."""
-    board, readings = solution.chain.board, solution.drawn["arc_diagrams"].readings
-    ratio = ratio_text(board.mu_l.per_mm)
-    return {
-        "arcs": say("Three arcs, {ratio}", ratio=ratio),
-        "roller": say("The roller on the arcs, {ratio}", ratio=ratio),
-        **diagram_titles(board.mu_phi, readings["lift"], readings["max_v"], readings["max_a"]),
-    }
+    return Contents(solution, title, solution.drawn, scaled_steps(solution.drawn), (_data(solution),), results)
 
 
 def _xy(point: Sequence[float] | Floats) -> Caption:

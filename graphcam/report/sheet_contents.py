@@ -6,8 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from graphcam.constructions.differentiation import VIEWS as DIFFERENTIATED
-from graphcam.drafting.ink import Caption, Reading, Step, say
+from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
 from graphcam.report.contents import Contents
@@ -17,24 +16,21 @@ from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
-SCALED = frozenset(
-    {"acceleration", "velocity", "displacement", "combined", *(view.name for view in DIFFERENTIATED.values())}
-)
-"""The views whose scale is fixed by the lift when all has been integrated; that of the cam angle is chosen."""
 UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
 
 def motion_contents(solution: Solution) -> Contents:
     """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
-    titles, spring, drawn = _titles(solution), solution.spring, dict(solution.drawn)
+    spring, drawn = solution.spring, dict(solution.drawn)
     results = [comparison(solution.comparison.quantities)]
     if spring:
         drawn |= spring.drawn
         results.append(spring.table())
-    steps = [(name, _scaled(step, titles)) for name, c in drawn.items() for step in c.steps()]
     title = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
-    return Contents(solution, title, drawn, tuple(steps), (data(solution), phases_at_speed(solution)), tuple(results))
+    return Contents(
+        solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)
+    )
 
 
 def title_name(title: TitleTable, tell: Tell) -> str:
@@ -56,39 +52,21 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
     )
 
 
-def titled(step: Step, titles: Mapping[str, Caption]) -> Step:
-    """The step with the title that its view has on the sheet."""
-    return replace(step, view=replace(step.view, title=titles.get(step.view.name, step.view.title)))
+def scaled_steps(drawn: Mapping[str, Construction]) -> tuple[tuple[str, Step], ...]:
+    """The steps with their constructions' names; the titles of their views say the scales that were settled."""
+    settled = {view: by for by in drawn.values() for view in by.meaning.scales}
+    return tuple((name, _scaled(step, settled.get(step.view.name))) for name, c in drawn.items() for step in c.steps())
 
 
-def _scaled(step: Step, titles: Mapping[str, Caption]) -> Step:
-    """The step with its view's title, whose scale is an answer if the integration finds it."""
-    step = titled(step, titles)
-    if step.view.name not in SCALED:
+def _scaled(step: Step, by: Construction | None) -> Step:
+    """The step with its view's title, whose scale is an answer if drawing finds it."""
+    if by is None:
         return step
-    answer = say("{mu:.4g}", mu=step.view.title.values["mu"])
-    return replace(step, view=replace(step.view, answer=answer, found_by="integration"))
-
-
-def _titles(solution: Solution) -> dict[str, Caption]:
-    """The views' titles with their scales."""
-    s, v, a = (solution.drawn["integration"].readings[name] for name in ("s", "v", "a"))
-    return {
-        **diagram_titles(solution.chain.board.mu_phi, s, v, a),
-        "combined": say("Least radius, μₛ = {mu:.4g} {unit}/mm", **_scale(s)),
-        "profile": say("Cam profile, {ratio}", ratio=ratio_text(solution.chain.profile_scale.per_mm)),
-    }
-
-
-def diagram_titles(mu_phi: Scale, s: Reading, v: Reading, a: Reading) -> dict[str, Caption]:
-    """The titles of the diagrams over the cam angle, with the scales of what is read there."""
-    return {
-        "acceleration": say("Acceleration a, μₐ = {mu:.4g} ({unit})/mm", **_scale(a)),
-        "velocity": say("Velocity v, μᵥ = {mu:.4g} ({unit})/mm", **_scale(v)),
-        "displacement": say("Displacement s, μₛ = {mu:.4g} {unit}/mm", **_scale(s)),
-        "angle": say("Pressure angle α, μ = {mu:g}°/mm", mu=math.degrees(mu_phi.per_mm)),
-    }
-
-
-def _scale(read: Reading) -> dict[str, object]:
-    return {"mu": read.per_mm, "unit": unit(read.unit)}
+    view, read = step.view, by.readings[by.meaning.scales[step.view.name]]
+    mu = read.per_mm
+    if view.scale is not None:
+        values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
+        view = replace(view, title=view.scale.where(mu=mu, **values))
+    if found_by := by.meaning.scales_found_by:
+        view = replace(view, answer=say("{mu:.4g}", mu=view.title.values["mu"]), found_by=found_by)
+    return replace(step, view=view)
