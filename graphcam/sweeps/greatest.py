@@ -23,7 +23,6 @@ CLOSE = 1e-8
 """A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
 PATIENCE = 6
 """After so many steps every other one halves the bracket."""
-
 Numbers = NDArray[np.intp]
 
 

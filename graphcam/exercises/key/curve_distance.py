@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points
 
 Floats = NDArray[np.float64]
-
 STEP = 5.0
 """A drawn line is looked at in all its vertices, and on straight stretches in places at most this far apart [mm]."""
 MOST_PLACES = 2000

@@ -18,7 +18,6 @@ from graphcam.given.stations import Stations
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
-
 UNIFORM = 1 / math.sqrt(12)
 """Standard deviation of a rounding, in its steps."""
 CALCULATED = 1e-3
