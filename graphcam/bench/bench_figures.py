@@ -180,7 +180,7 @@ SPOTS = {
     ("profile", "graphical"): (1.0, (8, 10), "left"),
     ("profile", "shapely buffer"): (0.5, (-9, -4), "right"),
 }
-"""Where a method's label stands: at which of its points (0 the first, 1 the last), how far off [points], how aligned."""
+"""Where a method's label stands: at which of its points (0 the first, 1 the last), how far off [pt], how aligned."""
 NAMES = {
     "cumulative_trapezoid": "cumulative\ntrapezoid",
     "cumulative_simpson": "cumulative\nSimpson",

@@ -11,7 +11,7 @@ Source of the problem: Tran Minh Quang, Nguyen Quang Hung (2015).
 """
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from typing import NoReturn
 
 import numpy as np
@@ -253,8 +253,7 @@ def _exchange(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: 
 
 
 def _same(a: Sizes, b: Sizes) -> bool:
-    pairs = ((a.radius, b.radius), (a.offset, b.offset), (a.roller, b.roller), (a.width, b.width))
-    return all(abs(x - y) <= SAME * a.radius for x, y in pairs)
+    return all(abs(x - y) <= SAME * a.radius for x, y in zip(astuple(a), astuple(b), strict=True))
 
 
 def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: float | None) -> Sizes:
