@@ -4,7 +4,6 @@ from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
-from .given.guide import Guide as Guide
 from .given.laws import LAWS as LAWS, law as law
 from .given.measured import (
     IntegratedMotion as IntegratedMotion,
@@ -15,7 +14,7 @@ from .given.measured import (
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
 from .given.spline_law import sampled_law as sampled_law
-from .given.spring_load import SpringLoad as SpringLoad
+from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.arcs import ThreeArcCam as ThreeArcCam, three_arc_cam as three_arc_cam
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -165,31 +164,23 @@ def spread(places: Floats, gap: float) -> Floats:
 # --- error against time ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Spot:
-    """Where a method's label stands: at which of its points (0 the first, 1 the last), and how far from it [points]."""
-
-    at: float
-    away: tuple[float, float]
-    align: str = "left"
-
-
 QUESTIONS = {
     "displacement": "Displacement from acceleration",
     "least radius": "Least prime radius",
     "profile": "Working profile",
 }
 SPOTS = {
-    ("displacement", "graphical"): Spot(0.72, (10, 4)),
-    ("displacement", "cumulative_trapezoid"): Spot(0.5, (-9, 0), "right"),
-    ("displacement", "cumulative_simpson"): Spot(0.6, (-9, 4), "right"),
-    ("displacement", "CubicSpline"): Spot(0.6, (11, 0)),
-    ("least radius", "graphical"): Spot(0.72, (10, 4)),
-    ("least radius", "HalfspaceIntersection"): Spot(0.5, (-9, -2), "right"),
-    ("least radius", "SLSQP"): Spot(0.34, (0, 10), "center"),
-    ("profile", "graphical"): Spot(1.0, (8, 10)),
-    ("profile", "shapely buffer"): Spot(0.5, (-9, -4), "right"),
+    ("displacement", "graphical"): (0.72, (10, 4), "left"),
+    ("displacement", "cumulative_trapezoid"): (0.5, (-9, 0), "right"),
+    ("displacement", "cumulative_simpson"): (0.6, (-9, 4), "right"),
+    ("displacement", "CubicSpline"): (0.6, (11, 0), "left"),
+    ("least radius", "graphical"): (0.72, (10, 4), "left"),
+    ("least radius", "HalfspaceIntersection"): (0.5, (-9, -2), "right"),
+    ("least radius", "SLSQP"): (0.34, (0, 10), "center"),
+    ("profile", "graphical"): (1.0, (8, 10), "left"),
+    ("profile", "shapely buffer"): (0.5, (-9, -4), "right"),
 }
+"""Where a method's label stands: at which of its points (0 the first, 1 the last), how far off [pt], how aligned."""
 NAMES = {
     "cumulative_trapezoid": "cumulative\ntrapezoid",
     "cumulative_simpson": "cumulative\nSimpson",
@@ -258,10 +249,10 @@ def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) ->
     axes.plot(t, error, "o-", zorder=4, **look)
     if method.name in ORDERS:
         _order_line(axes, t, error, ORDERS[method.name])
-    spot = SPOTS.get((method.question, method.name), Spot(1.0, (8, 6)))
-    at, weight = round(spot.at * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"
-    look = {"color": look["color"], "ha": spot.align, "va": "center", "weight": weight, "linespacing": 0.95}
-    _note(axes, NAMES.get(method.name, method.name), (t[at], error[at]), spot.away, fontsize=10, **look)
+    place, away, align = SPOTS.get((method.question, method.name), (1.0, (8, 6), "left"))
+    at, weight = round(place * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"
+    look = {"color": look["color"], "ha": align, "va": "center", "weight": weight, "linespacing": 0.95}
+    _note(axes, NAMES.get(method.name, method.name), (t[at], error[at]), away, fontsize=10, **look)
 
 
 def _order_line(axes: Axes, t: Floats, error: Floats, order: int) -> None:

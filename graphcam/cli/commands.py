@@ -13,12 +13,11 @@ import graphcam
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_bar, progress_lines
 from graphcam.files import write_new
 
-DEFAULT_NOTEBOOK = DEFAULT_FOLDER / "notebook"
-
 
 def notebook(
     task: TaskFile = None,
-    out: Annotated[Path, Option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_NOTEBOOK,
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_FOLDER
+    / "notebook",
     run: Annotated[bool, Option("--execute", help="Execute it, so that it holds its figures.")] = False,
     html: Annotated[bool, Option("--html", help="Execute it and make a page that stands alone.")] = False,
     pdf: Annotated[bool, Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
@@ -47,12 +46,10 @@ def notebook(
     typer.echo(f"{out}: " + ", ".join(files))
 
 
-DEFAULT_BENCH = DEFAULT_FOLDER / "bench"
-
-
 def bench(
     quick: Annotated[bool, Option("--quick", help="Fewer and shorter measurements: half a minute.")] = False,
-    out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_BENCH,
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_FOLDER
+    / "bench",
 ) -> None:
     """Report speed against error: drawn, sampled and exact, beside what else one would use.
 

@@ -11,7 +11,7 @@ import typer
 from typer import Argument, Option
 
 from graphcam.cli.shared import DEFAULT_FOLDER, one_message, print_table, progress_bar, progress_lines
-from graphcam.exercises.exports.systems import LearningSystem
+from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
-
 SECRET = b"simulation"
 """Of the simulated course."""
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]

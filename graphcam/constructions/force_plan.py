@@ -30,9 +30,8 @@ from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
-from graphcam.given.guide import Guide
 from graphcam.given.laws import Floats
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.plane import dot
 
 LOAD_LENGTH = 50.0

@@ -108,7 +108,9 @@ def _stops(phi: Floats, s: Floats, tolerance: float, lift: float) -> list[_Stop]
     stops: list[_Stop] = []
     row = 0
     while row < s.size:
-        last = _last_level(s, row, LEVEL * tolerance)
+        # The run of rows from here on whose displacements differ by no more than those of a rest.
+        spread = np.maximum.accumulate(s[row:]) - np.minimum.accumulate(s[row:])
+        last = row + int(np.searchsorted(spread, LEVEL * tolerance, side="right")) - 1
         first, last, level = _trimmed(s, row, last)
         if last - first < 2 or phi[last] - phi[first] < shortest:
             first, last, level = row, row, float(s[row])
@@ -117,12 +119,6 @@ def _stops(phi: Floats, s: Floats, tolerance: float, lift: float) -> list[_Stop]
         stops.append(_Stop(start, _left(phi[first:], s[first:], last - first, level, tolerance), level))
         row = last + 1
     return _merged(stops, tolerance)
-
-
-def _last_level(s: Floats, row: int, band: float) -> int:
-    """The last row of the run from ``row`` on whose displacements differ by no more than the band."""
-    spread = np.maximum.accumulate(s[row:]) - np.minimum.accumulate(s[row:])
-    return row + int(np.searchsorted(spread, band, side="right")) - 1
 
 
 def _trimmed(s: Floats, first: int, last: int) -> tuple[int, int, float]:

@@ -20,7 +20,6 @@ from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunk
 
 Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is greatest, and how great, as a function of k: a closed form."""
-
 SHARP = 1e-6
 """Where the acceleration, or its slope, jumps by more than this part of the greatest acceleration, it is told."""
 CLOSE = 1e-9

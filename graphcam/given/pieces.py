@@ -17,7 +17,6 @@ Floats = NDArray[np.floating[Any]]
 Side = Literal["right", "left"]
 Formula = Callable[[Floats], Sequence[Floats | float]]
 """f, f', f'', f''' of the distance x from an end of a phase, as a fraction of the phase."""
-
 CHUNK = 16_384
 """Values that are computed at a time: their arrays stay in the processor's cache, and bound the memory."""
 LONG = 512

@@ -34,7 +34,6 @@ NAMED_RULES = {
     ),
 }
 """Rules by name.  Where a school gives a range, the end of it is taken that gives the smaller roller."""
-
 _NUMBER = r"(\d+(?:\.\d+)?)"
 _FACTOR = re.compile(rf"{_NUMBER}\s*\*?\s*(rho|r0)")
 _MARGIN = re.compile(rf"rho\s*-\s*{_NUMBER}")

@@ -23,7 +23,6 @@ from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 
 Indices = NDArray[np.intp]
-
 CUSP = 1e-12
 """A roller that misses the least radius of curvature by no more than this part of it makes one cusp, and no loop."""
 JUMP = 1e-9

@@ -23,9 +23,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.guide import Guide
 from graphcam.given.laws import Floats, Side
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Values, pair_cross
 from graphcam.mechanism.stationary import Places, ValueAt, greatest

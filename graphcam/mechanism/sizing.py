@@ -10,10 +10,8 @@ radius is moved to where the exact extremes just keep all limits, so that nothin
 Source of the problem: Tran Minh Quang, Nguyen Quang Hung (2015).
 """
 
-from __future__ import annotations
-
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from typing import NoReturn
 
 import numpy as np
@@ -45,28 +43,6 @@ POLISH = 1e-5
 NAMES = ("prime radius", "offset", "roller radius", "face width")
 STARTS = 3
 """From the best so many cams of a coarse grid the search starts."""
-
-
-@dataclass(frozen=True)
-class SizedCam:
-    """The smallest cam.
-
-    cam : with its prime radius and roller;  offset : of its follower [mm]
-    face_width : the least that the stress permits, in its range [mm]
-    max_pressure_angle : on the rises and, if it is limited, on the returns, in magnitude [rad]
-    min_convex_radius : of the pitch curve [mm];  stress : greatest peak pressure with this face width [MPa]
-    binding : what keeps the prime radius from being smaller, limits and ends of ranges
-    problem : what was asked
-    """
-
-    cam: Cam
-    offset: float
-    face_width: float
-    max_pressure_angle: float
-    min_convex_radius: float
-    stress: float
-    binding: tuple[str, ...]
-    problem: SizingProblem = field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -118,6 +94,28 @@ class SizingProblem:
         """What is left of every limit, from the exact extremes."""
         left = self.margins(TurnPlaces.worst(self.stress(sizes)), sizes)
         return {name: float(margin.min()) for name, margin in left.items()}
+
+
+@dataclass(frozen=True)
+class SizedCam:
+    """The smallest cam.
+
+    cam : with its prime radius and roller;  offset : of its follower [mm]
+    face_width : the least that the stress permits, in its range [mm]
+    max_pressure_angle : on the rises and, if it is limited, on the returns, in magnitude [rad]
+    min_convex_radius : of the pitch curve [mm];  stress : greatest peak pressure with this face width [MPa]
+    binding : what keeps the prime radius from being smaller, limits and ends of ranges
+    problem : what was asked
+    """
+
+    cam: Cam
+    offset: float
+    face_width: float
+    max_pressure_angle: float
+    min_convex_radius: float
+    stress: float
+    binding: tuple[str, ...]
+    problem: SizingProblem = field(repr=False)
 
 
 def size_cam(
@@ -255,8 +253,7 @@ def _exchange(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: 
 
 
 def _same(a: Sizes, b: Sizes) -> bool:
-    pairs = ((a.radius, b.radius), (a.offset, b.offset), (a.roller, b.roller), (a.width, b.width))
-    return all(abs(x - y) <= SAME * a.radius for x, y in pairs)
+    return all(abs(x - y) <= SAME * a.radius for x, y in zip(astuple(a), astuple(b), strict=True))
 
 
 def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: float | None) -> Sizes:

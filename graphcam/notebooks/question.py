@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
 
-import numpy as np
-
 from graphcam.comparison.quantities import Quantity
 from graphcam.drafting.ink import Reading
 from graphcam.drafting.units import UNITS
@@ -69,7 +67,7 @@ class Question:
         Not yet: that is the length on paper; multiply by the scale. Look again at step 7.
         """
         paper = float(reading.paper if at is None else reading.paper[at])
-        scale = float(np.ravel(reading.scale)[0])
+        scale = reading.per_mm
         on_paper = {} if scale == 1 else {str(ON_PAPER): paper}
         return cls(scale * paper, CAREFUL_HAND * scale, reading.unit, look, {**on_paper, **(mistakes or {})})
 

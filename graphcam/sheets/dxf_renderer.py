@@ -37,7 +37,6 @@ POINT_STYLE, POINT_SIZE = 34, 3.0
 """A POINT is shown as a cross in a circle, so many mm wide."""
 COLOURS = {GREY: 8, ACCENT: 1}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
-
 DrawGroup = Callable[[Document, Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
 

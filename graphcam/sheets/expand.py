@@ -11,7 +11,6 @@ from graphcam.drafting import marks
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.hatching import hatch
 from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
 from graphcam.sheets.styles import STYLES
 from graphcam.sheets.writing import Writing, along, around, outside, over, unit
@@ -28,6 +27,8 @@ ROOMY, TAIL = 9.0, 6.0
 """A shorter dimension line has its heads outside, on tails of this length, mm."""
 NEAREST = 6.0
 """A dimension line comes no nearer to what it measures when it is shown reduced, mm."""
+SPACING = 3.0
+"""Between the lines of hatching, mm."""
 
 
 @dataclass(frozen=True)
@@ -165,3 +166,30 @@ def _angle(mark: marks.AngleMark, place: Placement, height: float) -> Drawn:
     ]
     writing = outside(centre, radius, start, end, str(mark.text), height)
     return drawn, [replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))]
+
+
+def hatch(boundary: Points, spacing: float = SPACING) -> Strokes:
+    """Lines at 45 degrees inside a polygon (n,), which may have notches.
+
+    Every line runs inside from an odd crossing of the outline to the next one.
+
+    >>> square = np.array([0, 10, 10 + 10j, 10j])
+    >>> lines = hatch(square, spacing=5.0)
+    >>> bool(np.all(np.abs(lines.ends - lines.starts) < 14.15))
+    True
+    """
+    # Turned by -45 degrees the lines of hatching lie level, at heights that are whole multiples of the spacing.
+    turn = cmath.rect(1.0, -math.pi / 4)
+    corners = np.asarray(boundary, dtype=np.complex128) * turn
+    nexts = np.roll(corners, -1)
+    low, high = math.floor(corners.imag.min() / spacing), math.ceil(corners.imag.max() / spacing)
+    starts: list[complex] = []
+    ends: list[complex] = []
+    for level in spacing * np.arange(low, high + 1):
+        # A corner on the line belongs to the side above it, so crossings come in pairs.
+        cut = (corners.imag <= level) != (nexts.imag <= level)
+        a, b = corners[cut], nexts[cut]
+        x = np.sort(a.real + (level - a.imag) * (b.real - a.real) / (b.imag - a.imag))
+        starts += list(x[::2] + 1j * level)
+        ends += list(x[1::2] + 1j * level)
+    return Strokes(np.array(starts, dtype=complex) / turn, np.array(ends, dtype=complex) / turn, Role.HATCH)

@@ -7,9 +7,7 @@ from graphcam.sheets.box import Box
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
 """Width and height of the sheets, mm, lying."""
-
 ORIENTATIONS = ("landscape", "portrait")
-
 MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
 """Between the edge of the paper and the frame, mm: left, bottom, right, top."""
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn
-from graphcam.sheets.hatching import interrupted
 from graphcam.sheets.model import Entity, Strokes, Text
-from graphcam.sheets.sampling import corners, pieces, sampled
+from graphcam.sheets.sampling import corners, pieces, sampled, within
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES
 from graphcam.sheets.writing import Floats, Writing
 
@@ -25,6 +24,8 @@ AIR = 0.45
 """Free margin around a text, mm."""
 FORBIDDEN, ON_MEDIUM, ON_THIN, ON_HATCH = 200.0, 6.0, 1.5, 0.4
 """Cost of a cell with another text or a bold line in it, or with a lighter line."""
+AROUND_TEXT = 0.8
+"""Free margin in the hatching around a text, mm."""
 
 
 class Occupancy:
@@ -156,3 +157,25 @@ def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]
     """The same steps, their shading interrupted where a text of any of them stands."""
     texts = [e for entities in steps for e in entities if isinstance(e, Text)]
     return [tuple(interrupted(e, texts) if e.role == Role.HATCH else e for e in entities) for entities in steps]
+
+
+def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
+    """Separate lines without the parts that run through texts; other entities as they are.
+
+    >>> line = Strokes(np.array([-10 + 1j]), np.array([20 + 1j]), Role.HATCH)
+    >>> len(interrupted(line, [Text(0j, "A", 3.5)]).starts)
+    2
+    """
+    if not isinstance(entity, Strokes):
+        return entity
+    starts, ends = entity.starts, entity.ends
+    for text in texts:
+        low, high = within(starts, ends, corners(text), AROUND_TEXT)
+        cut = low < high
+        steps = ends - starts
+        before, after = cut & (low > 0), cut & (high < 1)
+        starts, ends = (
+            np.concatenate([starts[~cut], starts[before], (starts + high * steps)[after]]),
+            np.concatenate([ends[~cut], (starts + low * steps)[before], ends[after]]),
+        )
+    return Strokes(starts, ends, entity.role)

@@ -36,7 +36,6 @@ INCH = 25.4
 POINT = 72 / INCH
 """Points to a millimetre."""
 PAPER = (1.0, 1.0, 1.0, 1.0)
-
 _SETTINGS: dict[Any, Any] = {
     "pdf.fonttype": 42,
     "svg.fonttype": "none",

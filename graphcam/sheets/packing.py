@@ -1,10 +1,9 @@
 """Finding room on a page for things that may not overlap."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +37,7 @@ class Room:
         for box in taken:
             self.take(box)
 
-    def copy(self) -> Room:
+    def copy(self) -> Self:
         """The same room, to be taken in another way."""
         other = copy(self)
         other.full = self.full.copy()

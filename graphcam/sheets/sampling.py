@@ -13,7 +13,6 @@ from graphcam.sheets.fonts import extent
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Heads, Stroke, Strokes, Text
 
 Floats = NDArray[np.float64]
-
 FLATNESS = 0.02
 """A curve is replaced by chords that stay so close to it, mm."""
 

@@ -6,12 +6,10 @@ from graphcam.drafting.marks import Role
 
 BOLD, MEDIUM, THIN = 0.7, 0.35, 0.18
 """Widths of lines, mm: two steps of the standard series apart, so that a print keeps the hierarchy."""
-
 SOLID: tuple[float, ...] = ()
 DASHED = (3.0, 1.2)
 CENTER = (9.0, 1.4, 1.0, 1.4)
 """Line types: dash, gap, dash, gap... in mm of paper."""
-
 BLACK, GREY, ACCENT = "#000000", "#5a5a5a", "#b3201c"
 """Ink: results and curves, construction lines, limits.  All of them are dark enough to print in black and white."""
 
@@ -41,7 +39,6 @@ _FINISHED: dict[str, Style] = {
     "table": Style(MEDIUM),
     "text": Style(THIN),
 }
-
 FADED, CURRENT = "#9b9b9b", "#0b57a4"
 """Ink of a drawing in progress: what stood before the current step, and what the step adds."""
 FORMER_STEP, CURRENT_STEP = "former", "current"

@@ -14,7 +14,6 @@ from graphcam.sheets.fonts import extent
 from graphcam.sheets.model import Angle, Length, Text
 
 Floats = NDArray[np.float64]
-
 GAPS = np.array([1.2, 1.8, 2.5, 3.4, 4.6, 6.5, 9.0, 12.0, 16.0, 21.0, 27.0, 35.0])
 """Distances between a point and its label that are tried, mm."""
 LEADER = 6.0

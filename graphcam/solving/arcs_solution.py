@@ -1,7 +1,5 @@
 """Task to solution, of a cam of three circular arcs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +11,7 @@ import numpy as np
 from graphcam import __version__
 from graphcam.comparison.arc_quantities import ArcsComparison
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
-from graphcam.drafting.ink import Construction, Reading
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
@@ -30,37 +28,6 @@ from graphcam.words import Tell
 POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
 SHARE = 0.9
 """Of the room for a profile, for each of the two views of the cam."""
-
-
-def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
-
-    Raises
-    ------
-    DesignError : the data give no sound cam, or the roller cannot run on it
-
-    >>> import graphcam as gc
-    >>> solution = solve_arcs(gc.builtin_arcs_task())
-    >>> solution.cam.F.round(3).tolist(), round(float(solution.drawn["three_arcs"].readings["F_x"].value), 3)
-    ([46.834, 25.855], 46.834)
-    """
-    given, drawing = task.arcs(), task.drawing
-    roots = three_arc_cam(given.D, given.G, given.rho1, given.A, given.C1, given.C2)
-    if not roots[0].sound:
-        raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
-    width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
-    diagrams = diagram_room(drawing)
-    board = ArcBoard(
-        given=given,
-        dwell=math.radians(task.arcs.dwell),
-        roller_radius=task.follower.roller_radius,
-        divisions=drawing.divisions,
-        mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
-        room=(SHARE * width, SHARE * height),
-        heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
-    )
-    motion = roots[0].motion(board.roller_radius, board.dwell)
-    return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -136,7 +103,7 @@ class ArcsSolution(ShownSolution):
         tops = {name: readings[reading] for name, reading in (("s", "lift"), ("v", "max_v"), ("a", "max_a"))}
         return {
             "phi": {"per_mm": math.degrees(board.mu_phi.per_mm), "unit": "deg"},
-            **{name: {"per_mm": _scale(top), "unit": top.unit} for name, top in tops.items()},
+            **{name: {"per_mm": top.per_mm, "unit": top.unit} for name, top in tops.items()},
         }
 
     def _stations(self) -> list[dict[str, Any]]:
@@ -153,11 +120,38 @@ class ArcsSolution(ShownSolution):
         return plain_stations(phi, self.chain.stations.arc.tolist(), pairs, (read, pitch))
 
 
+def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
+    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    Raises
+    ------
+    DesignError : the data give no sound cam, or the roller cannot run on it
+
+    >>> import graphcam as gc
+    >>> solution = solve_arcs(gc.builtin_arcs_task())
+    >>> solution.cam.F.round(3).tolist(), round(float(solution.drawn["three_arcs"].readings["F_x"].value), 3)
+    ([46.834, 25.855], 46.834)
+    """
+    given, drawing = task.arcs(), task.drawing
+    roots = three_arc_cam(given.D, given.G, given.rho1, given.A, given.C1, given.C2)
+    if not roots[0].sound:
+        raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
+    width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
+    diagrams = diagram_room(drawing)
+    board = ArcBoard(
+        given=given,
+        dwell=math.radians(task.arcs.dwell),
+        roller_radius=task.follower.roller_radius,
+        divisions=drawing.divisions,
+        mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
+        room=(SHARE * width, SHARE * height),
+        heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
+    )
+    motion = roots[0].motion(board.roller_radius, board.dwell)
+    return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
+
+
 AnySolution = Solution | ArcsSolution
-
-
-def _scale(read: Reading) -> float:
-    return float(np.ravel(read.scale)[0])
 
 
 def _root(root: ThreeArcCam) -> dict[str, Any]:

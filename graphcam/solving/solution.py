@@ -1,7 +1,5 @@
 """Task to solution: the constructions, drawn; the same cam, exact; and the two beside each other."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,25 +20,6 @@ from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import less_round, warnings_of
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
-
-
-def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
-
-    Raises
-    ------
-    DesignError : there is no such cam, or its follower is not there yet
-
-    >>> import graphcam as gc
-    >>> solution = solve_motion(gc.builtin_task())
-    >>> solution.cam.prime_radius, solution.cam.follower
-    (44.0, Translating(offset=-10.0, roller_radius=17.0))
-    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
-    43.28
-    """
-    chain = Chain(board_of(task), pencil or Pencil())
-    follower = chain.board.follower.built(chain.place, chain.roller_radius)
-    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -112,7 +91,7 @@ class Solution(ShownSolution):
 
     def _scales(self) -> dict[str, Any]:
         readings, (factor, unit) = self.chain["integration"].readings, self._lift
-        scales = {name: float(np.ravel(readings[name].scale)[0]) for name in ("s", "v", "a")}
+        scales = {name: readings[name].per_mm for name in ("s", "v", "a")}
         return {
             "phi": {"per_mm": math.degrees(self.chain.board.mu_phi.per_mm), "unit": "deg"},
             "s": {"per_mm": factor * scales["s"], "unit": unit},
@@ -133,3 +112,22 @@ class Solution(ShownSolution):
         }
         pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)
+
+
+def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
+    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    Raises
+    ------
+    DesignError : there is no such cam, or its follower is not there yet
+
+    >>> import graphcam as gc
+    >>> solution = solve_motion(gc.builtin_task())
+    >>> solution.cam.prime_radius, solution.cam.follower
+    (44.0, Translating(offset=-10.0, roller_radius=17.0))
+    >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
+    43.28
+    """
+    chain = Chain(board_of(task), pencil or Pencil())
+    follower = chain.board.follower.built(chain.place, chain.roller_radius)
+    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))

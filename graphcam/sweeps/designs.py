@@ -1,10 +1,8 @@
 """Many cams of one kind: rise, dwell, return and dwell, with every size a number or one for each cam."""
 
-from __future__ import annotations
-
 from copy import copy
 from dataclasses import dataclass, fields
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +15,6 @@ from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
-
 _SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
 _OF_FOLLOWERS = "offset", "arm", "distance", "roller_radius"
 NUMBERS = (*_SIZES, *_OF_FOLLOWERS)
@@ -98,7 +95,7 @@ class Designs:
     def __len__(self) -> int:
         return max(array.size for array in self._columns.values())
 
-    def part(self, which: Part) -> Designs:
+    def part(self, which: Part) -> Self:
         """Some of the cams, by a slice, by their numbers or by a mask.
 
         >>> import graphcam as gc

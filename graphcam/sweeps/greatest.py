@@ -1,4 +1,8 @@
-"""The greatest value of a quantity over the rises, or the returns, of many cams.
+"""The greatest value of a quantity over the rises, or the returns, of many cams, which follow one law each.
+
+A table of the law serves all of them.  A return is a rise seen backwards: with w the distance from the low end, as a
+fraction of the phase, both have s = h f(w), of a return with f of the law reversed, and its odd derivatives change
+their sign.
 
 First the quantity is looked at in fixed places; then every place that is higher than its neighbours, and could belong
 to the greatest value, is refined by secants on the quantity's slope, within the bracket of its neighbours, halved
@@ -6,16 +10,114 @@ where a secant leaves it.  Every operation is done to each cam by itself: what t
 changes no bit.
 """
 
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import count
-from typing import ClassVar, Protocol, Self
+from functools import cached_property, lru_cache
+from itertools import count, pairwise
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.kinematics import Values
-from graphcam.sweeps.law_tables import LawTable, Legs, law_table
+from graphcam.given.motion_law import Law
+from graphcam.mechanism.kinematics import Kinematics, Values
+
+INSIDE = 40
+"""Places on a whole phase between which a quantity is taken to have one extreme at most."""
+FEWEST = 10
+"""Places on a smooth piece of it, however short."""
+CLOSER = 1 / 32
+"""Nearer the phase's ends the places follow at this ratio, for small prime radii move the extremes there ..."""
+CLOSEST = 1e-12
+"""... down to this distance."""
+
+
+@dataclass(frozen=True, eq=False)
+class LawTable:
+    """A law at fixed places; where its acceleration or jerk jumps there are two places, one for either side.
+
+    w : (m,) fractions of the phase;  values : (4, m) f, f', f'', f'''
+    first, last : (m,) the first and last place on the same smooth piece
+    """
+
+    w: Floats
+    values: Floats
+    first: NDArray[np.intp]
+    last: NDArray[np.intp]
+
+    @cached_property
+    def seams(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The first place of each smooth piece, and the last one."""
+        return np.unique(self.first), np.unique(self.last)
+
+    @cached_property
+    def inner(self) -> NDArray[np.intp]:
+        """(m,) the nearest place that has a neighbour on either side."""
+        return np.clip(np.arange(self.w.size), self.first + 1, self.last - 1)
+
+
+@lru_cache(maxsize=64)
+def law_table(law: Law) -> LawTable:
+    """The table of a law.
+
+    >>> import graphcam as gc
+    >>> table = law_table(gc.law("rectangular"))
+    >>> first, last = table.seams
+    >>> table.w[first].tolist(), table.w[last].tolist(), table.values[2, first].tolist()
+    ([0.0, 0.5], [0.5, 1.0], [4.0, -4.0])
+    """
+    pieces = [_places(*ends) for ends in pairwise((0.0, *law.breaks, 1.0))]
+    values = np.hstack([np.array(law(w)) for w in pieces])
+    ends = np.cumsum([len(w) for w in pieces])
+    starts = np.concatenate([[0], ends[:-1]])
+    values[:, ends - 1] = np.array(law(np.array([w[-1] for w in pieces]), side="left"))
+    sizes = np.diff(ends, prepend=0)
+    return LawTable(np.concatenate(pieces), values, np.repeat(starts, sizes), np.repeat(ends - 1, sizes))
+
+
+def _places(begin: float, end: float) -> Floats:
+    n = max(FEWEST, round(INSIDE * (end - begin)))
+    share = np.sin(np.linspace(0, np.pi / 2, n + 2)[1:-1]) ** 2
+    near = share[0] * CLOSER ** np.arange(1, np.log(CLOSEST / share[0]) / np.log(CLOSER))[::-1]
+    share = np.concatenate([near if begin == 0 else [], share, 1 - near[::-1] if end == 1 else []])
+    return np.concatenate([[begin], begin + (end - begin) * share, [end]])
+
+
+@dataclass(frozen=True, eq=False)
+class Legs:
+    """Rises (direction +1) or returns (-1) by one law.
+
+    lift : (n,) mm;  angle : (n,) rad
+    """
+
+    law: Law
+    direction: int
+    lift: Floats
+    angle: Floats
+
+    def part(self, which: NDArray[np.intp] | slice) -> Legs:
+        """Those of some of the cams."""
+        return Legs(self.law, self.direction, self.lift[which], self.angle[which])
+
+    def at(self, w: Floats) -> Values:
+        """(s, v, a, j), one place w for each cam."""
+        return self.values(self.law(w))
+
+    def values(self, f: Floats | Sequence[Floats]) -> Values:
+        """(s, v, a, j) from f, f', f'', f''', (4, n), or (4, m, 1) for m places on every cam.
+
+        Without f''', whose cost counts where the places are many, j is NaN.
+        """
+        rate = self.direction / self.angle
+        first = self.lift * rate
+        second = first * rate
+        j = second * rate * f[3] if len(f) > 3 else np.asarray(np.nan)
+        return self.lift * f[0], first * f[1], second * f[2], j
+
 
 BLOCK = 16_384
 """Places that are looked at together: their arrays stay in the cache, and bound the memory."""
@@ -23,27 +125,28 @@ CLOSE = 1e-8
 """A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
 PATIENCE = 6
 """After so many steps every other one halves the bracket."""
-
 Numbers = NDArray[np.intp]
 
 
-class Sought(Protocol):
+@dataclass(frozen=True, eq=False)
+class Sought(ABC):
     """A quantity of many cams whose greatest value is sought, or with ``signed`` the one of greatest magnitude."""
 
-    signed: ClassVar[bool]
+    kin: Kinematics
+    signed: ClassVar[bool] = False
     """Whether a negative value counts as much as a positive one."""
 
     def part(self, which: Numbers | slice) -> Self:
         """The same of some of the cams."""
-        ...
+        return type(self)(self.kin.part(which))
 
+    @abstractmethod
     def reading(self, values: Values) -> Floats:
         """The quantity, from (s, v, a, j)."""
-        ...
 
+    @abstractmethod
     def slope(self, values: Values) -> Floats:
         """Of the sign of its derivative by phi."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

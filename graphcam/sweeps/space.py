@@ -27,7 +27,6 @@ MOST = 10**12
 """Designs; nobody waits for more."""
 _RANGE = ("start", "stop", "count")
 _ALLOWED = "a number, a list of numbers, or { start = 40, stop = 60, count = 21 }"
-
 Columns = dict[str, NDArray[Any]]
 
 
@@ -216,7 +215,6 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
 
 
 _REMEDY = "graphcam/data/space.toml in the package is a commented example"
-
 _CLASSES: Classes = {
     (): Space,
     ("motion",): SpaceMotionTable,

@@ -25,7 +25,6 @@ WORKING_SET = 2**22
 # The C library on Linux keeps free memory only up to twice the largest array that it was given back.  What it does not
 # keep it asks the system for again at once, which would cost more than all arithmetic.
 np.empty(WORKING_SET, dtype=np.uint8)
-
 Columns = dict[str, NDArray[Any]]
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, ClassVar, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,23 +16,13 @@ from graphcam.given.motion_law import Law
 from graphcam.mechanism.followers import EXACT
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.sweeps.designs import OWN, Designs
-from graphcam.sweeps.greatest import Numbers, Sought, greatest
-from graphcam.sweeps.law_tables import Legs
+from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
 
 
-@dataclass(frozen=True, eq=False)
-class _OfManyCams:
-    kin: Kinematics
-
-    def part(self, which: Numbers | slice) -> Self:
-        """The same of some of the cams."""
-        return type(self)(self.kin.part(which))
-
-
-class Steepness(_OfManyCams):
+class Steepness(Sought):
     """tan(alpha), which grows with the pressure angle."""
 
-    signed: ClassVar[bool] = True
+    signed = True
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
@@ -44,10 +34,8 @@ class Steepness(_OfManyCams):
         return self.kin.pressure_slope(values)
 
 
-class Sharpness(_OfManyCams):
+class Sharpness(Sought):
     """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
-
-    signed: ClassVar[bool] = False
 
     def reading(self, values: Values) -> Floats:
         """kappa [1/mm], or -rho [mm] of a flat face's cam."""
@@ -56,10 +44,6 @@ class Sharpness(_OfManyCams):
     def slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
         return self.kin.curvature_slope(values)
-
-    def radius(self, sharpest: Floats) -> Floats:
-        """The least convex radius [mm], inf where nothing is convex; under a flat face the least rho."""
-        return self.kin.radius_of(sharpest)
 
 
 QUANTITIES = (
@@ -97,7 +81,7 @@ class Chunk:
             still = np.zeros_like(level)
             resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
             sharpest = np.maximum(sharpest, resting)
-        return self._sharpness.radius(sharpest)
+        return self._many.radius_of(sharpest)
 
     @cached_property
     def max_v(self) -> Floats:

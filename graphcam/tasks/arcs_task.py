@@ -12,7 +12,6 @@ from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain, positive
 
 MOST_PARTS = 200
 """Parts of an arc; more cannot be drawn apart."""
-
 XY = tuple[float, float]
 
 

@@ -25,14 +25,10 @@ if TYPE_CHECKING:
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
-
 EXAMPLE = "'graphcam init FILE' writes a commented example"
-
 _DECIMAL_COMMA = re.compile(rb"=\s*[-+]?(\d+),(\d+)")
-
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
-
 _CLASSES: Classes = {
     (): Task,
     ("title",): tables.TitleTable,
@@ -57,7 +53,6 @@ _CLASSES_OF_ARCS: Classes = {
     ("drawing",): arcs.ArcsDrawingTable,
 }
 """The same for a cam of three circular arcs."""
-
 _KEYS = {
     "sum of the phase angles": "phases (sum of the angles)",
     "sum of rises less returns": "phases (sum of rises less returns)",
@@ -72,7 +67,6 @@ _KEYS = {
     "the table's lift": "table (lift)",
 }
 """What a quantity of a design error is called in the file, where that differs."""
-
 _EXPECTED = {
     "float_type": "a number (without quotes)",
     "int_type": "a whole number (without quotes)",

@@ -20,10 +20,9 @@ from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.exports import gradescope
+from graphcam.exercises.exports import LearningSystem, gradescope
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.exports.systems import LearningSystem
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark

@@ -18,7 +18,7 @@ from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.curve_distance import distance_from_drawn
+from graphcam.exercises.key.expectation import distance_from_drawn
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.marking.marking import mark

@@ -7,7 +7,8 @@ import pytest
 import shapely
 from hypothesis import given, strategies as st
 
-from graphcam.sheets.hatching import SPACING, hatch, interrupted
+from graphcam.sheets.expand import SPACING, hatch
+from graphcam.sheets.labels import interrupted
 from graphcam.sheets.model import Strokes, Text
 from graphcam.sheets.sampling import corners
 

@@ -75,7 +75,7 @@ def per_mm(chain: Chain, asked: Asked) -> float:
     reading = construction_of(chain, asked.construction).readings[asked.reading]
     if asked.of == "scale" or reading.unit == "rad":
         return math.nan
-    return float(np.ravel(reading.scale)[0])
+    return reading.per_mm
 
 
 def place_of(chain: Chain, asked: Asked) -> int:

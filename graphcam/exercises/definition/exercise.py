@@ -22,7 +22,6 @@ Of = Literal["value", "paper", "scale"]
 Diagram = Literal["acceleration", "velocity", "displacement"]
 Value = float | str
 """A parameter's value: a number, or a word such as a law's name."""
-
 STEP_DIGITS = 9
 """Decimals to which a parameter's value is rounded, so that 3 steps of 0.1 are 0.3."""
 

@@ -1,1 +1,11 @@
 """Exercises for other systems: question banks, courses, autograders."""
+
+from enum import StrEnum
+
+
+class LearningSystem(StrEnum):
+    """A system that keeps questions, courses or scores."""
+
+    MOODLE = "moodle"
+    NBGRADER = "nbgrader"
+    GRADESCOPE = "gradescope"

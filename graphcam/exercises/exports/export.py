@@ -7,10 +7,10 @@ from pathlib import Path
 from graphcam.errors import DesignError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.gradescope import write_autograder
 from graphcam.exercises.exports.moodle import moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
-from graphcam.exercises.exports.systems import LearningSystem
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.files import OutputError, whole_folder

@@ -11,14 +11,12 @@ from graphcam.drafting.curve import faired
 from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.drawn_answers import ask, per_mm
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.key.curve_distance import distance_to_curve
-from graphcam.exercises.key.expectation import Expected, Floats
+from graphcam.exercises.key.expectation import Expected, Floats, distance_to_curve
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
-
 UNIFORM = 1 / math.sqrt(12)
 """Standard deviation of a rounding, in its steps."""
 CALCULATED = 1e-3

@@ -17,7 +17,6 @@ MOST_PARTS = 16
 """Parts of a dotted key: tomllib takes minutes for thousands."""
 QUOTED = re.compile(r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
 """A text or a comment in TOML: what stands in it ends no key."""
-
 DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
 """A number with a comma, as many countries write it: no line of TOML has this form, and one spoils the whole file."""
 

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from ezdxf.entities.dxfgfx import DXFGraphic
 
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # else a faulty file fills the teacher's terminal
-
 MOST_LINES = 500_000
 """Lines of a file that are read, and MOST_BYTES of a binary one: what ezdxf reads in a few seconds."""
 MOST_BYTES = 2_500_000

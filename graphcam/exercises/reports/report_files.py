@@ -27,7 +27,10 @@ def write_reports(
     """
     texts = {
         out.name: wide_table(records),
-        f"{out.stem}-long.csv": long_table(records),
+        # One row an answer, for statistics.
+        f"{out.stem}-long.csv": _csv(
+            LONG, (_long(record, answer) for record in records for answer in record["answers"])
+        ),
         # A line a record.
         f"{out.stem}.json": "[" + ",\n ".join(json.dumps(record, allow_nan=False) for record in records) + "]\n",
         f"{out.stem}.html": group_page(exercise, records, answer_keys),
@@ -64,11 +67,6 @@ def wide_table(records: Sequence[dict[str, Any]]) -> str:
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
     head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes"]
     return _csv(head, (_wide(record, names) for record in records))
-
-
-def long_table(records: Iterable[dict[str, Any]]) -> str:
-    """One row an answer, for statistics."""
-    return _csv(LONG, (_long(record, answer) for record in records for answer in record["answers"]))
 
 
 def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:

@@ -101,7 +101,9 @@ def require(level: Level, private: tuple[Path, ...] = ()) -> None:
 def _broken(level: Level) -> str:
     import socket
 
-    with tempfile.NamedTemporaryFile(dir=_outside()) as canary, socket.create_server(("127.0.0.1", 0)) as server:
+    # Not hidden by the sandbox's own /tmp.
+    outside = Path.home() if os.access(Path.home(), os.W_OK) else Path.cwd()
+    with tempfile.NamedTemporaryFile(dir=outside) as canary, socket.create_server(("127.0.0.1", 0)) as server:
         Path(canary.name).chmod(0o644)
         size = {"processes": FEW.processes + (0 if os.getuid() == 0 else 4096), "memory": FEW.memory}
         hidden = {"canary": canary.name, "port": server.getsockname()[1]}
@@ -113,9 +115,3 @@ def _broken(level: Level) -> str:
         last = ended.text.strip().splitlines()[-1:] or [f"status {ended.status}"]
         return f"a program in it does not run ({last[0]})"
     return f"code in it reaches {' and '.join(broken)}" if broken else ""
-
-
-def _outside() -> Path:
-    """A folder that is not hidden by the sandbox's own /tmp."""
-    home = Path.home()
-    return home if os.access(home, os.W_OK) else Path.cwd()
