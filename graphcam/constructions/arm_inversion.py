@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import RIGHT, circles_meet, turned, unit
+from graphcam.drafting.euclid import RIGHT, circles_meet, unit
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Role
