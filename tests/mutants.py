@@ -152,6 +152,9 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
     ['a <= b', 'a >= b']
     """
     match node:
+        case ast.BinOp(op=ast.Add() | ast.Sub(), right=ast.Constant(value=complex(imag=0.0))):
+            # It only makes a number complex.
+            return
         case ast.BinOp(op=operator) | ast.AugAssign(op=operator) | ast.BoolOp(op=operator):
             for other in _exchanged(operator):
                 yield _changed(node, op=other)
@@ -164,7 +167,7 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
         case ast.Constant(value=bool(value)):
             yield ast.Constant(not value)
         case ast.Constant(value=complex(imag=value)):
-            yield ast.Constant(-1j * value)
+            yield ast.Constant(-1j * value if value else 1j)
         case ast.Constant(value=int(value) | float(value)):
             yield ast.Constant(value + 1)
         case ast.Name(id=name) if any(name in pair for pair in FUNCTIONS):

@@ -58,6 +58,8 @@ def test_a_fault_that_no_test_finds_survives_and_one_that_is_found_is_killed(tmp
         ("-a", ["a"]),
         ("2.5", ["3.5"]),
         ("1j", ["-1j"]),
+        ("0j", ["1j"]),
+        ("a + 0j", []),
         ("True", ["False"]),
         ("min", ["max"]),
         ("z.real", ["z.imag"]),

@@ -1,16 +1,15 @@
 """The three figures of the bench, log-log, with the curves labelled where they run."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from scipy.optimize import isotonic_regression
@@ -20,9 +19,6 @@ from graphcam.bench.convergence import Series
 from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 from graphcam.sheets.fonts import FAMILY
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 INK, GREY, FAINT, ACCENT = "#1f2328", "#7d858c", "#e7e9eb", "#b3331f"
 BLUES = ("#1d4e89", "#3d85c6", "#2a9d8f")

@@ -1,20 +1,46 @@
 """The whole report: what is measured with how much effort, and the same as plain data for strict JSON."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
-from graphcam.bench.drawing_time import DrawingTime, drawing_times
 from graphcam.bench.exact_rows import ExactRow, exact_rows
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
 from graphcam.bench.peers import Peer, peers
-from graphcam.bench.scenes import BENCH_LAWS
+from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
+from graphcam.constructions.chain import Chain
+
+DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
+
+
+@dataclass(frozen=True)
+class DrawingTime:
+    """Times of one construction in sine-cosine pairs; what it starts from is drawn before."""
+
+    follower: str
+    construction: str
+    readings: float
+    steps: float
+
+
+def drawing_times(timer: Timer, pair: float) -> list[DrawingTime]:
+    """Every construction of every follower in 12 parts; ``pair`` is the time of one sine and one cosine [s]."""
+    found: list[DrawingTime] = []
+    for follower in FOLLOWERS:
+        chain = scene(follower, DRAWN_LAW).chain(DRAWN_PARTS)
+        for name in chain:
+            # The property's own function draws anew, from constructions that the chain keeps.
+            draw = vars(Chain)[name].func
+            construction = chain[name]
+            readings, steps = timer.seconds(partial(draw, chain)), timer.seconds(construction.steps)
+            found.append(DrawingTime(follower, name, readings / pair, steps / pair))
+    return found
+
 
 PAIR_STATIONS = 100_000
 """Sines and cosines over which the unit of time is measured."""

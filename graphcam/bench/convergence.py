@@ -3,8 +3,6 @@
 All errors are relative: to the greatest exact value of the quantity, lengths on the cam to the prime radius.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Pencil error against the number of parts: more parts lower the method's error and raise the hand's."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 

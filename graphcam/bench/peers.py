@@ -2,8 +2,6 @@
 cycloidal rise, harmonic return.  What a package cannot describe is left out, and said.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 Written from the textbooks' formulas, not from graphcam's own, which are arranged to round little.
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import Any

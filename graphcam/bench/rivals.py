@@ -1,7 +1,5 @@
 """What a user would take instead: sampled integration, general optimisers, polygon buffers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from importlib import import_module
@@ -48,26 +46,12 @@ def samples(motion: Motion, n: int) -> list[tuple[Floats, Floats]]:
     return [(motion.angle_at(k, u), motion.at(k, u)[2]) for k in moving]
 
 
-def trapezoid(phi: Floats, a: Floats) -> Floats:
-    """Twice scipy's cumulative_trapezoid: s less its value at the start."""
-    return cumulative_trapezoid(cumulative_trapezoid(a, phi, initial=0), phi, initial=0)
-
-
-def simpson(phi: Floats, a: Floats) -> Floats:
-    """Twice scipy's cumulative_simpson."""
-    return cumulative_simpson(cumulative_simpson(a, x=phi, initial=0), x=phi, initial=0)
-
-
-def spline(phi: Floats, a: Floats) -> Floats:
-    """The second antiderivative of scipy's CubicSpline."""
-    return CubicSpline(phi, a).antiderivative(2)(phi)
-
-
 INTEGRATORS: dict[str, Integrator] = {
-    "cumulative_trapezoid": trapezoid,
-    "cumulative_simpson": simpson,
-    "CubicSpline": spline,
+    "cumulative_trapezoid": lambda x, a: cumulative_trapezoid(cumulative_trapezoid(a, x, initial=0), x, initial=0),
+    "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
+    "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
+"""By the names of scipy, each integrating twice: s less its value at the start."""
 
 
 def integrated_error(motion: Motion, n: int, method: Integrator) -> float:

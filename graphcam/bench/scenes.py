@@ -1,7 +1,5 @@
 """What the bench draws: three followers under four laws, each with its exact counterpart."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property

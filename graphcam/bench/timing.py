@@ -4,8 +4,6 @@ A time is what the processor spent on this thread.  Other work on the machine is
 leaves to threads of its own.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Error against time, from the task to the result, for graphical, sampled and exact methods of three questions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial

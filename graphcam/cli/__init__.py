@@ -1,6 +1,4 @@
-"""The command line: one module for each command."""
-
-from __future__ import annotations
+"""The command line: each large command has a module, the short ones share one."""
 
 from typing import Annotated
 
@@ -8,12 +6,9 @@ import typer
 from typer import Option
 
 import graphcam
-from graphcam.cli.bench import bench
+from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
-from graphcam.cli.init import init
-from graphcam.cli.notebook import notebook
 from graphcam.cli.solve import solve
-from graphcam.cli.sweep import sweep
 
 app = typer.Typer(
     name="graphcam", add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich"

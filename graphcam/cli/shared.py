@@ -1,7 +1,5 @@
 """What the commands share: how they end on wrong input, and how they say what they are doing."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Generator, Iterable, Sequence

@@ -93,7 +93,7 @@ def acceleration_diagram(
     after, before = ordinates(u, stations.phases), ordinates(u, stations.phases, "left")
     plotted = hand.lay_off("stations", axis, UP, after)
     # Where the acceleration jumps a second ordinate stands on the near side.
-    jumps = np.flatnonzero(after != before)
+    jumps = np.flatnonzero(np.abs(after - before) > LEVEL * ordinate)
     near = hand.lay_off("before the jumps", axis[jumps], UP, before[jumps])
     which = np.arange(u.size)
     which[jumps] = u.size + np.arange(jumps.size)

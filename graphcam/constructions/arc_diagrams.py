@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.constructions.arc_roller import RollerOnArcs
-from graphcam.constructions.axes import axes_over_phi, degree_ticks
+from graphcam.constructions.axes import axes_over_phi, degree_ticks, reach
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -43,7 +43,6 @@ class ArcDiagramsGivens:
 
 
 ArcDiagrams = Construction[ArcDiagramsGivens]
-
 
 MEANING = Meaning(
     "arc_diagrams",
@@ -87,8 +86,8 @@ def arc_diagrams(
     """
     hand, stations, turn = Hand(pencil, MEANING), rolled.givens.stations, rolled.readings["edges"]
     o = hand.given("O")
-    laid_off = reckoned(partial(_over_the_turn, rolled.givens.arcs.givens.dwell), hand.carry(turn))
-    ends = hand.lay_off("ends", o, RIGHT, reckoned(partial(np.multiply, 1 / mu_phi.per_mm), laid_off))
+    over = partial(_over_the_turn, rolled.givens.arcs.givens.dwell / mu_phi.per_mm, FULL_TURN / mu_phi.per_mm)
+    ends = hand.lay_off("ends", o, RIGHT, reckoned(over, hand.carry(turn, 1 / mu_phi.per_mm)))
     feet = hand.divide("stations", ends[stations.arc], ends[stations.arc + 1], stations.u)
     points: dict[str, Drawn] = {}
     for name in VIEWS:
@@ -101,19 +100,15 @@ def arc_diagrams(
         sides = [hand.tangent(f"{name} {end}", points[name], stations.spans, way) for end, way in ENDS.items()]
         points[f"{name}_tops"] = hand.take(f"{name}_tops", *sides)
         greatest = reckoned(np.abs, between(o, points[f"{name}_tops"], UP))
-        hand.read(f"max_{name}", reckoned(_greatest, greatest), scale)
+        hand.read(f"max_{name}", reckoned(partial(np.max, axis=-1), greatest), scale)
         hand.read(f"{name}_candidates", greatest, scale, source.unit)
     return hand.finished(ArcDiagramsGivens(rolled, mu_phi, heights), _draw, points)
 
 
-def _over_the_turn(dwell: float, edges: Floats) -> Floats:
+def _over_the_turn(dwell: float, turn: float, edges: Floats) -> Floats:
     """Where the arcs, the ``dwell`` and the turn begin and end, (..., 9), from the rise's ``edges`` (..., 4)."""
     down = 2 * edges[..., -1:] + dwell - edges[..., ::-1]
-    return np.concatenate([edges, down, np.full_like(down[..., :1], FULL_TURN)], axis=-1)
-
-
-def _greatest(candidates: Floats) -> Floats:
-    return np.max(candidates, axis=-1)
+    return np.concatenate([edges, down, np.full_like(down[..., :1], turn)], axis=-1)
 
 
 def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
@@ -171,51 +166,41 @@ def _draw(plotted: ArcDiagrams) -> list[Step]:
 def _diagram(plotted: ArcDiagrams, name: str) -> Step:
     hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
     curve = _whole_turn(plotted, hand, name)
-    low, high = float(np.nanmin(curve.shown.imag)), float(np.nanmax(curve.shown.imag))
+    low, high = reach(curve.shown.imag)
     axes = axes_over_phi(float(ends.shown[-1].real), curve.shown.imag, SYMBOLS[name])
-    if name == "alpha":
-        axes += degree_ticks(mu_phi)
+    axes += degree_ticks(mu_phi) if name == "alpha" else ()
     limits = hand.erect("limits", ends[1:])
     marks: list[Mark] = [
         *axes,
         Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION, of=limits.act),
         plotted.acts[name].dots(Role.CONSTRUCTION),
         curve.line(Role.RESULT),
+        *(_phases(ends, mu_phi, low - 24.0) if name == "alpha" else ()),
     ]
-    if name == "alpha":
-        marks += _phases(ends, mu_phi, low - 24.0)
-    greatest = plotted.readings["lift" if name == "s" else f"max_{name}"]
-    mu = greatest.per_mm if name != "alpha" else np.degrees(greatest.per_mm)
-    values = {"degree": np.degrees(mu_phi.per_mm), "mu": mu, "lift": float(plotted.value("lift"))}
+    key = "lift" if name == "s" else f"max_{name}"
+    degree = np.degrees(mu_phi.per_mm)
+    mu = degree if name == "alpha" else plotted.readings[key].per_mm
+    values = {"degree": degree, "mu": mu, "lift": float(plotted.value("lift"))}
     if name != "s":
-        tops, paper = plotted.acts[f"{name}_tops"], float(plotted.first(f"max_{name}"))
-        top = hand.take("top", tops.first, which=int(np.argmax(np.abs(tops.shown.imag))))
-        side = np.sign(top.place.imag)
-        values |= {"paper": paper, "value": paper * mu}
+        tops, paper = plotted.acts[f"{name}_tops"].first, float(plotted.first(key))
+        top = hand.take("top", tops, which=int(np.argmax(np.abs(tops.shown.imag))))
+        values, side = values | {"paper": paper, "value": paper * mu}, np.sign(top.place.imag)
         said = say("{value:.2f}", value=side * paper * mu)
-        marks += [top.dots(Role.LIMIT), Label(top.place, said, side * UP, of=greatest.act)]
-    reads = ("lift",) if name == "s" else (f"max_{name}",)
-    return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), reads, axes)
+        marks += [top.dots(Role.LIMIT), Label(top.place, said, side * UP, of=plotted.readings[key].act)]
+    return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), (key,), axes)
 
 
 def _whole_turn(plotted: ArcDiagrams, hand: Hand, name: str) -> Drawn:
     """The curve over the turn: the faired rise, the dwell, the rise mirrored, the rest."""
-    places, ends, spans = (
-        plotted.acts[name].first,
-        plotted.acts["ends"].first,
-        plotted.givens.rolled.givens.stations.spans,
-    )
-    known = [places[span][~np.isnan(places.shown[span])] for span in spans]
+    places, o, ends = (plotted.acts[each].first for each in (name, "O", "ends"))
+    known = [places[span][~np.isnan(places.shown[span])] for span in plotted.givens.rolled.givens.stations.spans]
     pieces = [hand.fair(f"arc {k}", piece, [slice(None)]) for k, piece in enumerate(known)]
-    rise = hand.take("rise", plotted.acts["O"].first, *pieces)
+    rise = hand.take("rise", o, *pieces)
     backwards, middle = rise[np.arange(rise.shown.size)[::-1]], hand.divide("middle", ends[3], ends[4], 0.5)
-    if MIRROR[name] > 0:
-        back = hand.mirrored("return", backwards, hand.erect("middle of the dwell", middle))
-    else:
-        back = hand.enlarged("return", backwards, middle, -1, middle.place)
-    dwell = ends[3:5]
-    if name == "s":
-        dwell = hand.raised("dwell", dwell, between(plotted.acts["O"].first, places[-1], UP))
+    back = hand.mirrored("return", backwards, hand.erect("middle of the dwell", middle))
+    if MIRROR[name] < 0:
+        back = hand.enlarged("half a turn", backwards, middle, -1, middle.place)
+    dwell = hand.raised("dwell", ends[3:5], between(o, places[-1], UP)) if name == "s" else ends[3:5]
     return hand.take("turn", rise, dwell, back, ends[-2:])
 
 

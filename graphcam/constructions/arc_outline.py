@@ -44,7 +44,6 @@ class ThreeArcsGivens:
 
 ArcOutline = Construction[ThreeArcsGivens]
 
-
 MEANING = Meaning(
     "three_arcs",
     say("The arcs"),
@@ -86,7 +85,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
     hand, rho1 = Hand(pencil, MEANING), given.rho1 / mu_l.per_mm
     o = hand.given("O")
     points = _plotted(hand, o, given, mu_l)
-    d, g = points["D"], points["G"]
+    d, g = points.pop("given_D"), points["G"]
     if given.C1 is None:
         points["C1"] = hand.lay_off("C1", d, hand.join("D O", d, o), rho1)
     if given.C2 is None:
@@ -119,20 +118,18 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
 
 def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, Drawn]:
     """The given points: laid off across, and up from there."""
-    names = [name for name in ("A", "D", "G", "C1", "C2") if getattr(given, name) is not None]
-    x, y = np.array([getattr(given, name) for name in names]).T / mu_l.per_mm
-    plotted = hand.lay_off("given points", hand.erect("uprights", hand.lay_off("feet", o, RIGHT, x)), UP, y)
     # A and D are found again, where the dwells' circles touch.
-    acts = {name: f"given_{name}" if name in "AD" else name for name in names}
-    found = {name: hand.take(act, plotted, which=k) for k, (name, act) in enumerate(acts.items())}
-    return found | ({"given_A": found["A"]} if "A" in found else {})
+    points = {point: at for point, at in vars(given).items() if at is not None and point != "rho1"}
+    places = {f"given_{point}" if point in "AD" else point: at for point, at in points.items()}
+    x, y = np.array([*places.values()]).T / mu_l.per_mm
+    plotted = hand.lay_off("given points", hand.erect("uprights", hand.lay_off("feet", o, RIGHT, x)), UP, y)
+    return {name: hand.take(name, plotted, which=k) for k, name in enumerate(places)}
 
 
 def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Setting) -> Drawn:
     """F: of the two places where the line of centres meets the circle about C1 the one on the circle about C3."""
     ends = hand.cross(f"{name}ends", hand.take(f"{name}both ways", centres.turned(-1), centres), about_c1)
-    c3 = centres.points + centres.directions
-    off = np.abs(np.abs(ends.points - c3[..., None]) - rho3.amount[..., None])
+    off = np.abs(np.abs(ends.points - (centres.points + centres.directions)[..., None]) - rho3.amount[..., None])
     return hand.take(f"{name}F", ends, which=np.argmin(off, axis=-1)[..., None])[0]
 
 
@@ -196,21 +193,16 @@ def _profile(arcs: ArcOutline) -> Step:
         ("C3", "F", "ρ₃", radii["rho3"], arcs.readings["rho3"].act),
     )
     dimensions = [
-        Dimension(_place(arcs, centre), _place(arcs, end), say("{name} = {rho:.2f}", name=name, rho=rho), of=of)
+        Dimension(arcs.acts[centre].place, arcs.acts[end].place, say("{name} = {rho:.2f}", name=name, rho=rho), of=of)
         for centre, end, name, rho, of in arms
     ]
-    marks = (*cam(arcs), *dimensions)
-    return Step(say("The profile"), said, ARCS, marks, reads=("base", "outer"))
+    return Step(say("The profile"), said, ARCS, (*cam(arcs), *dimensions), reads=("base", "outer"))
 
 
 def cam(arcs: ArcOutline) -> list[Mark]:
     """The closed profile of the cam."""
     circles = [arcs.acts[f"circle {name}"] for name in ("about C2", "about C3", "about C1", "through D", "through A")]
-    return outline(arcs, circles, np.array([_place(arcs, name) for name in "AGFD"]), Role.RESULT)
-
-
-def _place(arcs: ArcOutline, name: str) -> complex:
-    return arcs.acts[name].place
+    return outline(arcs, circles, np.array([arcs.acts[name].place for name in "AGFD"]), Role.RESULT)
 
 
 def _dots(arcs: ArcOutline, *names: str) -> Dots:
@@ -225,13 +217,13 @@ def _primed(name: str) -> str:
 
 def _named(arcs: ArcOutline, name: str, away: complex = 0j) -> Label:
     """The name of a point, on the side that is ``away`` from a place."""
-    way = _place(arcs, name) - away
+    way = arcs.acts[name].place - away
     return arcs.acts[name].label(_primed(name), way / abs(way) if abs(way) > SAME_RADIUS else 1 + 1j)
 
 
 def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.CONSTRUCTION) -> Line:
     """The part of a line between those two of its points that lie farthest apart."""
-    places = [_place(arcs, end) if isinstance(end, str) else end for end in ends]
+    places = [arcs.acts[end].place if isinstance(end, str) else end for end in ends]
     pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
     return Line(np.array(pair), role, of=arcs.acts[name].act)
 
@@ -239,7 +231,7 @@ def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.C
 def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
     """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
     name, chord = f"bisector of {a} {b}", _line(arcs, f"{a} {b}", a, b, role=role)
-    middle, along = _place(arcs, name), _place(arcs, to) - _place(arcs, name)
+    middle, along = arcs.acts[name].place, arcs.acts[to].place - arcs.acts[name].place
     start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
     return chord, _line(arcs, name, start, to, role=role)
 
@@ -275,7 +267,7 @@ def _data(arcs: ArcOutline) -> Step:
 
 
 def _first_centre(arcs: ArcOutline) -> Step:
-    given, d = arcs.givens.given, _place(arcs, "D")
+    given, d = arcs.givens.given, arcs.acts["D"].place
     if given.C1 is None:
         said = say(
             "On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the first "
@@ -289,14 +281,13 @@ def _first_centre(arcs: ArcOutline) -> Step:
     marks = (
         _line(arcs, "O C1", 0j, d * (1 + OVERHANG / abs(d))),
         arcs.acts["circle about C1"].drawn_circle(Role.CONSTRUCTION),
-        arcs.acts["C1"].dots(),
-        _named(arcs, "C1", d),
+        *(arcs.acts["C1"].dots(), _named(arcs, "C1", d)),
     )
     return Step(say("The first centre"), said, ARCS, marks, reads=_xy("C1"))
 
 
 def _second_centre(arcs: ArcOutline) -> Step:
-    given, a = arcs.givens.given, _place(arcs, "A")
+    given, a = arcs.givens.given, arcs.acts["A"].place
     if np.isnan(a):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
         return Step(say("The second centre"), said, ARCS, ())
@@ -317,9 +308,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
         _line(arcs, "O C2", a * (1 + OVERHANG / abs(a)), "C2"),
         _line(arcs, "G C2", "G", "C2"),
         arcs.acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
-        *bisector,
-        _dots(arcs, "C2", "A"),
-        _named(arcs, "C2"),
+        *(*bisector, _dots(arcs, "C2", "A"), _named(arcs, "C2")),
         *((_named(arcs, "A"),) if given.A is None else ()),
     )
     return Step(say("The second centre"), said, ARCS, marks, reads=(*_xy("C2"), "rho2"))
@@ -329,15 +318,14 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     """The centre of the third arc and F, of the one root or the ``other_``."""
     p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
     role, prime = (Role.HIDDEN, "′") if name else (Role.CONSTRUCTION, "")
-    title = say("The third centre")
-    laid_off = say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
+    title, laid_off = say("The third centre"), say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
     if name:
         title = say("The other root")
         laid_off = say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
     if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
-    rho3 = abs(_place(arcs, c3) - _place(arcs, "G")) * arcs.givens.mu_l.per_mm
+    rho3 = abs(arcs.acts[c3].place - arcs.acts["G"].place) * arcs.givens.mu_l.per_mm
     found_centre = say(
         "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
         "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."
@@ -352,8 +340,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     )
     line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
     if name:
-        reads = (*_xy("other_C3"), *_xy("other_F"))
-        return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), reads)]
+        return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), (*_xy(c3), *_xy(f)))]
     return [
         Step(title, centre, ARCS, found, reads=(*_xy("C3"), "rho3")),
         Step(say("Where it touches"), touching, ARCS, line, reads=_xy("F")),
@@ -363,14 +350,15 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
 def _orders(arcs: ArcOutline, name: str) -> Caption:
     """What is read off the two lines of centres."""
     first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
-    verdict = say("such a cam cannot be built")
-    if first == ["F", "C1", "C3"] and second == ["G", "C3", "C2"]:
-        verdict = say("the arcs touch from inside, and the cam can be built")
+    built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
+    verdict = (
+        say("the arcs touch from inside, and the cam can be built") if built else say("such a cam cannot be built")
+    )
     said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
     return said.where(first=sequence(first), second=sequence(second), verdict=verdict)
 
 
 def _order(arcs: ArcOutline, *names: str) -> list[str]:
     """The names of points of a line in their order, the first before the last."""
-    places = np.array([_place(arcs, name) for name in names])
+    places = np.array([arcs.acts[name].place for name in names])
     return [_primed(names[k]) for k in np.argsort(dot(places[-1] - places[0], places))]

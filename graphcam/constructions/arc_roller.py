@@ -20,7 +20,7 @@ from graphcam.constructions.arc_outline import ArcOutline, cam, middle_of_dwell,
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Construction, Step, View, Words, say
+from graphcam.drafting.ink import Construction, Step, View, say
 from graphcam.drafting.marks import Circle, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -140,16 +140,14 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
     hand, mu_l, sigma = Hand(pencil, MEANING), arcs.givens.mu_l.per_mm, run(arcs)
-    arc, spans = stations.arc, stations.spans
     o, (a_, g, f, d, c1, c2, c3) = hand.given("O"), (hand.found(arcs, name) for name in (*"AGFD", "C1", "C2", "C3"))
     # The roller's centre lies on the line of centres through each joint.
     touch = hand.take("touch", a_, g, f, d)
     lines = hand.join("lines of centres", hand.take("centres", c2, c2, c3, c1), touch)
     trace = hand.lay_off("trace", touch, lines, roller_radius / mu_l)
     to_joints = hand.join("to the joints", o, trace)
-    edges = [
-        hand.angle(name, to_joints[0], to_joints[k], -sigma) for k, name in enumerate(("phi_G", "phi_F", "rise"), 1)
-    ]
+    joints = {"phi_G": to_joints[1], "phi_F": to_joints[2], "rise": to_joints[3]}
+    edges = [hand.angle(name, to_joints[0], to_joint, -sigma) for name, to_joint in joints.items()]
     measured = reckoned(_from_nothing, *(hand.carry(edge) for edge in edges))
     phi = reckoned(partial(_divided, stations), measured)
     rays = hand.protractor("rays", o, to_joints[0], reckoned(partial(np.multiply, -sigma), phi))
@@ -157,20 +155,20 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     centres, on = hand.take("centres of the arcs", c2, c3, c1), trace[[0, 1, 3]]
     paths = hand.circle("arcs of the roller's centre", centres, between(centres, on))
     hand.circle("dwells of the roller's centre", o, between(o, trace[[3, 0]]))
-    b, c = hand.cross("B", rays, paths[arc]), hand.take("C", centres, which=arc)
+    b, c = hand.cross("B", rays, paths[stations.arc]), hand.take("C", centres, which=stations.arc)
     rods = hand.join("rods", b, c)
     outward = rods.turned(-1)
     across = hand.perpendicular("across", rays, o)
     k = hand.cross("K", rods, across)
-    in_c = hand.perpendicular("perpendiculars in C", outward, c)
-    right = hand.lay_off("right", in_c, in_c, between(c, k))
+    erected = hand.perpendicular("perpendiculars in C", outward, c)
+    right = hand.lay_off("right", erected, erected, between(c, k))
     beyond = hand.cross("beyond", hand.perpendicular("right angles", hand.join("legs", right, b), right), rods)
     n = hand.lay_off("N", c, outward, between(c, beyond))
     m = hand.cross("M", hand.perpendicular("perpendiculars in N", outward, n), rays)
-    accelerations, prime_radius = between(m, o, rays), between(o, trace[0])
+    prime_radius = between(o, trace[0])
     hand.read("s", reckoned(np.subtract, between(o, b), between(o, trace[[0]])), mu_l)
     hand.read("v", between(o, k, across.turned(-sigma)), mu_l)
-    hand.read("a", accelerations, mu_l)
+    hand.read("a", between(m, o, rays), mu_l)
     hand.angle("alpha", rays, outward, sigma)
     hand.read("phi", phi, 1.0, "rad", rounded=False)
     for name, along in (("x", RIGHT), ("y", UP)):
@@ -181,7 +179,7 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     hand.read("roller_radius", between(touch[3], trace[3]), mu_l)
     hand.read("rho", reckoned(np.minimum, between(c1, trace[3]), prime_radius), mu_l)
     for name, of, end in JOINTS:
-        at = range(arc.size)[spans[of]][end]
+        at = range(stations.u.size)[stations.spans[of]][end]
         hand.read(name, between(m[at], o, rays[at]), mu_l)
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace}
     givens = ArcRollerGivens(arcs, roller_radius, stations)
@@ -211,9 +209,8 @@ BEYOND = 7.0
 
 def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
-        said = say(
-            "Without a readable centre of every arc, {missing}, the roller has no path.", missing=_missing(rolled)
-        )
+        missing = joined([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
+        said = say("Without a readable centre of every arc, {missing}, the roller has no path.", missing=missing)
         return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
     arcs, stations, roller = rolled.givens.arcs, rolled.givens.stations, rolled.givens.roller_radius
     b, rays, ray, edges = rolled.acts["B"], rolled.acts["rays"], rolled.first("ray"), np.degrees(rolled.first("edges"))
@@ -270,31 +267,24 @@ def _rollers(rolled: RollerOnArcs) -> list[Circle]:
     return [rollers[k].drawn_circle(Role.CONSTRUCTION) for k in range(3)]
 
 
-def _missing(rolled: RollerOnArcs) -> Words:
-    arcs = rolled.givens.arcs
-    return joined([name for name in ("C1", "C2", "C3") if np.isnan(arcs.first(name))])
-
-
 def _plan(rolled: RollerOnArcs) -> list[Step]:
     """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
     arcs, stations = rolled.givens.arcs, rolled.givens.stations
     on, share = SHOWN
     at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
     station = stations.names[at]
-    mu_l, sigma = arcs.givens.mu_l, run(arcs)
+    mu_l, side = arcs.givens.mu_l.per_mm, -float(run(arcs))
     names, upright = ("B", "C", "K", "right", "beyond", "N", "M"), UP / rolled.first("ray")[at]
     places: Points = np.array([0j, *(rolled.first(name)[at] * upright for name in names)])
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, ())]
-    size = float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l.per_mm
-    scale = standard_scale(size, PLAN_SIZE)
-    hand, o, times = showing(rolled), rolled.acts["O"].first, upright * mu_l.per_mm / scale.per_mm
+    scale = standard_scale(float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l, PLAN_SIZE)
+    hand, o, times = showing(rolled), rolled.acts["O"].first, upright * mu_l / scale.per_mm
     p = {name: hand.enlarged(name, rolled.acts[name].first[at], o, times) for name in names}
     p["O"] = hand.enlarged("O", o, o, times)
     v, a = (float(rolled.value(name)[at]) for name in "va")
     centre = ("C2", "C3", "C1")[on]
-    side = -sigma * 1.0
     velocity = say(
         "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets the "
         "perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, v = {v:.3f} "
@@ -308,42 +298,34 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
         "{centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular to the rod in N meets "
         "the follower's line in M, and OM = {paper:.2f} mm is the acceleration, a = {a:.3f} mm/rad²; {sense}"
     ).where(centre=centre, paper=abs(p["M"].place), a=a, sense=directed)
-    reads = ("v", "a", *(name for name, *_ in JOINTS))
+    titles = say("Velocity at station {name}", name=station), say("Acceleration at station {name}", name=station)
     return [
-        Step(say("Velocity at station {name}", name=station), velocity, PLAN, _velocity(hand, p, centre, side)),
-        Step(
-            say("Acceleration at station {name}", name=station), acceleration, PLAN, _acceleration(hand, p, side), reads
-        ),
+        Step(titles[0], velocity, PLAN, _velocity(hand, p, centre, side)),
+        Step(titles[1], acceleration, PLAN, _acceleration(hand, p, side), ("v", "a", *(name for name, *_ in JOINTS))),
     ]
 
 
 def _velocity(hand: Hand, p: Mapping[str, Drawn], centre: str, side: float) -> tuple[Mark, ...]:
     """The rod from B to its ``centre``, and K; labels stand to the ``side`` of -1 or 1."""
-    low = min(0.0, p["M"].place.imag, p["C"].place.imag) - BEYOND
+    axis = np.array([min(0.0, p["M"].place.imag, p["C"].place.imag) - BEYOND, p["B"].place.imag + BEYOND]) * UP
+    lines = (("B", "C", Role.CURVE), ("O", "K", Role.RESULT), ("B", "K", Role.CURVE))
+    names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
     return (
-        Line(np.array([low, p["B"].place.imag + BEYOND]) * UP, Role.AXIS),
-        _row(hand, p, "B", "C").line(Role.CURVE),
-        _row(hand, p, "O", "K").line(Role.RESULT),
-        _row(hand, p, "B", "K").line(Role.CURVE),
+        Line(axis, Role.AXIS),
+        *(_row(hand, p, start, end).line(role) for start, end, role in lines),
         _row(hand, p, *"OBCK").dots(),
-        p["O"].label("O", -side - 1j),
-        p["B"].label("B", side + 0j),
-        p["C"].label(centre, -side - 1j),
-        p["K"].label("K", side + 0j),
+        *(p[name].label(text, towards) for name, text, towards in names),
     )
 
 
 def _acceleration(hand: Hand, p: Mapping[str, Drawn], side: float) -> tuple[Mark, ...]:
     """The right angle that cuts N′ off, N, and M; labels as in :func:`_velocity`."""
+    lines = (("C", "right", "B"), ("right", "beyond", "C"), ("N", "M"))
     return (
-        _row(hand, p, "C", "right", "B").line(Role.CONSTRUCTION),
-        _row(hand, p, "right", "beyond", "C").line(Role.CONSTRUCTION),
-        _row(hand, p, "N", "M").line(Role.CONSTRUCTION),
+        *(_row(hand, p, *places).line(Role.CONSTRUCTION) for places in lines),
         _row(hand, p, "O", "M").line(Role.RESULT),
         _row(hand, p, "right", "beyond", "N", "M").dots(),
-        p["beyond"].label("N′", -side + 0j),
-        p["N"].label("N", side + 0j),
-        p["M"].label("M", -side + 0j),
+        *(p["beyond"].label("N′", -side + 0j), p["N"].label("N", side + 0j), p["M"].label("M", -side + 0j)),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.constructions import profile_view
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import RIGHT, unit
+from graphcam.drafting.euclid import RIGHT, circles_meet, unit
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Role
@@ -60,7 +60,9 @@ def arm_inversion(
     pivots = hand.cross("pivots", profile_view.inverted_positions(hand, integrated, rotation, RIGHT), circle)
     arcs = hand.circle("arcs of the arm", pivots, arm / mu_l.per_mm)
     # To the left of the way from the cam centre to the pivot: above the line of centres.
-    starts = hand.cross("starts", prime, arcs)
+    # Where a triangle has these sides, circles that miss one another by a hand's errors are taken to touch.
+    closes = bool(np.isfinite(circles_meet(np.asarray(0j), prime_radius, np.asarray(distance + 0j), arm)))
+    starts = hand.cross("starts", prime, arcs, flat=closes)
     swung = hand.protractor("swung", pivots, hand.join("arms at rest", pivots, starts), hand.carry(s, -s.scale))
     pitch = hand.cross("pitch", swung, arcs)
     motion = hand.perpendicular("motion", hand.join("arms", pivots, pitch).turned(-1), pitch)

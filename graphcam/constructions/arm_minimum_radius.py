@@ -8,6 +8,7 @@ is drawn, and A may lie where no line cuts it off.  Between the positions the li
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,21 +29,6 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.plane import dot
-
-
-@dataclass(frozen=True, eq=False)
-class ArmPositions:
-    """The arm about its pivot, at rest on the left and swinging clockwise from there.
-
-    start : B at rest, on the line ``rest``; ends : B (m); arms : from the pivot to them; tips : D (m)
-    """
-
-    pivot: Drawn
-    rest: Drawn
-    start: Drawn
-    ends: Drawn
-    arms: Drawn
-    tips: Drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,20 +63,23 @@ MEANING = Meaning(
 )
 
 
-def arm_positions(hand: Hand, integrated: Integrated, rotation: Rotation, arm: float, mu_l: Scale) -> ArmPositions:
+def arm_positions(
+    hand: Hand, integrated: Integrated, rotation: Rotation, arm: float, mu_l: Scale
+) -> Mapping[str, Drawn]:
     """Lay the displacements off as angles of the arm, and the velocities as segments along it.
 
     integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
     arm : length [mm]; mu_l : scale of the drawing [mm/mm]
+    returns : by name the ``pivot``; the ``arm at rest``, on its left, with its end, the ``start``; the ``arms``, that
+        swing clockwise from there, with their ``ends`` B; and the ``tips`` D of the segments
     """
     pivot, length, (s, v) = hand.given("pivot"), arm / mu_l.per_mm, (integrated.readings[name] for name in "sv")
-    arc, rest = hand.circle("arc of the arm", pivot, length), hand.erect("arm at rest", pivot, -RIGHT)
-    start = hand.cross("start", rest, arc)
+    arc = hand.circle("arc of the arm", pivot, length)
+    hand.cross("start", hand.erect("arm at rest", pivot, -RIGHT), arc)
     ends = hand.cross("ends", hand.protractor("swung", pivot, -RIGHT, hand.carry(s, -np.asarray(s.scale))), arc)
-    arms = hand.join("arms", pivot, ends)
-    segments = hand.carry(v, length * np.asarray(v.scale))
-    tips = hand.lay_off("tips", ends, arms.turned(sense(rotation)), segments)
-    return ArmPositions(pivot, rest, start, ends, arms, tips)
+    outward = hand.join("arms", pivot, ends).turned(sense(rotation))
+    hand.lay_off("tips", ends, outward, hand.carry(v, length * np.asarray(v.scale)))
+    return hand.acts
 
 
 def arm_least_radius(
@@ -114,19 +103,19 @@ def arm_least_radius(
     families = _boundaries(hand, drawn, givens)
     lines = hand.take("lines", *families.values())
     if distance is None:
-        centre = _nearest(hand, lines, drawn.start)
+        centre = _nearest(hand, lines, drawn["start"])
     else:
-        centre = _nearest_on(hand, lines, hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm))
-    hand.join("prime radius", drawn.start, centre)
-    hand.read("prime_radius", between(drawn.start, centre), mu_l.per_mm)
-    hand.read("distance", between(drawn.pivot, centre), mu_l.per_mm)
-    places = {"start": drawn.start, "ends": drawn.ends, "tips": drawn.tips, "centre": centre}
+        centre = _nearest_on(hand, lines, hand.circle("circle of the centre", drawn["pivot"], distance / mu_l.per_mm))
+    hand.join("prime radius", drawn["start"], centre)
+    hand.read("prime_radius", between(drawn["start"], centre), mu_l.per_mm)
+    hand.read("distance", between(drawn["pivot"], centre), mu_l.per_mm)
+    places = {name: drawn[name] for name in ("start", "ends", "tips")} | {"centre": centre}
     touches = {f"touch of {name}": family for name, family in families.items()}
     inwards = {f"inward of {name}": _inward(family) for name, family in families.items()}
     return hand.finished(givens, _draw, {**places, **touches, **inwards})
 
 
-def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -> dict[str, Drawn]:
+def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGivens) -> dict[str, Drawn]:
     """The lines that bound the region, with what is permitted on their right: of rises, of returns, and at the rests.
 
     On a rise the velocity drives the angle to one side, on a return to the other.  The side away from it can bind only
@@ -143,7 +132,7 @@ def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -
     def family(name: str, direction: int, limit: float, side: int) -> Drawn:
         """The lines at the limit of all arms of one direction of motion, faired between the positions."""
         at = np.flatnonzero(directions == direction)
-        lines = at_limit(name, drawn.tips[at], drawn.arms[at], limit, side)
+        lines = at_limit(name, drawn["tips"][at], drawn["arms"][at], limit, side)
         pieces = pieces_of(motion, stations, direction)
         begins = np.searchsorted(at, [piece.start for piece in pieces]).tolist()
         faired = [slice(k, k + piece.stop - piece.start) for k, piece in zip(begins, pieces, strict=True)]
@@ -151,8 +140,8 @@ def _boundaries(hand: Hand, drawn: ArmPositions, givens: ArmLeastRadiusGivens) -
 
     top = np.argmax(givens.integrated.readings["s"].paper, axis=-1)[..., None]
     both = np.concatenate([np.zeros_like(top), 1 + top], axis=-1)
-    ends = hand.take("ends at rest", drawn.start, drawn.ends, which=both)
-    arms = hand.take("arms at rest", drawn.rest, drawn.arms, which=both)
+    ends = hand.take("ends at rest", drawn["start"], drawn["ends"], which=both)
+    arms = hand.take("arms at rest", drawn["arm at rest"], drawn["arms"], which=both)
     lines = {"rise": family("rise", 1, limits.rise, sigma)}
     if limits.return_ is not None:
         lines["return"] = family("return", -1, limits.return_, -sigma)

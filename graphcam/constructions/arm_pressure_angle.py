@@ -25,7 +25,7 @@ from graphcam.constructions.pressure_angle import (
 )
 from graphcam.constructions.views import PLAN, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import UP
+from graphcam.drafting.euclid import UP, circles_meet
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import Mark, Role
@@ -75,17 +75,18 @@ def arm_pressure_angle(
     """
     hand = Hand(pencil, MEANING)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
+    pivot, start, tips = drawn["pivot"], drawn["start"], drawn["tips"]
     # The cam centre, where circles about the pivot and about the start of the lift meet: below the arm.
-    circles = (
-        hand.circle("circle of the centre", drawn.pivot, distance / mu_l.per_mm),
-        hand.circle("prime circle", drawn.start, prime_radius / mu_l.per_mm),
-    )
-    centre = hand.cross("centre", *circles)
-    normals = hand.perpendicular("normals", drawn.arms, drawn.tips)
-    read_angles(hand, normals, hand.join("rays", drawn.tips, centre))
-    hand.angle("psi0", drawn.rest, hand.join("line of centres", drawn.pivot, centre))
+    about_pivot = hand.circle("circle of the centre", pivot, distance / mu_l.per_mm)
+    about_start = hand.circle("prime circle", start, prime_radius / mu_l.per_mm)
+    # Where a triangle has these sides, circles that miss one another by a hand's errors are taken to touch.
+    closes = bool(np.isfinite(circles_meet(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius)))
+    centre = hand.cross("centre", about_pivot, about_start, flat=closes)
+    normals = hand.perpendicular("normals", drawn["arms"], tips)
+    read_angles(hand, normals, hand.join("rays", tips, centre))
+    hand.angle("psi0", drawn["arm at rest"], hand.join("line of centres", pivot, centre))
     givens = ArmPressureAngleGivens(integrated, rotation, prime_radius, arm, distance, mu_l)
-    return hand.finished(givens, _draw, {"ends": drawn.ends, "tips": drawn.tips, "centre": centre})
+    return hand.finished(givens, _draw, {"ends": drawn["ends"], "tips": tips, "centre": centre})
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -109,7 +110,6 @@ def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
     v1 = hand.lay_off("v₁", pole, hand.join("AB", a, b).turned(sigma * UP), between(a, b))
     v2 = hand.lay_off("v₂", pole, hand.join("BD", b, d).turned(-sigma * UP), between(b, d))
     across, along, v21 = v1.place - pole.place, v2.place - pole.place, hand.join("v₂₁", v1, v2)
-    arrows = velocity_plan(pole.place, across, along, (pole.act, v1.act, v2.act, v21.act))
     closed = say(
         "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
         "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
@@ -131,7 +131,7 @@ def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
         angle_at(d.place, start, end, 0.6 * long, shown, reading.act),
     )
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, arrows),
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, v1, v2, v21)),
         Step(say("The segment along the arm"), laid_off, plan, _mechanism(hand, a, b, c, d)),
         Step(say("The pressure angle"), measured_angle, plan, angle, reads=("psi0", "alpha", "transmission")),
     ]

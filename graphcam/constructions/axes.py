@@ -185,14 +185,13 @@ def numbered(points: Points, stations: Stations) -> list[int]:
 
 
 def numbers(
-    points: Drawn | Points, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
+    points: Drawn, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
 ) -> tuple[Mark, ...]:
     """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""
-    of, places = (points.act, points.shown) if isinstance(points, Drawn) else (None, points)
-    names = station_names(stations)
-    ways, kept = (np.broadcast_to(each, places.shape) for each in (towards, shown))
-    named = [k for k in numbered(places, stations) if kept[k]]
-    return tuple(Label(complex(places[k]), names[k], complex(ways[k]), small=True, of=of) for k in named)
+    names, size = station_names(stations), points.shown.shape
+    ways, kept = (np.broadcast_to(each, size) for each in (towards, shown))
+    places = [k for k in numbered(points.shown, stations) if kept[k]]
+    return tuple(points.first[k].label(names[k], complex(ways[k]), small=True) for k in places)
 
 
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:

@@ -77,7 +77,10 @@ class DrawnFollower(ABC):
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
-        """The pitch curve; readings ``x``, ``y``, ``radius`` [mm]; points ``pitch`` and ``motion``, its directions."""
+        """The pitch curve; readings ``x``, ``y``, ``radius`` [mm].
+
+        Points, and acts of these names: ``starts`` on the prime circle, ``pitch``, and directions of the ``motion``.
+        """
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
         """The least radius of curvature, from what is drawn; readings ``rho`` and ``rho_candidates`` [mm]."""

@@ -114,14 +114,13 @@ def force_plan(
     # Beyond the jamming angle the lines meet on the other side, where no force can push.
     meeting = hand.cross("meeting", normal, across)
     pushes = (foot.points.imag < 0) & (dot(meeting.points - foot.points, normal.directions) > 0)
-    either = np.where(pushes, 0, 1)[..., None]
-    corner = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=either)[0]
+    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
+    corner = found[0]
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
-    found = {"load": between(foot, origin, UP), "normal": between(foot, corner), "along": between(foot, corner, UP)}
-    for name, way in (("side", RIGHT), ("friction", UP)):
-        found[name] = reckoned(np.abs, between(origin, corner, way))
-    for name, length in {**found, "reaction": between(origin, corner)}.items():
+    beside = [reckoned(np.abs, between(origin, corner, way)) for way in (RIGHT, UP)]
+    contact = between(foot, origin, UP), between(foot, corner), between(foot, corner, UP)
+    for name, length in zip(MEANING.readings, [*contact, *beside, between(origin, corner)], strict=True):
         hand.read(name, length, mu.per_mm)
     directions = {"contact_normal": normal.directions, "across": across.directions}
     givens, points = ForcePlanGivens(measured, load, guide, k, mu), {"foot": foot, "corner": corner}
@@ -172,7 +171,7 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
     measured, acts = plan.givens.measured, plan.acts
     name = station_names(measured.givens.integrated.givens.stations)[k]
     foot, corner, normal = acts["foot"], acts["corner"].first[0], acts["line of F"].first
-    side = -1.0 if complex(normal.directions).real < 0 else 1.0
+    side = -1.0 if normal.directions.real < 0 else 1.0
     alpha, length = float(measured.first("alpha")[k]), float(plan.first("normal"))
     forces = {key: float(plan.value(key)) for key in plan.readings}
     view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu))
@@ -211,8 +210,7 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
         Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=acts["F"].act),
         Label(corner.place / 2, "R", towards=UP, of=acts["R"].act),
     )
-    found = ("normal", "along", "side", "friction", "reaction")
-    return [*steps, Step(say("The triangle of forces"), closing, view, marks, reads=found)]
+    return [*steps, Step(say("The triangle of forces"), closing, view, marks, reads=tuple(MEANING.readings)[1:])]
 
 
 def _normal_line(normal: Drawn, length: float, alpha: float) -> tuple[Mark, ...]:
@@ -222,7 +220,7 @@ def _normal_line(normal: Drawn, length: float, alpha: float) -> tuple[Mark, ...]
     return (
         Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act),
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        replace(angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said), of=normal.act),
+        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said, normal.act),
     )
 
 
@@ -241,6 +239,6 @@ def _reaction_line(plan: Construction[ForcePlanGivens], side: float) -> tuple[Ma
     if plan.givens.guide is not None:
         base, incline = plan.acts["base"], plan.acts["incline"]
         end = incline.place
-        if end != base.place:
+        if plan.givens.guide.friction:
             laid_off = [base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)]
     return (Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act), *laid_off)

@@ -8,7 +8,7 @@ needed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -159,10 +159,9 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     ).where(r0=measured.givens.prime_radius, e=measured.givens.offset)
     ray = Segments(centre.shown, end.shown, Role.CONSTRUCTION, of=measured.acts["rays"].act)
     rays, reads = (centre.dots(Role.RESULT), ray), ("s0", "alpha", "transmission")
-    arrows = velocity_plan(pole.place, across, along, (pole.act, v1.act, v2.act, v21.act))
     shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, arrows),
+        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, v1, v2, v21)),
         Step(say("The mechanism's triangle"), similar, plan, _triangle(acts, sigma)),
         Step(say("The pressure angle"), turned, plan, _angle(acts, sigma, shown, measured.readings["alpha"].act)),
         Step(say("The pressure angle at every station"), everywhere, COMBINED, rays, reads),
@@ -213,26 +212,20 @@ def _angle(acts: Mapping[str, Drawn], sigma: int, shown: Caption, read: Act | No
     )
 
 
-def velocity_plan(
-    pole: complex, across: complex, along: complex, of: Sequence[Act | None] = (None, None, None, None)
-) -> tuple[Mark, ...]:
-    """The plan from its pole: v₁ across the radius, v₂ along the motion, and v₂₁ that closes it.
-
-    of : the acts that left the pole, v₁, v₂ and v₂₁
-    """
-    side, (start, v1, v2, v21) = np.sign(across.real), of
+def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn) -> tuple[Mark, ...]:
+    """The plan from its pole: v₁ across the radius, v₂ along the motion, and v₂₁ that closes it."""
+    p, across, along = pole.place, v1.place, v2.place
+    side = np.sign((across - p).real)
     return (
-        Arrow(pole, pole + across, Role.CURVE, v1),
-        Arrow(pole, pole + along, Role.CURVE, v2),
-        Arrow(pole + across, pole + along, Role.CURVE, v21),
-        Label(pole + across / 2, "v₁", -UP * side, of=v1),
-        Label(pole + along / 2, "v₂", -side, of=v2),
-        Label(pole + (across + along) / 2, "v₂₁", UP + side, of=v21),
-        Label(pole, "p", -1 - 1j, of=start),
+        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(across, along, Role.CURVE, v21.act)),
+        Label((p + across) / 2, "v₁", -UP * side, of=v1.act),
+        Label((p + along) / 2, "v₂", -side, of=v2.act),
+        Label((across + along) / 2, "v₂₁", UP + side, of=v21.act),
+        pole.label("p", -1 - 1j),
     )
 
 
-def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Act | None = None) -> AngleMark:
+def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Act | None) -> AngleMark:
     """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
     turn = (end - start + np.pi) % (2 * np.pi) - np.pi
     first, last = sorted((start, start + turn))

@@ -161,8 +161,12 @@ def along_to_circle(p: Points, d: Points, centre: Points | complex, radius: Floa
     return near + unit(d) * half_chord
 
 
-def circles_meet(p: Points, radius_p: Floats | float, q: Points, radius_q: Floats | float) -> Points:
+def circles_meet(
+    p: Points, radius_p: Floats | float, q: Points, radius_q: Floats | float, *, flat: bool = False
+) -> Points:
     """Where two circles meet, to the left of the way from p to q; NaN when they do not, or at less than a degree.
+
+    flat : to take any crossing for one, and circles that miss one another to touch halfway
 
     >>> at = np.asarray
     >>> complex(circles_meet(at(0j), 5.0, at(6 + 0j), 5.0))
@@ -174,7 +178,7 @@ def circles_meet(p: Points, radius_p: Floats | float, q: Points, radius_q: Float
     with np.errstate(divide="ignore", invalid="ignore"):  # about one centre they meet nowhere
         along = (distance + (radius_p - radius_q) * (radius_p + radius_q) / distance) / 2
         square = (radius_p - along) * (radius_p + along)
-        aside = np.sqrt(np.where(square >= 0, square, np.nan))
+        aside = np.sqrt(np.where(square >= 0, square, 0.0 if flat else np.nan))
         # The radii to the meeting enclose the angle at which the circles cross: its sine from the triangle's area.
-        readable = distance * aside >= math.sin(READABLE_CROSSING) * radius_p * radius_q
+        readable = flat | (distance * aside >= math.sin(READABLE_CROSSING) * radius_p * radius_q)
         return p + unit(way) * np.where(readable, along + UP * aside, np.nan)

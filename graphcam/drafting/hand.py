@@ -17,7 +17,7 @@ from graphcam.drafting.acts import Act, Drawn, Floats, Index, Kind, Setting
 from graphcam.drafting.ink import Construction, G, Reading, Step
 from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.plane import dot
 
 SQUARE = 150.0
@@ -94,7 +94,7 @@ class Hand:
         self.pencil, self.meaning, self.lift = pencil, meaning, lift
         self.acts: dict[str, Drawn] = {}
         self.readings: dict[str, Reading] = {}
-        self._stream: np.random.Generator | None = None
+        self._stream: Stream | None = None
 
     @property
     def construction(self) -> str:
@@ -252,12 +252,12 @@ class Hand:
     def cross(self, name: str, one: Drawn, other: Drawn, *, flat: bool = False) -> Drawn:
         """Where two lines meet; where a ray leaves a circle; where two circles meet, left of the way between centres.
 
-        flat : whether lines that cross at less than a degree count as well
+        flat : whether what crosses at less than a degree counts as well, and circles that miss by a little
         """
         p, q = _places(one), _places(other)
         if one.radius is not None:
             p, r, q, s = _aligned(p, _radii(one), q, _radii(other))
-            found = euclid.circles_meet(p, r, q, s)
+            found = euclid.circles_meet(p, r, q, s, flat=flat)
         elif other.radius is not None:
             p, d, q, r = _aligned(p, _way(one), q, _radii(other))
             found = euclid.along_to_circle(p, d, q, r)
@@ -401,9 +401,8 @@ class Hand:
         return self._errors(self.pencil.protractor, like)
 
     def _errors(self, deviation: float, like: Any) -> Floats:
-        # The stream depends on the seed and the construction only: drawing one construction more never changes another.
         if self._stream is None:
-            self._stream = np.random.default_rng([self.pencil.seed, *self.construction.encode()])
+            self._stream = self.pencil.stream(self.construction)
         return deviation * self._stream.standard_normal(like.shape)
 
     def _left(

@@ -7,7 +7,7 @@ has a leading axis of that length, and one run of the arithmetic gives the scatt
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 
-Floats = NDArray[np.floating[Any]]
+Stream = np.random.Generator | np.random.RandomState
+"""Where a hand's errors come from."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +31,8 @@ class Pencil:
     seed : of the random numbers; each construction has its own stream of them
 
     >>> import graphcam as gc
-    >>> gc.Pencil(line=0.2, samples=3).hand("integration").line(2).shape
-    (3, 2)
+    >>> gc.Pencil(line=0.2, samples=3).perfect
+    False
     """
 
     line: float = 0.0
@@ -66,55 +67,10 @@ class Pencil:
         paper = np.asarray(paper)
         return paper if self.samples is None else np.broadcast_to(paper, (self.samples, *paper.shape))
 
-    def hand(self, construction: str) -> Hand:
-        """The hand that draws one construction, with a stream of random numbers of its own.
+    def stream(self, construction: str) -> Stream:
+        """The random numbers of one construction.
 
-        The stream depends on the seed and the construction's name only, so that drawing one construction more or
-        less never changes another.
+        They depend on the seed and the construction's name only, so that drawing one construction more or less never
+        changes another.
         """
-        return Hand(self, np.random.default_rng([self.seed, *construction.encode()]))
-
-
-@dataclass(frozen=True, eq=False)
-class Hand:
-    """A pencil at work: each call gives the errors of the next ``count`` moves, shaped ([samples,] count)."""
-
-    pencil: Pencil
-    random: np.random.Generator = field(repr=False)
-
-    def line(self, count: int) -> Floats:
-        """Errors of the position across a drawn line [mm]."""
-        return self._errors(self.pencil.line, count)
-
-    def dividers(self, count: int) -> Floats:
-        """Errors of a length carried over with dividers [mm]."""
-        return self._errors(self.pencil.dividers, count)
-
-    def protractor(self, count: int) -> Floats:
-        """Errors of an angle [rad]."""
-        return self._errors(self.pencil.protractor, count)
-
-    def point(self, count: int) -> NDArray[np.complex128]:
-        """Errors of a plotted point [mm], alike in every direction."""
-        return self.line(count) + 1j * self.line(count)
-
-    def read(self, paper: Floats) -> Floats:
-        """A length as it is read off a scale: rounded to its division."""
-        division = self.pencil.division
-        return np.round(paper / division) * division if division else paper
-
-    def readings(self, scale: float | NDArray[np.floating[Any]], unit: str, **paper: Floats) -> dict[str, Any]:
-        """Lengths as they are read off a scale, by their names.
-
-        >>> import graphcam as gc
-        >>> read = gc.Pencil(division=0.5).hand("minimum_radius").readings(0.2, "mm", radius=np.array(40.2))
-        >>> read["radius"].paper.item(), read["radius"].value.item()
-        (40.0, 8.0)
-        """
-        from graphcam.drafting.ink import reading
-
-        return {name: reading(self.read(length), scale, unit) for name, length in paper.items()}
-
-    def _errors(self, sigma: float, count: int) -> Floats:
-        shape = (count,) if self.pencil.samples is None else (self.pencil.samples, count)
-        return sigma * self.random.standard_normal(shape) if sigma else np.zeros(shape)
+        return np.random.default_rng([self.seed, *construction.encode()])

@@ -1,7 +1,5 @@
 """The followers of a disk cam and the sense in which the cam turns.  Conventions: see :mod:`graphcam`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Literal

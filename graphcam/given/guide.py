@@ -1,7 +1,5 @@
 """The guide of a translating follower: two bearings above the roller, and their friction."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ A jump of the velocity would need an infinite force, a rigid impact; a jump of t
 a soft impact.  Source: J. E. Shigley, *Theory of Machines* (1961), chapter 6.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

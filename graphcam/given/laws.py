@@ -8,8 +8,6 @@ Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapters 2
 Manufacturing Handbook* (2009), chapters 2 to 4.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache, partial
 

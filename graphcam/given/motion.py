@@ -1,7 +1,5 @@
 """The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -199,6 +197,11 @@ class Motion(Shown):
         return float(self.levels.max())
 
     @property
+    def directions(self) -> Floats:
+        """(k,) the direction of each phase: +1 of a rise, -1 of a return, 0 of a dwell."""
+        return np.array([float(phase.direction) for phase in self.phases])
+
+    @property
     def timing(self) -> list[tuple[str, float, float]]:
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [*self.starts.tolist(), FULL_TURN]
@@ -210,11 +213,6 @@ class Motion(Shown):
 
     def _said(self) -> str:
         return f"with a lift of {self.lift:.6g} (mm; of an arm, rad)"
-
-    @property
-    def piece_starts(self) -> Floats:
-        """(p,) the cam angle at which each piece of a law, and each dwell, begins."""
-        return self._piecewise.starts
 
     @property
     def breaks(self) -> Floats:

@@ -5,8 +5,6 @@ processor and no sorting.  Angles in any other order, and few of them, are gathe
 share: both halves of a law, and the same law's rise and return.  Both ways do the same arithmetic to every value.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise

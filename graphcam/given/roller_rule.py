@@ -1,7 +1,5 @@
 """Rules of the schools for the roller radius, such as ``min(0.7 rho, 0.4 r0)``."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 

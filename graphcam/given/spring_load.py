@@ -4,8 +4,6 @@ Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007): contact is k
 c s is not negative.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

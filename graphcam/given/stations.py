@@ -1,7 +1,5 @@
 """Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -11,7 +9,6 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
-from graphcam.given.motion_law import Law
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,14 +85,16 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     for k, part in enumerate(motion.phases):
         if isinstance(part, Dwell):
             continue
-        ends = _ends(part.normalised, at_corners)
+        law = part.normalised
+        # Where the stretches of equal parts begin and end.
+        ends = (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
         first = begun = len(u)
         u.append(0.0)
         for (start, end), share in zip(pairwise(ends), _shares(ends, divisions), strict=True):
             n = share * refine
             stretches.append(slice(len(u) - 1, len(u) + n))
             u.extend(start + (end - start) * np.arange(1, n + 1) / n)
-            if end in (*part.normalised.jumps, 1.0):
+            if end in (*law.jumps, 1.0):
                 pieces.append(slice(begun, len(u)))
                 begun = len(u) - 1
         phase += [k] * (len(u) - first)
@@ -105,11 +104,6 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     left = np.concatenate([np.arange(s.start, s.stop - 1) for s in phases])
     phi = motion.starts[phase_of] + fraction * angles[phase_of]
     return Stations(phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine)
-
-
-def _ends(law: Law, at_corners: bool) -> tuple[float, ...]:
-    """Where the stretches of equal parts begin and end."""
-    return (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
 
 
 def _shares(ends: tuple[float, ...], divisions: int) -> list[int]:

@@ -1,7 +1,5 @@
 """Tables of a measured motion in CSV files: a header, then a cam angle and a value on every line."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """The flank of a cam of three circular arcs, A to G to F to D: what a follower on it asks for."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

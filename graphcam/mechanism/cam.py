@@ -4,8 +4,6 @@ It is the same for every follower; what differs stands in the follower's
 :class:`~graphcam.mechanism.kinematics.Kinematics`, as values of the frame that are seen here from the turning cam.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -22,7 +20,7 @@ from graphcam.given.motion import Motion, wrap
 from graphcam.given.pieces import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
-from graphcam.mechanism.kinematics import Kinematics, Pair, Values, pair_cross
+from graphcam.mechanism.kinematics import Kinematics, Pair, Values
 from graphcam.mechanism.stationary import Places, stationary_places
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import WIDTH, Shown, in_lines
@@ -183,9 +181,9 @@ class Cam(Shown):
 
     def extremes(self) -> Extremes:
         """Greatest pressure angles and least convex radii of curvature, found as roots of their derivatives."""
-        steep = stationary_places(self.motion, self._pressure_angle_slope)
+        steep = stationary_places(self.motion, self.kinematics.pressure_slope)
         sharp = stationary_places(self.motion, self.kinematics.curvature_slope)
-        direction = np.array([phase.direction for phase in self.motion.phases])
+        direction = self.motion.directions
         return Extremes(
             self._steepest(steep.where(direction[steep.phase] > 0)),
             self._steepest(steep.where(direction[steep.phase] < 0)),
@@ -264,10 +262,6 @@ class Cam(Shown):
     def _pressure_angle(self, values: Values) -> Floats:
         (along, across), _ = self.kinematics.pressure(values)
         return np.arctan2(across, along)
-
-    def _pressure_angle_slope(self, values: Values) -> Floats:
-        """Of the sign of alpha'."""
-        return pair_cross(*self.kinematics.pressure(values))
 
 
 def largest_roller(cam: Cam) -> float:

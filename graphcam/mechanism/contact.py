@@ -6,8 +6,6 @@ would be negative the cam would have to pull, and the follower leaves it.
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -129,14 +127,10 @@ class Contact:
 
     def force(self, places: Places) -> Floats:
         """xi at places that belong to phases [N]."""
-        return self.load.force(places.values, self._direction[places.phase])
-
-    @property
-    def _direction(self) -> Floats:
-        return np.array([float(phase.direction) for phase in self.motion.phases])
+        return self.load.force(places.values, self.motion.directions[places.phase])
 
     def _force(self, phase: NDArray[np.intp], u: Floats, side: Side = "right") -> Floats:
-        return self.load.force(self.motion.at(phase, u, side), self._direction[phase])
+        return self.load.force(self.motion.at(phase, u, side), self.motion.directions[phase])
 
     def _greatest(self, sign: int) -> ValueAt:
         places = stationary_places(self.motion, self.load.slope)

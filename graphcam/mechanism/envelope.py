@@ -10,8 +10,6 @@ cam: the cam's centre is nowhere nearer to the pitch curve than there, so the ro
 profile and no other roller circle reaches in.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

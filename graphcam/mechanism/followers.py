@@ -1,7 +1,5 @@
 """Which file knows which follower: the one place of the exact side that asks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 

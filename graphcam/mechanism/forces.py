@@ -16,8 +16,6 @@ Sources: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6, tan alpha_max 
 and the length B of the bearing.  The cam's torque is F cos alpha ds/dphi, by virtual work.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 
@@ -132,7 +130,7 @@ class CamForces:
         phase : index of the phase, one or as many as there are u
         """
         motion = self.cam.motion
-        values, direction = motion.at(phase, u, side), self._direction[np.asarray(phase, dtype=np.intp)]
+        values, direction = motion.at(phase, u, side), self.cam.motion.directions[np.asarray(phase, dtype=np.intp)]
         s, v, _, _ = values
         cosine, sine, _ = self._angle(values)
         load = self.load.force(values, direction)
@@ -166,7 +164,7 @@ class CamForces:
 
     def normal(self, places: Places) -> Floats:
         """F at places that belong to phases [N]."""
-        return self._normal(places.values, self._direction[places.phase])
+        return self._normal(places.values, self.cam.motion.directions[places.phase])
 
     def normal_inside(self, values: Values) -> Floats:
         """F [N] inside a phase, where v has the sense of the motion, from (s, v, a, j)."""
@@ -198,7 +196,7 @@ class CamForces:
     def _slip_on_rises(self, places: Places) -> Floats:
         cosine, sine, _ = self._angle(places.values)
         slip = grip(self.guide, places.values[0]) * np.abs(sine) / cosine
-        return np.where(self._direction[places.phase] > 0, slip, np.nan)
+        return np.where(self.cam.motion.directions[places.phase] > 0, slip, np.nan)
 
     def _slip_slope(self, values: Values) -> Floats:
         """Of the sign of (g |tan alpha|)'."""
@@ -213,10 +211,6 @@ class CamForces:
             allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
             remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
             raise DesignError("pressure angle", f"{math.degrees(alpha):.4g} degrees", allowed, remedy)
-
-    @property
-    def _direction(self) -> Floats:
-        return np.array([float(phase.direction) for phase in self.cam.motion.phases])
 
     def _angle(self, values: Values) -> tuple[Floats, Floats, Floats]:
         """cos and sin of the pressure angle, and its slope by phi."""

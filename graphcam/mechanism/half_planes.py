@@ -1,7 +1,5 @@
 """The region for the cam centre, cut out by lines, and its point nearest to the start of the lift."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations
 from typing import Literal, NamedTuple

@@ -11,8 +11,6 @@ sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where 
 -sigma (q1 x q2)/|q1|^3.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, Literal, Self
@@ -90,6 +88,10 @@ class Kinematics(ABC):
     @abstractmethod
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
+
+    def pressure_slope(self, values: Values) -> Floats:
+        """Of the sign of alpha'."""
+        return pair_cross(*self.pressure(values))
 
     @abstractmethod
     def speed(self, values: Values, inset: float) -> Floats:

@@ -4,8 +4,6 @@ Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_rad
 :mod:`~graphcam.mechanism.least_radius_arm` and :mod:`~graphcam.mechanism.flat_faced`.
 """
 
-from __future__ import annotations
-
 import math
 from typing import overload
 

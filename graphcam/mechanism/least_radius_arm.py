@@ -15,8 +15,6 @@ lift decide.
 Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Callable, Sequence

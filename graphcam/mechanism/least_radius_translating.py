@@ -11,8 +11,6 @@ so the cam centre lies in a region bounded by up to three lines, and r0 is its d
 Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4;
 *Miscalculating Area and Angles of a Needle-like Triangle* (2014).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

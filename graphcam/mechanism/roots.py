@@ -4,8 +4,6 @@ Source: T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm for find
 without using derivatives*, Advances in Engineering Software 28 (1997), 145-149.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.hertz import ContactStress, RollerContact
-from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
 
@@ -72,7 +72,7 @@ class TurnPlaces:
     @classmethod
     def of(cls, motion: Motion, load: SpringLoad, places: Places) -> TurnPlaces:
         """The same places with their loads."""
-        direction = np.array([float(phase.direction) for phase in motion.phases])[places.phase]
+        direction = motion.directions[places.phase]
         return cls(direction, places.values, load.force(places.values, direction))
 
     @classmethod
@@ -88,19 +88,14 @@ class TurnPlaces:
         every = np.repeat(phase, share.size)
         places = Places(every, u.ravel(), motion.angle_at(every, u.ravel()), (s, v, a, j))
         # A dwell is one place.
-        moving = np.array([part.direction != 0 for part in motion.phases])
-        return cls.of(motion, load, places.where(moving[every] | (u.ravel() == 0)))
+        return cls.of(motion, load, places.where((motion.directions[every] != 0) | (u.ravel() == 0)))
 
     @classmethod
     def worst(cls, stress: ContactStress) -> TurnPlaces:
         """Where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.load
         kin = cam.kinematics
-
-        def angle_slope(values: Values) -> Floats:
-            return pair_cross(*kin.pressure(values))
-
-        slopes = (angle_slope, kin.curvature_slope, stress.slope)
+        slopes = (kin.pressure_slope, kin.curvature_slope, stress.slope)
         first, *others = (cls.of(cam.motion, load, stationary_places(cam.motion, slope)) for slope in slopes)
         for other in others:
             first = first.joined(other)

@@ -1,7 +1,5 @@
 """The region of cams that keep all limits, over the plane of offset and prime radius."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -13,8 +13,6 @@ error goes by the fourth derivative and the fourth power of the knots' distance,
 the deviation is then measured between them, and where it is missed there come more.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from itertools import pairwise

@@ -76,7 +76,7 @@ def smooth_pieces(motion: Motion) -> tuple[NDArray[np.intp], Floats, Floats]:
 def _roots(
     motion: Motion, slope: Callable[[Values], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
 ) -> tuple[NDArray[np.intp], Floats]:
-    moving = np.array([phase.direction != 0 for phase in motion.phases])[phase]  # in a dwell nothing changes
+    moving = motion.directions[phase] != 0  # in a dwell nothing changes
     phase, u0, u1 = phase[moving], u0[moving], u1[moving]
     u = u0[:, None] + (u1 - u0)[:, None] * SAMPLES
     sign = np.sign(slope(motion.at(phase[:, None], u)))

@@ -3,8 +3,6 @@
 Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self

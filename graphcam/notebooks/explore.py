@@ -1,7 +1,5 @@
 """Sliders, and what stands in their place where no kernel runs: a few positions of the slider side by side."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

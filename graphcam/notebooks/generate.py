@@ -1,7 +1,5 @@
 """The step-by-step notebook of a task."""
 
-from __future__ import annotations
-
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
@@ -38,8 +36,6 @@ QUESTIONS = say(
     "3. Where does the acceleration jump, and what does the mechanism do there?\n"
     "4. Which of the drawn values would you trust to 1 %, and which not to 10 %?"
 )
-
-
 SETUP = f"""\
 import graphcam as gc
 from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, player, show_steps

@@ -1,20 +1,123 @@
-"""The notebook of a task into a folder: the notebook, its task, and if asked for its pages as HTML and PDF."""
+"""The notebook of a task into a folder: the notebook, its task, and if asked for its pages as HTML and PDF.
 
-from __future__ import annotations
+A page stands alone: formulas are MathML, figures inside, nothing is fetched.
+"""
 
+import os
+import shutil
+import subprocess
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 import nbformat
+from nbconvert.exporters import HTMLExporter
+from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
+from nbformat import NotebookNode
+from traitlets.config import Config
 
 from graphcam.files import OutputError, whole_folder
 from graphcam.notebooks.generate import notebook_title, write_notebook
-from graphcam.notebooks.html_pages import to_html
-from graphcam.notebooks.printing import NO_BROWSER, browser, print_pdf
-from graphcam.notebooks.running import execute
+from graphcam.notebooks.running import execute, needed
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
+
+TEMPLATES = Path(__file__).parent / "templates"
+SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
+"""What a page shows of an output, the first that there is; of sliders it shows the stills."""
+
+
+class _Renderer(IPythonRenderer):
+    """Markdown with formulas as MathML, which browsers draw without a script."""
+
+    def block_math(self, body: str) -> str:
+        return _mathml(body, "block")
+
+    def inline_math(self, body: str) -> str:
+        return _mathml(body, "inline")
+
+    def latex_environment(self, name: str, body: str) -> str:
+        return _mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
+
+
+def _mathml(latex: str, display: str) -> str:
+    return needed("latex2mathml.converter", "a page with formulas").convert(latex.strip(), display=display)
+
+
+def markdown_page(source: str) -> str:
+    r"""Markdown as HTML, its formulas as MathML.
+
+    >>> "<math" in markdown_page(r"The angle $\\alpha$"), "$" in markdown_page(r"The angle $\\alpha$")
+    (True, False)
+    """
+    return MarkdownWithMath(renderer=_Renderer(escape=False, exclude_anchor_links=True)).render(source)
+
+
+def _exporter(language: str) -> HTMLExporter:
+    """nbconvert's exporter with graphcam's template, plain colours for code, and stills for sliders."""
+    config = Config(
+        NbConvertBase={"display_data_priority": SHOWN},
+        CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
+    )
+    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATES)]}
+    exporter = HTMLExporter(config=config, language_code=language, **template)
+    exporter.register_filter("markdown2html", markdown_page)
+    return exporter
+
+
+def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
+    """An executed notebook as a page.
+
+    language : of the page, "en" or "ru"
+
+    Raises
+    ------
+    MissingExtraError : the libraries of the extra ``notebooks`` are not installed
+    """
+    page, _ = _exporter(language).from_notebook_node(notebook, resources={"metadata": {"title": title, "name": title}})
+    return page
+
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
+"""Programs of Chromium's family, by the names they are installed under."""
+NO_BROWSER = (
+    "there is no Chromium to print it",
+    "install Chromium or Chrome, or print the page of --html from your browser",
+)
+"""Why there is no PDF, and what to do."""
+LONGEST = 120
+"""Seconds that printing may take."""
+
+
+def browser() -> str | None:
+    """The path of an installed Chromium, or None."""
+    return next((path for name in BROWSERS if (path := shutil.which(name))), None)
+
+
+def print_pdf(page: Path, pdf: Path) -> None:
+    """Print a page's file as PDF.
+
+    Raises
+    ------
+    OutputError : there is no Chromium, or it cannot print the page
+    """
+    program = browser()
+    if program is None:
+        raise OutputError(pdf, *NO_BROWSER)
+    with tempfile.TemporaryDirectory() as profile:
+        options = ["--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer"]
+        # Chromium does not start its sandbox for the superuser.
+        options += ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+        command = [program, *options, f"--print-to-pdf={pdf.resolve()}", page.resolve().as_uri()]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise OutputError(pdf, f"{Path(program).name}: {error}") from error
+    if done.returncode or not pdf.exists():
+        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+        raise OutputError(pdf, f"{Path(program).name} says: {last}", "print the page of --html from your browser")
+
 
 NOTEBOOK, PAGE, PRINT = "notebook.ipynb", "notebook.html", "notebook.pdf"
 

@@ -1,8 +1,7 @@
 """Executing a notebook from a clean kernel, with what the extra ``notebooks`` installs, loaded when it is used."""
 
-from __future__ import annotations
-
 from contextlib import suppress
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -15,6 +14,7 @@ PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "langua
 """Metadata of a notebook whose code is Python."""
 
 
+@dataclass(eq=False, repr=False)
 class MissingExtraError(GraphcamError):
     """A library of an extra that is not installed.
 
@@ -22,10 +22,8 @@ class MissingExtraError(GraphcamError):
     executing a notebook needs nbclient, which is not installed; pip install 'graphcam[notebooks]'
     """
 
-    def __init__(self, what: str, library: str) -> None:
-        super().__init__(what, library)
-        self.what = what
-        self.library = library
+    what: str
+    library: str
 
     def __str__(self) -> str:
         return f"{self.what} needs {self.library}, which is not installed; pip install 'graphcam[notebooks]'"
@@ -48,6 +46,7 @@ LONGEST = 120
 """Seconds that one cell may take."""
 
 
+@dataclass(eq=False, repr=False)
 class NotebookError(GraphcamError):
     """A notebook whose cell fails, or warns: the cell's source and what it said.
 
@@ -57,10 +56,8 @@ class NotebookError(GraphcamError):
     1 / 0
     """
 
-    def __init__(self, cell: str, said: str) -> None:
-        super().__init__(cell, said)
-        self.cell = cell
-        self.said = said
+    cell: str
+    said: str
 
     def __str__(self) -> str:
         return f"{self.said}\nin the cell\n{self.cell}"

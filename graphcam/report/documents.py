@@ -1,7 +1,5 @@
 """The documents that a solution gets, whichever kind of task it solves."""
 
-from __future__ import annotations
-
 from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.contents import Contents, last_step, parts, whole
 from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene

@@ -1,7 +1,5 @@
 """Markdown: numbers, texts and tables as a note prints them."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Sequence

@@ -3,8 +3,6 @@
 Points are complex, in mm, in the frame with the cam centre at the origin; the step player lets them move.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from itertools import pairwise

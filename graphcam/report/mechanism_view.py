@@ -1,7 +1,5 @@
 """What the step player shows of a turning mechanism, as plain data: the page looks it up and turns the cam."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -54,7 +52,7 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
         "sizes": {name: _rounded(size) for name, size in sizes.items()} | {"face": [_rounded(x) for x in face]},
         "arrays": {
             **{name: _points(getattr(scene, name)) for name in ("trace", "contact")},
-            **{name: _directions(getattr(scene, name)) for name in ("motion", "normal")},
+            **{name: _numbers(np.degrees(np.angle(getattr(scene, name)))) for name in ("motion", "normal")},
             **{name: _numbers(values) for name, values in live.items()},
         },
         "live": list(LIVE),
@@ -130,8 +128,3 @@ def _points(points: Points) -> list[list[float]]:
 
 def _numbers(values: Floats) -> list[float | None]:
     return [plain_number(_rounded(value)) for value in values.tolist()]
-
-
-def _directions(vectors: Points) -> list[float | None]:
-    """The directions of vectors in degrees."""
-    return _numbers(np.degrees(np.angle(vectors)))

@@ -1,7 +1,5 @@
 """The long tables of the note."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -20,8 +18,6 @@ from graphcam.words import Caption, Tell, say
 SIDES = (say("{name} drawn"), say("{name} exact"))
 EXACT_DIGITS = 4
 """Decimals of an exact value, at least."""
-
-
 Column = tuple[str, Floats, Floats, int]
 """A quantity at the stations: its symbol, what was drawn, what it is exactly, and decimals of what was drawn."""
 

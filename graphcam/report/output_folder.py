@@ -1,6 +1,9 @@
-"""The files of a solution."""
+"""The files of a solution, and those of its exact profile, which CAD and CAM programs import.
 
-from __future__ import annotations
+``profile.csv`` is a table, ``profile.xyz`` a curve through points (x, y, z = 0 on each line, closed), ``profile.dxf``
+one B-spline, all in mm with the cam centre at the origin.  All three hold the profile that can be cut: what a roller
+too large would lose is left out.
+"""
 
 import csv
 import json
@@ -9,12 +12,16 @@ from collections.abc import Callable, Collection, Mapping
 from io import StringIO
 from pathlib import Path
 
+import numpy as np
+
 from graphcam.errors import DesignError, nearest
 from graphcam.files import whole_folder
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.spline import profile_spline
+from graphcam.mechanism.undercut import CutProfile, trimmed_profile
 from graphcam.report.contents import last_step
 from graphcam.report.documents import contents_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
-from graphcam.report.profile_files import write_profile
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Drawing
 from graphcam.solving.arcs_solution import AnySolution
@@ -22,10 +29,50 @@ from graphcam.solving.shown_solution import FILES
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
 
+POINTS = 720
+"""On the profile: one for every half degree of the cam angle."""
+NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
+
+
+def write_profile(cam: Cam, folder: Path, kinds: Collection[str] = tuple(NAMES)) -> dict[str, str]:
+    """Write those of the three files into a folder that are wanted; returns their names by kind.
+
+    Raises
+    ------
+    DesignError : no profile can be told that could be cut
+    """
+    from graphcam.sheets.dxf_renderer import write_spline
+
+    wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
+    if not wanted:
+        return {}
+    cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam)
+    if "profile_dxf" in wanted:
+        write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile")
+    if "profile_csv" in wanted:
+        _write_csv(cut, folder / wanted["profile_csv"])
+    if "profile_xyz" in wanted:
+        _write_xyz(cut, folder / wanted["profile_xyz"])
+    return wanted
+
+
+def _write_csv(cut: CutProfile, path: Path) -> None:
+    x, y = cut.points.T
+    columns = np.degrees(cut.phi), x, y, np.hypot(x, y), np.degrees(np.arctan2(y, x)) % 360
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["phi_deg", "x", "y", "radius", "angle_deg"])
+        table.writerows([f"{value:.9f}" for value in row] for row in zip(*columns, strict=True))
+
+
+def _write_xyz(cut: CutProfile, path: Path) -> None:
+    closed = np.append(cut.points, cut.points[:1], axis=0)
+    lines = (f"{x:.9f}\t{y:.9f}\t{0:.9f}\n" for x, y in closed.tolist())
+    path.write_text("".join(lines), encoding="ascii", newline="\n")
+
+
 DXF = "plain", "cad"
 """Kinds of DXF."""
-
-
 SHEETS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
 

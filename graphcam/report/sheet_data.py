@@ -1,7 +1,5 @@
 """The tables that the sheet and the note have in common."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import product
 

@@ -1,7 +1,5 @@
 """The sheet of a sized cam: the region of permitted cams over offset and prime radius, and the cam that was found."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -30,8 +28,6 @@ TICKS = 6
 """Parts of an axis with numbers, at most."""
 MARGIN = 0.05
 """An axis is at least this part of the greatest radius long, so that a range of one size has an axis too."""
-
-
 BINDING: Mapping[str, Caption] = {
     str(words): words
     for words in (

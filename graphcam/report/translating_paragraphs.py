@@ -1,7 +1,5 @@
 """The note's paragraphs on the constructions of a translating follower."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace
@@ -22,8 +20,6 @@ from graphcam.words import Caption, Words, say, sequence
 
 ONE_DEGREE = math.radians(1)
 TAN = say("\\tan")
-
-
 CONDITIONS = {
     "rise": say(
         "- rise: ${left} \\ge v - s {tangent} = {v} - {s} {tangent} = {least}$ mm, where the tangent touches the "

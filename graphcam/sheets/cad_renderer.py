@@ -5,21 +5,18 @@ DIMENSION, the frame with its title block is a block whose entries are ATTRIBs, 
 space that shows it 1:1.  Not every reader knows these; the plain file is for all of them.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 import os
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from ezdxf.document import Drawing as Document
+from ezdxf.layouts import Modelspace
 
 from graphcam.sheets import dxf_renderer as dxf
 from graphcam.sheets.dxf_renderer import LETTERS, draw, layer, set_text, xy
 from graphcam.sheets.expand import GAP, OVERRUN
 from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing as Document
-    from ezdxf.layouts import Modelspace
 
 STYLE = "GRAPHCAM"
 """The name of the style of dimensions."""
@@ -31,15 +28,11 @@ def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     """All pages of a drawing, side by side in the model space, each with a layout in paper space that shows it 1:1."""
     with dxf.repeatable():
         document = dxf.sheet_document(drawing)
-        _add_style(document)
+        lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
+        document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
         dxf.draw_pages(document, drawing, _draw_group)
         _add_layouts(document, drawing)
         document.saveas(path)
-
-
-def _add_style(document: Document) -> None:
-    lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
-    document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
 
 
 def _add_layouts(document: Document, drawing: Drawing) -> None:

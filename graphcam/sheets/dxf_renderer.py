@@ -4,30 +4,26 @@ The profile of entities is narrow on purpose, because every program reads it: LI
 and one clamped non-rational SPLINE for the cam; a layer for every step and role.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import re
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import ezdxf
 import numpy as np
 from ezdxf import options, units
+from ezdxf.document import Drawing as Document
+from ezdxf.entities import Text as DXFText
 from ezdxf.enums import TextEntityAlignment
+from ezdxf.layouts import BaseLayout
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
-
-if TYPE_CHECKING:
-    from ezdxf.document import Drawing as Document
-    from ezdxf.entities import Text as DXFText
-    from ezdxf.layouts import BaseLayout
 
 BETWEEN_PAGES = 40.0
 """Several pages stand side by side, so far apart, mm."""
@@ -42,7 +38,7 @@ POINT_STYLE, POINT_SIZE = 34, 3.0
 COLOURS = {GREY: 8, ACCENT: 1}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
 
-DrawGroup = Callable[["Document", Group, str, float], None]
+DrawGroup = Callable[[Document, Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
 
 

@@ -1,7 +1,5 @@
 """From marks to entities: dimensions, arrows, angles and hatching become lines, arcs, triangles and texts."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable

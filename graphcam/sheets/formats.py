@@ -1,7 +1,5 @@
 """Sizes of paper by ISO 216, margins by ISO 5457 and GOST 2.301, sizes of lettering by ISO 3098 and GOST 2.304."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError, nearest

@@ -1,7 +1,5 @@
 """The empty sheet: frame by GOST 2.301 or ISO 5457, title block, gauge."""
 
-from __future__ import annotations
-
 import cmath
 from collections.abc import Iterable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Hatching as lines: inside a polygon, and broken off around lettering."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable

@@ -4,8 +4,6 @@ The page is a raster; each cell knows what a letter in it would cost.  A text ta
 cells, and what the place itself costs, is least.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 

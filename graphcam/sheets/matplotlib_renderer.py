@@ -4,8 +4,6 @@ The figure is the page; nothing is fitted or cropped.  Every group of the drawin
 group of the renderer (a ``<g>`` of the SVG) and joins all lines of one role into one path.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 import os
@@ -14,11 +12,13 @@ from collections.abc import Sequence
 from functools import cache
 from io import StringIO
 from pathlib import Path as File
-from typing import IO, TYPE_CHECKING, Any, cast
+from typing import IO, Any, cast
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backend_bases import GraphicsContextBase, RendererBase
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -31,10 +31,6 @@ from graphcam.sheets.fonts import FAMILY, points_size, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.backend_bases import GraphicsContextBase, RendererBase
 
 INCH = 25.4
 POINT = 72 / INCH

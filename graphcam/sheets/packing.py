@@ -15,8 +15,6 @@ from graphcam.sheets.box import Box
 Grid = NDArray[np.float64]
 Preference = Callable[[Grid, Grid], Grid]
 """Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
-
-
 MESH = 2.0
 """Of the grid on which room is sought, mm."""
 EDGE = 1e-6

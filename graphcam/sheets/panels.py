@@ -1,7 +1,5 @@
 """Views as panels: what is drawn in them, the box that they need, and how those that share an axis stand together."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Entities as points close to one another, and as straight pieces: what label placing and its check look at."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 """A closed smooth curve through dense points: cubic pieces, as a chain of Bezier curves or as one B-spline."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How lines look: widths and types by ISO 128 and GOST 2.303, one style for each role."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from graphcam.drafting.marks import Role
@@ -58,10 +56,6 @@ def in_progress(role: str, stage: str) -> str:
     return f"{stage} {role}"
 
 
-def _former(style: Style) -> Style:
-    return Style(min(style.width, MEDIUM), style.pattern, FADED)
-
-
 def _current(style: Style) -> Style:
     # A limit keeps its accent: it is told by its colour.
     return style if style.colour == ACCENT else Style(style.width, style.pattern, CURRENT)
@@ -69,7 +63,10 @@ def _current(style: Style) -> Style:
 
 STYLES: dict[str, Style] = {
     **_FINISHED,
-    **{in_progress(role, FORMER_STEP): _former(style) for role, style in _FINISHED.items()},
+    **{
+        in_progress(role, FORMER_STEP): Style(min(style.width, MEDIUM), style.pattern, FADED)
+        for role, style in _FINISHED.items()
+    },
     **{in_progress(role, CURRENT_STEP): _current(style) for role, style in _FINISHED.items()},
 }
 """The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress."""

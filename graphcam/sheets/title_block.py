@@ -1,7 +1,5 @@
 """Title blocks: form 1 of GOST 2.104 (185 x 55 mm) and a block by ISO 7200 (180 x 36 mm)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import pairwise
 

@@ -21,9 +21,9 @@ from graphcam.given.follower import Rotation
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
 from graphcam.sheets.layout import profile_room
-from graphcam.solving.diagram_sizes import diagram_room
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import diagram_room
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.words import Tell
 

@@ -1,7 +1,5 @@
 """What a solution of either kind shows of itself: in few lines, as its sheet, as files, as plain data for JSON."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path

@@ -92,20 +92,18 @@ class Solution(ShownSolution):
 
     def to_dict(self) -> dict[str, Any]:
         """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""
+        sizes = self.chain.board.follower.sizes(self.chain.place, self.cam.roller_radius)
+        follower = {size.name: size.value for size in sizes}
         return {
             "graphcam": __version__,
             "task": self.task.to_dict(),
-            "cam": {"prime_radius": self.cam.prime_radius, **self._follower_sizes(), "rotation": self.cam.rotation},
+            "cam": {"prime_radius": self.cam.prime_radius, **follower, "rotation": self.cam.rotation},
             "scales": self._scales(),
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
             "files": dict.fromkeys(FILES),
         }
-
-    def _follower_sizes(self) -> dict[str, float | None]:
-        sizes = self.chain.board.follower.sizes(self.chain.place, self.cam.roller_radius)
-        return {size.name: size.value for size in sizes}
 
     @property
     def _lift(self) -> tuple[float, str]:

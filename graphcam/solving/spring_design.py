@@ -1,7 +1,5 @@
 """What a solution says of a spring: contact over the turn, forces, the force plan, a view and a table of the sheet."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """What the exact side warns of: a profile that cannot be cut, limits that are not kept."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

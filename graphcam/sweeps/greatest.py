@@ -6,8 +6,6 @@ where a secant leaves it.  Every operation is done to each cam by itself: what t
 changes no bit.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import count
 from typing import ClassVar, Protocol, Self

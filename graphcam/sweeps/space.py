@@ -3,12 +3,9 @@
 It mirrors a file (degrees, mm); a design is made of its number when it is needed, so that millions need no memory.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from importlib import resources
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -235,14 +232,10 @@ def load_space(path: str | Path) -> Space:
     ------
     TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong
 
-    >>> len(load_space(example_space()))
+    >>> from importlib.resources import files
+    >>> len(load_space(files("graphcam") / "data" / "space.toml"))
     34850
     """
     with other_file("space file", _REMEDY):
         data = parse_toml(str(path), read_content(path))
         return checked(Space, _CLASSES, str(path), data, data)
-
-
-def example_space() -> Path:
-    """The space file that comes with graphcam."""
-    return Path(str(resources.files("graphcam").joinpath("data", "space.toml")))

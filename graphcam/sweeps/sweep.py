@@ -1,7 +1,5 @@
 """The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from concurrent.futures import Executor

@@ -1,7 +1,5 @@
 """A sweep into a file: block by block, so that its length does not matter to the memory."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Callable, Generator

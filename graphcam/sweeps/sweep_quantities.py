@@ -1,7 +1,5 @@
 """What a sweep can ask of its cams; every quantity is computed once at most, and only if it is asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,7 +14,7 @@ from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.followers import EXACT
-from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
+from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Numbers, Sought, greatest
 from graphcam.sweeps.law_tables import Legs
@@ -43,7 +41,7 @@ class Steepness(_OfManyCams):
 
     def slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
-        return pair_cross(*self.kin.pressure(values))
+        return self.kin.pressure_slope(values)
 
 
 class Sharpness(_OfManyCams):
@@ -92,7 +90,10 @@ class Chunk:
         """The least radius of curvature of the convex parts of the pitch curve [mm]; signed under a flat face."""
         sharpest = self._over_legs(self._sharpness, self._rises)
         sharpest = np.maximum(sharpest, self._over_legs(self._sharpness, self._returns))
-        for level, angle in ((self._lift, self._angle("dwell_angle")), (0 * self._lift, self.designs.low_dwell)):
+        for level, angle in (
+            (self._lift, self.designs.column("dwell_angle")),
+            (0 * self._lift, self.designs.low_dwell),
+        ):
             still = np.zeros_like(level)
             resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
             sharpest = np.maximum(sharpest, resting)
@@ -116,9 +117,6 @@ class Chunk:
         sound &= np.abs(self.max_pressure_angle_rise) <= limits.rise
         return sound if limits.return_ is None else sound & (np.abs(self.max_pressure_angle_return) <= limits.return_)
 
-    def _angle(self, name: str) -> Floats:
-        return self.designs.column(name)
-
     @cached_property
     def _lift(self) -> Floats:
         return np.where(self.designs.possible, self.designs.column("lift"), np.nan)
@@ -140,11 +138,11 @@ class Chunk:
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:
-        return "rise_law", +1, self._angle("rise_angle")
+        return "rise_law", +1, self.designs.column("rise_angle")
 
     @property
     def _returns(self) -> tuple[str, int, Floats]:
-        return "return_law", -1, self._angle("return_angle")
+        return "return_law", -1, self.designs.column("return_angle")
 
     def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
         if not self._many.has_pressure_angle:

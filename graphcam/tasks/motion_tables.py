@@ -1,7 +1,5 @@
 """The table ``[motion]`` of a task file: phases in degrees and mm, or a measured motion."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Literal

@@ -1,7 +1,5 @@
 """What every task file has: the tables about the sheet, and how values are checked and written back."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from dataclasses import dataclass, field, replace

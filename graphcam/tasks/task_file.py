@@ -84,12 +84,8 @@ _EXPECTED = {
     "tuple_type": "a list",
 }
 """What a file must give, by the type of pydantic's error."""
-
-
 Place = tuple[int | str, ...]
 """Where in a file: keys, numbers of list entries, and pydantic's choices among classes."""
-
-
 _LONGEST = 60
 """Characters of a value that a message shows."""
 

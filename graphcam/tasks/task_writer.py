@@ -1,7 +1,5 @@
 """A task as the files that it is read from again."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import PurePath
 from typing import Any

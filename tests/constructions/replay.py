@@ -299,7 +299,7 @@ class SecondBoard:
         single = a.single and b.single
         if a.radius is not None:
             rows = _rows(a.points, a.radius, b.points, b.radius or [])
-            return Figure([_two_circles(*row) for row in rows], single=single)
+            return Figure([_two_circles(*row, flat=flat) for row in rows], single=single)
         ways = a.along or []
         if b.radius is not None:
             rows = _rows(a.points, ways, b.points, b.radius)
@@ -407,13 +407,15 @@ def _line_and_circle(p: complex, d: complex, centre: complex, radius: float) -> 
     return NOWHERE if not under >= 0 else p + d * (math.sqrt(under) - half)
 
 
-def _two_circles(p: complex, r: float, q: complex, s: float) -> complex:
+def _two_circles(p: complex, r: float, q: complex, s: float, *, flat: bool = False) -> complex:
     """Left of the way from p to q, by the law of cosines."""
     c = abs(q - p)
     if not (c > 0 and r > 0 and s > 0):
         return NOWHERE
     cosine, between = (c * c + r * r - s * s) / (2 * c * r), (r * r + s * s - c * c) / (2 * r * s)
-    if not (abs(cosine) <= 1 and abs(between) <= 1) or math.sin(math.acos(between)) < math.sin(ONE_DEGREE):
+    if not (abs(cosine) <= 1 and abs(between) <= 1):
+        return NOWHERE
+    if not flat and math.sin(math.acos(between)) < math.sin(ONE_DEGREE):
         return NOWHERE
     return p + cmath.rect(r, cmath.phase(q - p) + math.acos(cosine))
 

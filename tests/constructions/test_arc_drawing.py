@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 
@@ -202,27 +203,43 @@ def test_nothing_is_taken_from_the_exact_side():
                 construction.steps()
 
 
-def test_a_trembling_hand_scatters_c3_as_the_crossing_says():
-    """The errors of P, C1 and G move the bisector; on the line they show divided by the sine of the crossing."""
-    sigma = 0.1
-    chain = ArcChain(board_of(EXAMPLE), gc.Pencil(line=sigma, samples=2000, seed=3))
-    scatter = chain["three_arcs"].readings["rho3"].paper.std()
-    cam = three_arc_cam(**EXAMPLE)[0]
-    mu_l = chain.board.mu_l.per_mm
+def slopes_of_rho3() -> dict[str, float]:
+    """By how much rho3 changes with each given length, all in mm of paper: by differences."""
+    h = 1e-4
 
     def rho3(**moved) -> float:
-        return three_arc_cam(**(EXAMPLE | moved))[0].rho3 / mu_l
+        return three_arc_cam(**(EXAMPLE | moved))[0].rho3
 
-    # The derivative by every given coordinate, by differences.
-    h = 1e-4
-    slopes = [
-        (rho3(**{name: np.add(EXAMPLE[name], step)}) - rho3(**{name: np.subtract(EXAMPLE[name], step)}))
-        / (2 * h / mu_l)
-        for name in ("G", "C1", "C2")
-        for step in ((h, 0), (0, h))
-    ]
-    assert scatter == pytest.approx(sigma * math.sqrt(sum(s * s for s in slopes)), rel=0.06)
-    assert cam.sound
+    def slope(name: str, step) -> float:
+        return (rho3(**{name: np.add(EXAMPLE[name], step)}) - rho3(**{name: np.subtract(EXAMPLE[name], step)})) / (
+            2 * h
+        )
+
+    points = {f"{p}_{axis}": slope(p, way) for p in ("G", "C1", "C2") for axis, way in (("x", (h, 0)), ("y", (0, h)))}
+    return points | {"rho1": slope("rho1", h)}
+
+
+def test_dividers_scatter_c3_as_the_crossing_says():
+    """Two settings a point, across and up, but none for a length of nothing; and one for P."""
+    sigma = 0.1
+    chain = ArcChain(board_of(EXAMPLE), gc.Pencil(dividers=sigma, samples=2000, seed=3))
+    scatter = chain["three_arcs"].readings["rho3"].paper.std()
+    slopes = slopes_of_rho3()
+    del slopes["C2_x"]  # it lies on the upright axis
+    assert scatter == pytest.approx(sigma * math.hypot(*slopes.values()), rel=0.06)
+
+
+def test_lines_scatter_c3_as_the_crossing_says():
+    """The uprights stand beside their feet; the bisector is off at both crossings, sqrt(0.39) of the chord from it."""
+    sigma = 0.1
+    chain = ArcChain(board_of(EXAMPLE), gc.Pencil(line=sigma, samples=2000, seed=3))
+    arcs, slopes = ArcChain(board_of(EXAMPLE))["three_arcs"], slopes_of_rho3()
+    c1, p, c3, g, c2 = (complex(arcs.points[name]) for name in ("C1", "P", "C3", "G", "C2"))
+    far = abs(c3 - (c1 + p) / 2) / (abs(p - c1) * math.sqrt(0.8**2 - 0.5**2))  # in parts of the crossings' distance
+    offset = math.hypot((1 + far) / 2, (1 - far) / 2) / math.sqrt(2)
+    crossing = abs(math.sin(cmath.phase((c2 - g) / (1j * (p - c1)))))
+    expected = math.hypot(offset / crossing, *(slopes[f"{point}_x"] for point in ("G", "C1", "C2")))
+    assert chain["three_arcs"].readings["rho3"].paper.std() == pytest.approx(sigma * expected, rel=0.06)
 
 
 def test_readings_are_shaped_by_samples_and_repeat():

@@ -283,6 +283,23 @@ def test_a_length_is_rounded_to_the_division_once_when_it_is_read():
     assert hand.read("length", setting, 2.0, "mm").unit == "mm"
 
 
+def test_a_rounded_reading_is_the_nearest_division():
+    hand = Hand(Pencil(division=0.5), MEANING)
+    lengths = np.linspace(0, 50, 1001)
+    ends = hand.lay_off("ends", hand.given("start", np.zeros(lengths.size)), UP, lengths)
+    read = hand.read("length", between(hand.given("foot", 0j), ends, UP), 1.0).paper
+    assert np.abs(read - lengths).max() <= 0.25 + 1e-12
+    assert_allclose(read * 2, np.round(read * 2))
+
+
+def test_the_errors_of_the_same_act_grow_with_the_pencil():
+    thin, thick = (
+        Hand(Pencil(line=sigma, seed=3), MEANING).erect("line", exact().given("feet", np.zeros(9))).points
+        for sigma in (0.1, 0.4)
+    )
+    assert_allclose(thick, 4 * thin, rtol=1e-14)
+
+
 def test_an_angle_is_measured_in_its_sense_and_off_by_the_protractor():
     hand = trembling(protractor=ANGLE)
     line = hand.given("line", 0j, along=np.exp(1j * np.array([0.3, -0.4])))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
+from graphcam.drafting.hand import Hand, between
 from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
@@ -23,8 +24,10 @@ def one_line(construction: Construction) -> list[Step]:
 
 
 def drawn(pencil: Pencil) -> Construction:
-    length = pencil.sheets(20.0) + pencil.hand("line").line(1)[..., 0]
-    return Construction(LINE, None, pencil, {"length": reading(length, 0.5, "mm")}, {}, one_line)
+    hand = Hand(pencil, LINE)
+    start = hand.given("start")
+    hand.read("length", between(start, hand.lay_off("end", start, 1, 20.0)), 0.5)
+    return hand.finished(None, one_line, {})
 
 
 def test_a_value_is_scale_times_paper():
@@ -46,7 +49,7 @@ def test_a_caption_keeps_its_numbers_apart_from_its_words():
 
 
 def test_the_first_sample_is_shown():
-    many = drawn(Pencil(line=0.2, samples=4))
+    many = drawn(Pencil(dividers=0.2, samples=4))
     assert many.readings["length"].paper.shape == (4,)
     assert many.first("length") == many.readings["length"].paper[0]
     assert many.value("length") == many.first("length") / 2

@@ -6,7 +6,7 @@ import os
 import signal
 
 from graphcam.exercises.grading import grade_one as work
-from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.grading.grade_one import Submission
 
 
 def grade(assignment: work.Assignment, submission: Submission) -> work.Graded:

@@ -11,7 +11,7 @@ from issued_variants import issued, key
 
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.marking.comparing import compare
+from graphcam.exercises.marking.diagnosis import compare
 
 
 def places(name: str, answer: object, exercise: str = "inversion-translating") -> list[int]:

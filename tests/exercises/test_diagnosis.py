@@ -14,8 +14,7 @@ from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.marking import diagnosis as module
-from graphcam.exercises.marking.comparing import ComparedAnswer
-from graphcam.exercises.marking.diagnosis import diagnose
+from graphcam.exercises.marking.diagnosis import ComparedAnswer, diagnose
 
 BOUND = 2.0
 NUMBER = Asked("number", "A length.", "integration", reading="s", unit="mm")

@@ -16,8 +16,7 @@ from ezdxf import recover
 from ezdxf.document import Drawing
 from issued_variants import SECRET, issued, key
 
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import Submission, read_submission
+from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_submission
 from graphcam.exercises.marking.record import Marked, Record
 
 NAME, LAYER = "inversion-translating", "PITCH"

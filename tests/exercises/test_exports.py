@@ -16,7 +16,7 @@ from issued_variants import SECRET, issued, key, marked
 from russian import english_words
 
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.definition.mistakes import misconception

@@ -23,12 +23,11 @@ from issued_variants import SECRET, issued, key
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.grading import course_grading as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.grading.grade_one import Assignment, read_submission
 from graphcam.files import OutputError
 from graphcam.workers import WorkerPool, processes, results
 

@@ -19,9 +19,8 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
-from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.course.handouts import answer_file, instructions, key_sheet, notebook, worksheet
-from graphcam.exercises.course.roster import Student, read_roster
+from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise

@@ -21,8 +21,7 @@ from russian import english_words
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading import grade_one as work
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.running.levels import Level, ResourceLimits

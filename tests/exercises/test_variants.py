@@ -7,7 +7,7 @@ from hypothesis import given, strategies as st
 from issued_variants import SECRET
 
 from graphcam.errors import DesignError
-from graphcam.exercises.course.folder_names import LONGEST, folder_name, student_of
+from graphcam.exercises.course.roster import LONGEST, folder_name, student_of
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Parameter
 from graphcam.exercises.definition.exercise_file import find_exercise, library

@@ -98,7 +98,7 @@ def test_the_derivatives_are_derivatives(law):
     """By the theorem of the calculus: from knot to knot v, a, j integrate to s, v, a (Gauss, exact for a quintic)."""
     measured = measured_motion(DEGREES, table(LAWS[law]))
     nodes, weights = np.polynomial.legendre.leggauss(4)
-    for start, end in pairwise([*measured.piece_starts, FULL_TURN]):
+    for start, end in pairwise([*measured._piecewise.starts, FULL_TURN]):
         phi = (start + end) / 2 + (end - start) / 2 * nodes
         inside = measured(phi)
         begin, finish = measured(start), measured(end, "left")

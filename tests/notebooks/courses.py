@@ -8,7 +8,7 @@ from pathlib import Path
 import jupytext
 from nbformat import NotebookNode
 
-from graphcam.notebooks.html_pages import to_html
+from graphcam.notebooks.notebook_folder import to_html
 from graphcam.notebooks.running import execute
 
 FOLDER = Path(__file__).parents[2] / "notebooks"

@@ -14,7 +14,7 @@ from graphcam.given.follower import Translating
 from graphcam.given.motion import Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import profile_spline
-from graphcam.report.profile_files import POINTS, write_profile
+from graphcam.report.output_folder import POINTS, write_profile
 
 DEG = math.pi / 180
 MOTION = Motion([Rise(30, 60 * DEG), Dwell(30 * DEG), Return(30, 60 * DEG), Dwell(210 * DEG)])

@@ -244,6 +244,8 @@ def test_the_number_stands_once_more_in_the_corner_that_is_filed_on_top(paper):
     whole = [*(strokes(edge) for edge in edges), *(e for e in entities if isinstance(e, Strokes))]
     assert field in enclosed(whole, "frame")
     assert Box(*field).grown(4.0) in taken(paper, 4.0)
+    # Two lines part it from the sheet, and end where it ends.
+    assert Box(*field) in [box_of([e]) for e in entities if isinstance(e, Strokes) and len(e.starts) == 2]
 
 
 def strokes(outline: Stroke) -> Strokes:

@@ -10,8 +10,7 @@ import pytest
 from scene import drawing
 
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text, count
-from graphcam.sheets.player import Slide, player
-from graphcam.sheets.player_svg import group_svg
+from graphcam.sheets.player import Slide, group_svg, player
 from graphcam.sheets.styles import STYLES
 
 NUMBER = r"-?[\d.]+"

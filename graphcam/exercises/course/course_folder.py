@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.folder_names import folder_name, is_cut, student_of
+from graphcam.exercises.course.roster import folder_name, is_cut, student_of
 from graphcam.language import ENGLISH
 
 STUDENTS, TEACHER = "students", "teacher"

@@ -1,7 +1,5 @@
 """What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,17 +1,14 @@
 """Making an exercise for a course: the students' handouts in one folder, the teacher's in another."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys, read_secret
-from graphcam.exercises.course.folder_names import folder_name
 from graphcam.exercises.course.handouts import key_rows, key_sheet, write_handouts
-from graphcam.exercises.course.roster import Student, read_roster
+from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
@@ -21,14 +18,6 @@ from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
 from graphcam.tasks.sheet_tables import one_of
 from graphcam.workers import executor_of, in_order
-
-
-@dataclass(frozen=True)
-class _Order:
-    exercise: Exercise
-    student: Student
-    secret: bytes
-    folder: Path
 
 
 def make(
@@ -56,30 +45,29 @@ def make(
         if (out / part).exists():
             raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
     with whole_folder(out) as draft, executor_of(workers) as executor:
-        orders = [_Order(exercise, student, secret, draft) for student in students]
         answer_keys: list[AnswerKey] = []
-        for done, text in enumerate(in_order(executor, _made, orders), 1):
+        for text in in_order(executor, partial(_made, exercise, secret, draft), students):
             answer_keys.append(AnswerKey.from_json(text))
-            step(done, len(orders))
+            step(len(answer_keys), len(students))
         kept = AnswerKeys(draft / TEACHER)
         kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
 
 
-def _made(order: _Order) -> str:
+def _made(exercise: Exercise, secret: bytes, draft: Path, student: Student) -> str:
     """All handouts of one student; the answer key as text."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
-    variant, answer_key = issue(order.exercise, order.student.id, order.secret)
-    name = folder_name(order.student.id)
-    theirs, key_sheets = order.folder / STUDENTS / name, order.folder / TEACHER / "keys"
+    variant, answer_key = issue(exercise, student.id, secret)
+    name = folder_name(student.id)
+    theirs, key_sheets = draft / STUDENTS / name, draft / TEACHER / "keys"
     for folder in (theirs, key_sheets):
         folder.mkdir(parents=True, exist_ok=True)
-    write_handouts(variant, order.student, theirs)
-    write_pdf(key_sheet(variant, order.student, answer_key), key_sheets / f"{name}.pdf")
+    write_handouts(variant, student, theirs)
+    write_pdf(key_sheet(variant, student, answer_key), key_sheets / f"{name}.pdf")
     text = answer_key.to_json()
-    AnswerKeys(order.folder / TEACHER).keep(order.student.id, text)
+    AnswerKeys(draft / TEACHER).keep(student.id, text)
     return text
 
 

@@ -1,14 +1,69 @@
-"""The list of students: a CSV file whose ids are data, whatever they say."""
-
-from __future__ import annotations
+"""The students: a CSV file whose ids are data, whatever they say, and their names as folders; none is a path."""
 
 import csv
+import hashlib
 import io
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.folder_names import folder_name
+
+LONGEST = 180
+"""Bytes of a folder's name; file systems take 255, and a suffix may follow."""
+_UNSAFE = re.compile(r'[\x00-\x1f\x7f-\x9f%/\\<>:"|?*\ud800-\udfff\u200e\u200f\u202a-\u202e\u2066-\u2069]')
+_CUT = re.compile(r"%~[0-9a-f]{24}$")
+_DEVICES = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?$")
+
+
+def folder_name(student: str) -> str:
+    """A name for the student's folder that is one folder on every system; readable where that is safe.
+
+    Characters that mean something to a file system are written as %XX of their UTF-8 bytes, so :func:`student_of`
+    finds the name again; one that is too long is cut and ends with a digest of the whole.
+
+    >>> folder_name("Anna Müller"), folder_name("../etc/passwd"), folder_name("")
+    ('Anna Müller', '%2E.%2Fetc%2Fpasswd', '%')
+    """
+    name = _UNSAFE.sub(_escaped, student)
+    # A leading point hides a folder or leaves it, a trailing point or space is lost on some systems.
+    name = re.sub(r"^[. ]|[. ]$", _escaped, name)
+    if _DEVICES.match(name):
+        name = f"%{ord(name[0]):02X}{name[1:]}"
+    if len(name.encode()) > LONGEST:
+        digest = hashlib.sha256(student.encode("utf-8", "surrogatepass")).hexdigest()[:24]
+        return name.encode()[: LONGEST - 30].decode(errors="ignore").rstrip("%. ") + f"%~{digest}"
+    return name or "%"
+
+
+def student_of(folder: str) -> str:
+    """The student whose folder this is: of a name by :func:`folder_name` that one's, else the folder's name itself.
+
+    >>> student_of("%2E.%2Fetc%2Fpasswd"), student_of("100%")
+    ('../etc/passwd', '100%')
+    """
+    if folder == "%":
+        return ""
+    try:
+        coded = folder.encode("utf-8", "surrogatepass")
+        raw = re.sub(rb"%([0-9A-F]{2})", lambda code: bytes([int(code[1], 16)]), coded)
+        student = raw.decode("utf-8", "surrogatepass")
+        return student if folder_name(student) == folder else folder
+    except UnicodeError:
+        return folder
+
+
+def is_cut(folder: str) -> bool:
+    """Whether the folder's name is that of a student whose name was too long for one.
+
+    >>> is_cut(folder_name("n" * 300)), is_cut(folder_name("n"))
+    (True, False)
+    """
+    return _CUT.search(folder) is not None
+
+
+def _escaped(character: re.Match[str]) -> str:
+    return "".join(f"%{byte:02X}" for byte in character[0].encode("utf-8", "surrogatepass"))
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,5 @@
 """Cells of a table that is opened in a spreadsheet: no text of a stranger is taken for a formula."""
 
-from __future__ import annotations
-
 import re
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")

@@ -1,7 +1,5 @@
 """The empty axes of a worksheet: how far they reach, and whether a drawing finds room on them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -24,8 +22,6 @@ BEFORE = 60.0
 """How far the axes begin before the zero where a pole is set, mm: no pole is farther."""
 READ: Mapping[Diagram, str] = {"acceleration": "max_a", "velocity": "max_v", "displacement": "s"}
 """The reading that is the greatest ordinate of a diagram, or has it among its values."""
-
-
 GIVEN: Mapping[str, Diagram] = {"acceleration": "acceleration", "differentiation": "displacement"}
 """The diagram that the first steps of a construction show, where these are given."""
 

@@ -1,7 +1,5 @@
 """Answers out of a drawing, and a student's own answer put back into it."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

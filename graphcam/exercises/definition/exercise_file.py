@@ -1,7 +1,5 @@
 """Exercise files: TOML in, an exercise out, or one error that says which field is wrong."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Mapping
 from importlib import resources

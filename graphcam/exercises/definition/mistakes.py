@@ -4,8 +4,6 @@ A mistake is a function from the right drawing to a wrong one, with what is said
 given to one construction and go on from there; some change how a length was read.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -3,8 +3,6 @@
 They are drawn from the course's secret and the student's name.
 """
 
-from __future__ import annotations
-
 import hmac
 import json
 import re

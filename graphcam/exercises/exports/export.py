@@ -1,7 +1,5 @@
 """What ``graphcam exercise export`` does: variants for another system, in one folder."""
 
-from __future__ import annotations
-
 import secrets
 from collections.abc import Callable
 from pathlib import Path

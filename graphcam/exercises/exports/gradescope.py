@@ -3,8 +3,6 @@
 The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path
@@ -14,8 +12,7 @@ from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_se
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import sentence
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import read_submission
+from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.reports.student_page import OUTCOMES
 
 SETUP = """#!/usr/bin/env bash

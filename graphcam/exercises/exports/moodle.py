@@ -5,12 +5,10 @@ with no marks and the feedback that belongs to them.  Moodle takes the first tha
 they are read back exactly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import sentence

@@ -4,8 +4,6 @@ The notebook is the same for all; a student's parameters stand on the student's 
 is graded.  A locked cell could not hold them: nbgrader's autograde puts the teacher's cell back in its place.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,7 +11,7 @@ import nbformat
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.grading.gradebook import NOTEBOOK

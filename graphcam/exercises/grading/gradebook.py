@@ -1,7 +1,5 @@
 """nbgrader's grade book: scores entered through nbgrader's own API."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from importlib.util import find_spec
 from typing import Any

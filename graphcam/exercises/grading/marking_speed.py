@@ -1,7 +1,5 @@
 """How many submissions of an exercise one core reads and marks in a second, at level L0, where nothing is run."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,8 +11,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.submission import Submission
+from graphcam.exercises.grading.grade_one import Assignment, Submission, grade
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of

@@ -26,8 +26,6 @@ STORED_AS_THEY_ARE = (
     *("bound", "careful", "too_exact", "alike"),
 )
 """Fields of an answer key whose values are JSON's own."""
-
-
 V = TypeVar("V")
 
 

@@ -8,8 +8,6 @@ A line that runs anywhere between chord and arc is taken for right: a table of p
 program draws a smooth curve.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """What an answer is expected to be, how far a careful hand scatters about it, and how far a given one is off."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple

@@ -3,8 +3,6 @@
 Parameters are drawn until every catalogued mistake can be told.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphcam.errors import DesignError, GraphcamError

@@ -1,7 +1,5 @@
 """The construction drawn again from a student's possible own answers: how later answers depend on earlier ones."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

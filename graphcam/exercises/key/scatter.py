@@ -1,7 +1,5 @@
 """Many careful students draw: what they answer, and how it scatters."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Whether the answers can tell every catalogued mistake from careful work and from every other mistake."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations

@@ -1,7 +1,5 @@
 """What the student is told: where to look again, never what is right."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from graphcam.drafting.ink import Caption, say

@@ -1,7 +1,5 @@
 """Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -10,8 +8,7 @@ import numpy as np
 
 from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.comparing import ComparedAnswer, compare
-from graphcam.exercises.marking.diagnosis import diagnose
+from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagnose
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.record import Marked, Outcome, Record
 

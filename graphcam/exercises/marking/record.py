@@ -1,7 +1,5 @@
 """What marking finds: one record a submission, as plain data."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Monte Carlo of an exercise: how often careful work loses a point, wrong work passes, a mistake is misnamed."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -38,7 +36,6 @@ class _Tally:
     """What is counted of like submissions, over all variants."""
 
     hands: int = 0
-    losing: int = 0
     accepted: int = 0
     too_exact: int = 0
     named: Counter[str] = field(default_factory=Counter[str])
@@ -49,7 +46,6 @@ class _Tally:
         given = (_submission(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
         records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
-        self.losing += sum(record.total < record.of for record in records)
         self.accepted += sum(record.total >= record.of for record in records)
         self.too_exact += sum(record.too_exact for record in records)
         self.named.update(record.diagnosis.misconception if record.diagnosis else NOTHING for record in records)
@@ -125,7 +121,7 @@ def simulate(
             tally.mark(exercise, answer_key, misconception(name).change(drawn))
         step(k + 1, variants)
     rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()}
-    counts = (careful.hands, careful.losing, careful.too_exact)
+    counts = (careful.hands, careful.hands - careful.accepted, careful.too_exact)
     draws = tuple(issued[draw] for draw in range(max(issued) + 1))
     return Simulation(exercise.name, exercise.version, variants, *counts, rows, draws)
 

@@ -1,7 +1,5 @@
 """Answers in a text table: ``answers.toml`` and ``answers.csv``."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -14,6 +12,7 @@ from graphcam.exercises.reading.values import Points, decimal, shown
 from graphcam.words import say
 
 MOST_ROWS = 20_000
+HEADINGS = (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
 MOST_PARTS = 16
 """Parts of a dotted key: tomllib takes minutes for thousands."""
 QUOTED = re.compile(r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
@@ -61,7 +60,7 @@ def csv_values(name: str, data: bytes) -> dict[str, float | Points | UnreadableE
             cells = [cell.strip() for cell in row]
             while cells and not cells[-1]:
                 cells.pop()
-            if cells and not (count == 0 and _is_heading(cells)):
+            if cells and not (count == 0 and [cell.lower() for cell in cells] in HEADINGS):
                 rows.setdefault(cells[0], []).append(cells[1:])
     except csv.Error:
         raise UnreadableError(say("{name} is not valid CSV", name=name)) from None
@@ -123,10 +122,6 @@ def _longest_key(text: str) -> int:
             parts += 1
             longest = max(longest, parts)
     return longest
-
-
-def _is_heading(cells: list[str]) -> bool:
-    return [cell.lower() for cell in cells] in (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
 
 
 def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableError:

@@ -1,7 +1,5 @@
 """Answers in a notebook: tagged cells of literals, parsed and never run."""
 
-from __future__ import annotations
-
 import ast
 import json
 import warnings

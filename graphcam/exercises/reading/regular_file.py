@@ -1,15 +1,15 @@
 """The bytes of a file that a stranger put there: a regular file of bounded size, or a reason why not."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat
+from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
 
 
+@dataclass(eq=False, repr=False)
 class UnreadableError(Exception):
     """A submission that cannot be read; ``why`` is the sentence for the record.
 
@@ -17,9 +17,7 @@ class UnreadableError(Exception):
     answers.toml is empty
     """
 
-    def __init__(self, why: Caption) -> None:
-        super().__init__(why)
-        self.why = why
+    why: Caption
 
     def __str__(self) -> str:
         return str(self.why)

@@ -1,7 +1,5 @@
 """A student's folder: which of its files hold answers, and what they say together."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
@@ -24,11 +22,6 @@ LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
 """Bytes of a file that are read."""
 Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
 """Values by name out of a file's bytes, and sentences on it."""
-
-
-def data_of_notebook(name: str, data: bytes) -> tuple[Mapping[str, Any], list[Caption]]:
-    """The literals of a notebook's answer cell."""
-    return notebook_values(name, data), []
 
 
 def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[UnreadableError]]:
@@ -59,7 +52,7 @@ def from_files(
     asked: Iterable[Asked],
     files: Mapping[str, bytes],
     notes: Iterable[Caption] = (),
-    notebook: Reader = data_of_notebook,
+    notebook: Reader | None = None,
     rooms: Mapping[str, PaperArea] | None = None,
 ) -> Answers:
     """What the files answer.
@@ -67,11 +60,12 @@ def from_files(
     asked : the answers that there should be
     files : bytes by name, as :func:`read_files` finds them
     notes : sentences on files that could not be read
-    notebook : how the notebook is read, or run
+    notebook : how the notebook is run; None reads the literals of its answer cell
     rooms : by the answer's name, where on the paper a drawn one can lie
     """
     asked, notes = list(asked), list(notes)
     given: dict[str, list[Any]] = {}
+    notebook = notebook or _table(notebook_values)
     readers: dict[str, Reader] = {TOML: _table(toml_values), CSV: _table(csv_values), NOTEBOOK: notebook}
     for name in (name for name in readers if name in files):
         try:

@@ -1,7 +1,5 @@
 """What an answer may be: a finite number, or points in mm of paper."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

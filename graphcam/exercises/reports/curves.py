@@ -1,7 +1,5 @@
 """Curves and points on a page, as paths of an SVG: the student's over the key, or the student's alone."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

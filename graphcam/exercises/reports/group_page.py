@@ -1,7 +1,5 @@
 """The report on a group: how far off each step was, which mistakes were made, and what to teach again."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """All files of a graded course, written together; the grades are CSV that is safe to open in a spreadsheet."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -9,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from graphcam.exercises.course.folder_names import folder_name
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey

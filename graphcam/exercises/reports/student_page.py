@@ -1,7 +1,5 @@
 """The page a student gets: what was right, where to look again, the own curve; never the key."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from graphcam.exercises.definition.exercise import Asked, Exercise

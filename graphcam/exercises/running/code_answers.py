@@ -1,7 +1,5 @@
 """Answers that a student's code hands out: run, limited, and read as the untrusted data they are."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress

@@ -5,8 +5,6 @@ the answers out as lines of JSON on a pipe.  It guards nothing: the limits are s
 whoever reads the pipe trusts nothing that comes out of it.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource

@@ -1,7 +1,5 @@
 """Levels of isolation, and what a student's code may use up."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

@@ -1,12 +1,11 @@
 """What this machine can hold students' code in, found out by trying."""
 
-from __future__ import annotations
-
 import functools
 import json
 import os
 import sys
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import GraphcamError
@@ -45,6 +44,7 @@ if {closed}:
 """What must fail inside; ``broken`` names what did not."""
 
 
+@dataclass(eq=False, repr=False)
 class LevelError(GraphcamError):
     """A level of isolation that this machine, or this command, does not give.
 
@@ -52,10 +52,8 @@ class LevelError(GraphcamError):
     level L2 is not available: the program bwrap is not installed
     """
 
-    def __init__(self, level: Level, why: str) -> None:
-        super().__init__(level, why)
-        self.level = level
-        self.why = why
+    level: Level
+    why: str
 
     def __str__(self) -> str:
         return f"level {self.level} is not available: {self.why}"
@@ -105,7 +103,7 @@ def _broken(level: Level) -> str:
 
     with tempfile.NamedTemporaryFile(dir=_outside()) as canary, socket.create_server(("127.0.0.1", 0)) as server:
         Path(canary.name).chmod(0o644)
-        size = {"processes": FEW.processes + _margin(), "memory": FEW.memory}
+        size = {"processes": FEW.processes + (0 if os.getuid() == 0 else 4096), "memory": FEW.memory}
         hidden = {"canary": canary.name, "port": server.getsockname()[1]}
         escapes = ESCAPES.format(closed=level is Level.L2, **size, **hidden)
         ended = run_cells(level, [escapes], ["broken"], FEW)
@@ -121,7 +119,3 @@ def _outside() -> Path:
     """A folder that is not hidden by the sandbox's own /tmp."""
     home = Path.home()
     return home if os.access(home, os.W_OK) else Path.cwd()
-
-
-def _margin() -> int:
-    return 0 if os.getuid() == 0 else 4096

@@ -1,7 +1,5 @@
 """A process that is ended in time, whatever it does, and whose output fills no memory."""
 
-from __future__ import annotations
-
 import os
 import selectors
 import signal

@@ -1,7 +1,5 @@
 """The command lines that start the launcher at each level, and what it finds there."""
 
-from __future__ import annotations
-
 import functools
 import importlib.util
 import json

@@ -1,0 +1,111 @@
+"""The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
+
+import shlex
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from typer import Argument, Option
+
+import graphcam
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_bar, progress_lines
+from graphcam.files import write_new
+
+DEFAULT_NOTEBOOK = DEFAULT_FOLDER / "notebook"
+
+
+def notebook(
+    task: TaskFile = None,
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_NOTEBOOK,
+    run: Annotated[bool, Option("--execute", help="Execute it, so that it holds its figures.")] = False,
+    html: Annotated[bool, Option("--html", help="Execute it and make a page that stands alone.")] = False,
+    pdf: Annotated[bool, Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
+    language: Annotated[str | None, Option(metavar="NAME", help="Of the captions, not the task's.")] = None,
+) -> None:
+    """Write the step-by-step notebook of a task.
+
+    [bold]Examples[/bold]
+
+    graphcam notebook
+
+    graphcam notebook cam.toml --out lesson
+
+    graphcam notebook cam.toml --out lesson --html --pdf
+
+    Executing needs the extra: pip install 'graphcam\\[notebooks]'
+    """
+    with one_message():
+        given = graphcam.builtin_task() if task is None else graphcam.load_task(task)
+        if language is not None:
+            given = replace(given, drawing=replace(given.drawing, language=language))
+        # Loads nbconvert: only when the input has been found right.
+        from graphcam.notebooks.notebook_folder import write_folder
+
+        files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
+    typer.echo(f"{out}: " + ", ".join(files))
+
+
+DEFAULT_BENCH = DEFAULT_FOLDER / "bench"
+
+
+def bench(
+    quick: Annotated[bool, Option("--quick", help="Fewer and shorter measurements: half a minute.")] = False,
+    out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_BENCH,
+) -> None:
+    """Report speed against error: drawn, sampled and exact, beside what else one would use.
+
+    [bold]Examples[/bold]
+
+    graphcam bench --quick
+
+    graphcam bench --out bench
+    """
+    from graphcam.bench import bench_report as report
+    from graphcam.bench.bench_files import FILES, bench as measure, tables
+
+    with one_message():
+        measured = measure(report.QUICK if quick else report.FULL, out, progress_lines(quiet=False))
+    for table in tables(measured):
+        if table.brief:
+            print_table(table.columns, table.rows, table.words, title=table.title, title_justify="left")
+    typer.echo(f"{out}: " + ", ".join(FILES))
+
+
+def sweep(
+    space: Annotated[Path, Argument(metavar="SPACE.toml", help="File with the values of every size.")],
+    out: Annotated[Path, Option(metavar="FILE", help="Results, a row a design: .csv or .parquet.")],
+    workers: Annotated[int, Option(min=1, help="Processes that compute.")] = 1,
+) -> None:
+    """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
+
+    [bold]Examples[/bold]
+
+    graphcam sweep space.toml --out results.csv
+
+    graphcam sweep space.toml --out results.parquet --workers 8
+    """
+    from graphcam.sweeps.space import load_space
+    from graphcam.sweeps.sweep_file import sweep_to_file
+    from graphcam.workers import executor_of
+
+    with one_message(), progress_bar("designs") as step:
+        designs = load_space(space)
+        with executor_of(workers) as executor:
+            sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
+    typer.echo(f"{out}: {len(designs)} designs")
+
+
+def init(
+    file: Annotated[Path, Argument(metavar="FILE", help="Name of the task file to write; it must not be there yet.")],
+) -> None:
+    """Write a task file in which every key is explained: the coursework task, to be changed.
+
+    [bold]Examples[/bold]
+
+    graphcam init cam.toml
+    """
+    with one_message():
+        write_new(file, resources.files("graphcam").joinpath("data", "commented.toml").read_text(encoding="utf-8"))
+    typer.echo(f"{file} is written; solve it with: graphcam solve {shlex.quote(str(file))}")
