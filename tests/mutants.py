@@ -52,10 +52,15 @@ class Room:
     tests: tuple[str, ...]
 
 
+DRAWN = ("integration", "translating", "profile", "arms", "flat_faces", "arcs", "axes", "differentiation", "force_plan")
+"""Whose marks are tested each in a file of its own: these are quick, so they come first."""
 ROOMS = {
     "constructions": Room(
         ("graphcam/constructions", "graphcam/drafting"),
-        ("graphcam/drafting", "graphcam/constructions", "tests/drafting", "tests/constructions"),
+        (
+            *("tests/drafting", *(f"tests/constructions/test_marks_of_{drawn}.py" for drawn in DRAWN)),
+            *("tests/constructions/test_acts.py", "graphcam/drafting", "graphcam/constructions", "tests/constructions"),
+        ),
     ),
     "marking": Room(
         ("graphcam/exercises/marking",),
