@@ -19,6 +19,8 @@ from graphcam.tasks.task_file import builtin_task
 
 NONE = "–"
 Cell = str | int | float | None
+FIGURES = ("bench-parts", "bench-time", "bench-pencil")
+FILES = ("bench.md", "bench.csv", "bench.json", *(f"{name}.{kind}" for name in FIGURES for kind in ("pdf", "png")))
 
 
 @dataclass(frozen=True)
@@ -149,10 +151,6 @@ def _drawing(report: Report) -> TextTable:
         "In sine-cosine pairs, 12 parts a phase: what is read, then what is drawn of it, then the sheet of all of it."
     )
     return TextTable("Readings, steps and rendering", note, ("follower", "construction", "readings", "steps"), rows, 2)
-
-
-FIGURES = ("bench-parts", "bench-time", "bench-pencil")
-FILES = ("bench.md", "bench.csv", "bench.json", *(f"{name}.{kind}" for name in FIGURES for kind in ("pdf", "png")))
 
 
 def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None] | None = None) -> Report:

@@ -33,6 +33,18 @@ SWEEPS = (
     ("arm", "3-4-5"),
 )
 """Followers and laws."""
+RIVAL_STATIONS = 360
+RIVAL_RUNS = 40
+GOALS = (
+    dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
+    | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
+    | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
+)
+"""Of the laws: polynomial, trigonometric, piecewise."""
+SUMMED = 10_000_000
+"""Values of the running sums."""
+HALVINGS = 8
+"""Of the chords between three points of a curve, from 0.1 rad on."""
 
 
 @dataclass(frozen=True)
@@ -80,20 +92,6 @@ def _error(many: Designs) -> float:
     cams = [some.cam(k).extremes() for k in range(LOOPED)]
     exact = [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in cams]
     return float(np.abs(np.array([found[name] for name in QUANTITIES[:3]]).T / np.array(exact) - 1).max())
-
-
-RIVAL_STATIONS = 360
-RIVAL_RUNS = 40
-GOALS = (
-    dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
-    | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
-    | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
-)
-"""Of the laws: polynomial, trigonometric, piecewise."""
-SUMMED = 10_000_000
-"""Values of the running sums."""
-HALVINGS = 8
-"""Of the chords between three points of a curve, from 0.1 rad on."""
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,16 @@ from graphcam.tasks.task_writer import task_files
 TEMPLATES = Path(__file__).parent / "templates"
 SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
 """What a page shows of an output, the first that there is; of sliders it shows the stills."""
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
+"""Programs of Chromium's family, by the names they are installed under."""
+NO_BROWSER = (
+    "there is no Chromium to print it",
+    "install Chromium or Chrome, or print the page of --html from your browser",
+)
+"""Why there is no PDF, and what to do."""
+LONGEST = 120
+"""Seconds that printing may take."""
+NOTEBOOK, PAGE, PRINT = "notebook.ipynb", "notebook.html", "notebook.pdf"
 
 
 class _Renderer(IPythonRenderer):
@@ -79,17 +89,6 @@ def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     return page
 
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
-"""Programs of Chromium's family, by the names they are installed under."""
-NO_BROWSER = (
-    "there is no Chromium to print it",
-    "install Chromium or Chrome, or print the page of --html from your browser",
-)
-"""Why there is no PDF, and what to do."""
-LONGEST = 120
-"""Seconds that printing may take."""
-
-
 def browser() -> str | None:
     """The path of an installed Chromium, or None."""
     return next((path for name in BROWSERS if (path := shutil.which(name))), None)
@@ -117,9 +116,6 @@ def print_pdf(page: Path, pdf: Path) -> None:
     if done.returncode or not pdf.exists():
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise OutputError(pdf, f"{Path(program).name} says: {last}", "print the page of --html from your browser")
-
-
-NOTEBOOK, PAGE, PRINT = "notebook.ipynb", "notebook.html", "notebook.pdf"
 
 
 def write_folder(

@@ -12,6 +12,8 @@ from graphcam.errors import GraphcamError
 
 PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
+LONGEST = 120
+"""Seconds that one cell may take."""
 
 
 @dataclass(eq=False, repr=False)
@@ -40,10 +42,6 @@ def needed(library: str, what: str) -> ModuleType:
         return import_module(library)
     except ImportError as error:
         raise MissingExtraError(what, library.split(".", maxsplit=1)[0]) from error
-
-
-LONGEST = 120
-"""Seconds that one cell may take."""
 
 
 @dataclass(eq=False, repr=False)

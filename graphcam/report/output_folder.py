@@ -32,6 +32,10 @@ from graphcam.tasks.sheet_tables import one_of
 POINTS = 720
 """On the profile: one for every half degree of the cam angle."""
 NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
+DXF = "plain", "cad"
+"""Kinds of DXF."""
+SHEETS = "pdf", "svg", "png", "dxf"
+"""The kinds of files that show the sheet."""
 
 
 def write_profile(cam: Cam, folder: Path, kinds: Collection[str] = tuple(NAMES)) -> dict[str, str]:
@@ -69,12 +73,6 @@ def _write_xyz(cut: CutProfile, path: Path) -> None:
     closed = np.append(cut.points, cut.points[:1], axis=0)
     lines = (f"{x:.9f}\t{y:.9f}\t{0:.9f}\n" for x, y in closed.tolist())
     path.write_text("".join(lines), encoding="ascii", newline="\n")
-
-
-DXF = "plain", "cad"
-"""Kinds of DXF."""
-SHEETS = "pdf", "svg", "png", "dxf"
-"""The kinds of files that show the sheet."""
 
 
 def check_choices(

@@ -28,6 +28,46 @@ from graphcam.sheets.styles import STYLES, Style
 
 MM_PER_POINT = 25.4 / 72
 ANCHORS = {"left": "", "center": " middle", "right": " end"}
+WORDS: Mapping[str, Caption] = {
+    "construction": say("Construction"),
+    "mechanism": say("Mechanism"),
+    "contents": say("Contents"),
+    "readings": say("Readings"),
+    "drawing": say("The drawing"),
+    "steps": say("Steps"),
+    "step": say("Step"),
+    "first": say("First step"),
+    "previous": say("Previous step"),
+    "next": say("Next step"),
+    "last": say("Last step"),
+    "chapter_back": say("Previous construction"),
+    "chapter_on": say("Next construction"),
+    "closer": say("Closer"),
+    "farther": say("Farther away"),
+    "whole": say("Whole sheet"),
+    "follow": say("Follow the step"),
+    "sheet": say("Sheet"),
+    "print": say("Print the sheet"),
+    "theme": say("Light or dark"),
+    "keyboard": say("Keys: ← → steps, Page Up and Page Down constructions, Home and End, + − 0 zoom, M mechanism"),
+    "all_values": say("All values"),
+    "place": say("station"),
+    "paper": say("on paper"),
+    "value": say("value"),
+    "play": say("Turn"),
+    "pause": say("Stop"),
+    "angle": say("Cam angle φ"),
+    "speed": say("Turns a minute"),
+    "pressure_angle": say("Pressure angle α"),
+    "displacement": say("Displacement s"),
+    "velocity": say("Velocity v"),
+    "normal": say("normal"),
+    "motion": say("motion"),
+    "noscript": say("Without JavaScript the finished sheet is shown."),
+}
+"""What the page itself says."""
+MARGIN = 8.0
+"""Around what a step shows when it is looked at closely [mm]."""
 
 
 def group_svg(group: Group, height: float) -> str:
@@ -104,48 +144,6 @@ def _xy(points: Points, height: float) -> list[str]:
 def _number(mm: float) -> str:
     """A length to 0.01 mm, without idle digits."""
     return f"{mm:.2f}".rstrip("0").rstrip(".") if round(mm, 2) else "0"
-
-
-WORDS: Mapping[str, Caption] = {
-    "construction": say("Construction"),
-    "mechanism": say("Mechanism"),
-    "contents": say("Contents"),
-    "readings": say("Readings"),
-    "drawing": say("The drawing"),
-    "steps": say("Steps"),
-    "step": say("Step"),
-    "first": say("First step"),
-    "previous": say("Previous step"),
-    "next": say("Next step"),
-    "last": say("Last step"),
-    "chapter_back": say("Previous construction"),
-    "chapter_on": say("Next construction"),
-    "closer": say("Closer"),
-    "farther": say("Farther away"),
-    "whole": say("Whole sheet"),
-    "follow": say("Follow the step"),
-    "sheet": say("Sheet"),
-    "print": say("Print the sheet"),
-    "theme": say("Light or dark"),
-    "keyboard": say("Keys: ← → steps, Page Up and Page Down constructions, Home and End, + − 0 zoom, M mechanism"),
-    "all_values": say("All values"),
-    "place": say("station"),
-    "paper": say("on paper"),
-    "value": say("value"),
-    "play": say("Turn"),
-    "pause": say("Stop"),
-    "angle": say("Cam angle φ"),
-    "speed": say("Turns a minute"),
-    "pressure_angle": say("Pressure angle α"),
-    "displacement": say("Displacement s"),
-    "velocity": say("Velocity v"),
-    "normal": say("normal"),
-    "motion": say("motion"),
-    "noscript": say("Without JavaScript the finished sheet is shown."),
-}
-"""What the page itself says."""
-MARGIN = 8.0
-"""Around what a step shows when it is looked at closely [mm]."""
 
 
 @dataclass(frozen=True)

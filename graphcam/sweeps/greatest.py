@@ -34,6 +34,13 @@ CLOSER = 1 / 32
 """Nearer the phase's ends the places follow at this ratio, for small prime radii move the extremes there ..."""
 CLOSEST = 1e-12
 """... down to this distance."""
+BLOCK = 16_384
+"""Places that are looked at together: their arrays stay in the cache, and bound the memory."""
+CLOSE = 1e-8
+"""A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
+PATIENCE = 6
+"""After so many steps every other one halves the bracket."""
+Numbers = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,15 +124,6 @@ class Legs:
         second = first * rate
         j = second * rate * f[3] if len(f) > 3 else np.asarray(np.nan)
         return self.lift * f[0], first * f[1], second * f[2], j
-
-
-BLOCK = 16_384
-"""Places that are looked at together: their arrays stay in the cache, and bound the memory."""
-CLOSE = 1e-8
-"""A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
-PATIENCE = 6
-"""After so many steps every other one halves the bracket."""
-Numbers = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)

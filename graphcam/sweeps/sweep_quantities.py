@@ -18,6 +18,11 @@ from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
 
+QUANTITIES = (
+    *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
+    *("max_v", "max_a", "feasible"),
+)
+
 
 class Steepness(Sought):
     """tan(alpha), which grows with the pressure angle."""
@@ -44,12 +49,6 @@ class Sharpness(Sought):
     def slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
         return self.kin.curvature_slope(values)
-
-
-QUANTITIES = (
-    *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
-    *("max_v", "max_a", "feasible"),
-)
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,6 +28,10 @@ from graphcam.exercises.running.probe import require
 from graphcam.files import OutputError
 from graphcam.workers import BATCH, WorkerPool, cluster, processes, results
 
+Records = list[dict[str, Any]]
+"""Records as JSON takes them, in the order of the students' names."""
+CRASHED = say("the grader broke down over this hand-in; look at it by hand")
+
 
 @dataclass(frozen=True)
 class Store:
@@ -204,11 +208,6 @@ def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
         with suppress(GraphcamError):
             found[record["student"]] = AnswerKey.from_json(kept.find(record["student"]))
     return found
-
-
-Records = list[dict[str, Any]]
-"""Records as JSON takes them, in the order of the students' names."""
-CRASHED = say("the grader broke down over this hand-in; look at it by hand")
 
 
 def grade_folder(

@@ -23,6 +23,12 @@ from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.submission_files import DXF, from_files, read_files
 from graphcam.exercises.running.levels import Level, ResourceLimits
 
+READING = 10.0
+"""Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
+
+Of the processor's, so that a busy machine gives the same marks as an idle one.
+"""
+
 
 @dataclass(frozen=True)
 class Submission:
@@ -90,13 +96,6 @@ def read_submission(student: str, folder: Path, answer_key: str = "", assignment
 def _is_aside(entry: os.DirEntry[str], student_of: Callable[[str], str], known: Callable[[str], bool]) -> bool:
     plain = entry.is_file(follow_symlinks=False)
     return entry.name.startswith(".") or (plain and not known(student_of(entry.name)))
-
-
-READING = 10.0
-"""Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
-
-Of the processor's, so that a busy machine gives the same marks as an idle one.
-"""
 
 
 class LateError(BaseException):

@@ -31,6 +31,7 @@ ROUNDING = 1e-9
 """More than rounding makes of a length, of itself."""
 POINT = 1e-9
 """A part of less length is as good as a point, and still has a direction [mm of paper]."""
+Scatter = float | Floats
 
 
 def distance_to_curve(points: Points, curve: Points) -> NDArray[np.float64]:
@@ -100,9 +101,6 @@ def _from_segment(along: Floats, up: Floats, height: Floats) -> Floats:
     # The nearest place on the circle belongs to the arc where it lies above the chord.
     on_arc = (outside >= 0) & (radius * above >= (radius - height) * reach)
     return np.where(on_arc, outside, to_chord)
-
-
-Scatter = float | Floats
 
 
 class Off(NamedTuple):

@@ -21,6 +21,8 @@ MARGIN = 0.6
 """The bound is set for this part of the permitted rate of losses: a rate from finitely many hands is uncertain."""
 TOO_EXACT = 5e-4
 """A submission is remarked on as too exact where so few careful hands are as near to the key."""
+MOST_DRAWS = 400
+"""Draws after which an exercise is held to have no variant that can be diagnosed."""
 
 
 def draw_key(variant: Variant) -> AnswerKey | None:
@@ -67,10 +69,6 @@ def draw_key(variant: Variant) -> AnswerKey | None:
         dependences=dependences(exercise, drawn.right, keys, bound),
         too_exact=float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
     )
-
-
-MOST_DRAWS = 400
-"""Draws after which an exercise is held to have no variant that can be diagnosed."""
 
 
 def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, AnswerKey]:

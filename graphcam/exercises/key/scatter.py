@@ -23,6 +23,8 @@ CALCULATED = 1e-3
 """Relative standard deviation of what is only calculated: three figures are carried."""
 NORMAL_95 = 1.959964
 """95 % of normally distributed values lie within so many standard deviations."""
+PROFILES = ("inversion", "working_profile")
+"""Constructions about the cam centre, whose curves are closed."""
 
 
 def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
@@ -123,10 +125,6 @@ def bulges(chain: Chain, asked: Asked) -> Floats:
         return found[:-1]
     found[stations.last] = np.tan(_dwells(points, stations) / 4)
     return found
-
-
-PROFILES = ("inversion", "working_profile")
-"""Constructions about the cam centre, whose curves are closed."""
 
 
 def _bulge(start: Points, middle: Points, end: Points) -> Floats:

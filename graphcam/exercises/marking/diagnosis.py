@@ -15,6 +15,14 @@ MOST_POINTS = 20_000
 """No curve by hand has more, and no submission shall keep the marking busy."""
 LARGEST = 1e15
 """No reading is larger, and no number up to here makes the arithmetic overflow."""
+FAR = 5.0
+"""Beyond so many standard deviations an answer speaks against a mistake no more: it may be a slip of its own."""
+ALIKE = 0.1
+"""A mistake that is at least this part as probable as the best one is not told from it."""
+SURE = 0.5
+"""A diagnosis less probable than this, together with those alike, is not made."""
+HOPELESS = 30.0
+"""A mistake worse by so much, in twice the logarithm of the probability, is not looked for in what is drawn."""
 
 
 class ComparedAnswer(NamedTuple):
@@ -57,16 +65,6 @@ def _readable(asked: Asked, answers: Answers) -> Given | None:
     # Compared this way round, for a NaN is not less than anything.
     fits = np.issubdtype(given.dtype, np.number) and bool((np.abs(given) <= LARGEST).all())
     return given.astype(np.complex128) if fits else None
-
-
-FAR = 5.0
-"""Beyond so many standard deviations an answer speaks against a mistake no more: it may be a slip of its own."""
-ALIKE = 0.1
-"""A mistake that is at least this part as probable as the best one is not told from it."""
-SURE = 0.5
-"""A diagnosis less probable than this, together with those alike, is not made."""
-HOPELESS = 30.0
-"""A mistake worse by so much, in twice the logarithm of the probability, is not looked for in what is drawn."""
 
 
 class _Explanation(NamedTuple):

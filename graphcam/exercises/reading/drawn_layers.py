@@ -15,6 +15,12 @@ TOUCHING = 0.2
 """Ends as near as this meet, mm: the width of a pencil line."""
 MOST_PIECES = 5000
 """Pieces that are joined; nobody draws one curve of more."""
+ORIGIN = "origin"
+"""The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
+SAME = 3
+"""Points that agree to so many decimals of a mm are one."""
+LISTED = 8
+"""Layers that a sentence names."""
 
 
 def one_curve(layer: str, pieces: list[Points]) -> Points:
@@ -93,14 +99,6 @@ def _distinct(pieces: list[Points]) -> list[Points]:
             kept.append(piece)
             seen.add(key)
     return kept
-
-
-ORIGIN = "origin"
-"""The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
-SAME = 3
-"""Points that agree to so many decimals of a mm are one."""
-LISTED = 8
-"""Layers that a sentence names."""
 
 
 @dataclass

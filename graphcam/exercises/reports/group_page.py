@@ -18,6 +18,15 @@ from graphcam.words import say
 
 WIDTH, HEIGHT, LETTERS = 640, 70, 18
 """Pixels: of the chart, and of the line of labels under it."""
+EDGE = 8.0
+"""Pencil units that the diagrams show; what is farther off is counted in the last bar."""
+BARS = 32
+WEAK = 0.8
+"""A step that earned less than this part of its marks is taught again."""
+COMMON = 0.05
+"""A mistake that at least this part of the group made is taught again."""
+LARGEST_PICTURES = 6
+"""Drawings that are shown singly for each curve: those farthest off."""
 
 
 @dataclass(frozen=True)
@@ -68,11 +77,6 @@ def stacked(
     anchors = {0.0: "start", 1.0: "end"}
     placed = tuple((part * WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
     return Chart(tuple(bars), placed, band and (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))
-
-
-EDGE = 8.0
-"""Pencil units that the diagrams show; what is farther off is counted in the last bar."""
-BARS = 32
 
 
 @dataclass(frozen=True)
@@ -137,14 +141,6 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
         for name, made in found.items()
     ]
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.name))
-
-
-WEAK = 0.8
-"""A step that earned less than this part of its marks is taught again."""
-COMMON = 0.05
-"""A mistake that at least this part of the group made is taught again."""
-LARGEST_PICTURES = 6
-"""Drawings that are shown singly for each curve: those farthest off."""
 
 
 def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]) -> str:

@@ -15,6 +15,11 @@ from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
 from graphcam.files import whole_folder
 
+LONG = (
+    *("student", "exercise", "answer", "outcome", "marks", "of"),
+    *("given", "pencil_units", "worst_station", "off_paper_mm"),
+)
+
 
 def write_reports(
     out: Path, exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
@@ -54,12 +59,6 @@ def write_feedback(
         for record in records:
             text = student_page(exercise, record, answer_keys.get(record["student"]))
             (draft / f"{folder_name(record['student'])}.html").write_text(text, encoding="utf-8")
-
-
-LONG = (
-    *("student", "exercise", "answer", "outcome", "marks", "of"),
-    *("given", "pencil_units", "worst_station", "off_paper_mm"),
-)
 
 
 def wide_table(records: Sequence[dict[str, Any]]) -> str:
