@@ -85,6 +85,8 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
         _sharpest(inverted, places.points, triples) for triples in (_neighbours(inverted), _of_rests(inverted, rests))
     ]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
+    # Where nothing rests no arc is near, seen from any place.
+    at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
     before, b, after = (
         hand.take(name, places, which=at[..., k]) for k, name in enumerate(("before B", "B", "after B"))
     )

@@ -112,7 +112,7 @@ class Layer:
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class CadDrawing:
     """A drawing: its layers by their names in small letters; its places are counted from the marked origin."""
 
     layers: dict[str, Layer]
@@ -124,7 +124,7 @@ class Drawn:
         ------
         UnreadableError : no such layer, or no points on it
 
-        >>> Drawn({"touch": Layer(points=[1 + 2j])}).points("TOUCH")
+        >>> CadDrawing({"touch": Layer(points=[1 + 2j])}).points("TOUCH")
         array([1.+2.j])
         """
         layer = self._layer(name)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphcam.exercises.reading.drawn_layers import Drawn, Layer
+from graphcam.exercises.reading.drawn_layers import CadDrawing, Layer
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import MOST_POINTS, Points, shown
 from graphcam.words import say
@@ -40,7 +40,7 @@ WORDS = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "HATCH", "SOLID"
 """What may stand on a layer beside the answer."""
 
 
-def read_dxf(name: str, data: bytes) -> Drawn:
+def read_dxf(name: str, data: bytes) -> CadDrawing:
     """The layers of a DXF file, text or binary, in mm.
 
     The unit of the header counts ($INSUNITS; none means mm), and blocks are dissolved.
@@ -72,7 +72,7 @@ def read_dxf(name: str, data: bytes) -> Drawn:
     # What a stranger wrote into a file can make a library stumble anywhere; it is his answer that is lost then.
     except Exception:  # noqa: BLE001
         raise UnreadableError(say("{name} holds an entity that cannot be read", name=name)) from None
-    return Drawn(layers)
+    return CadDrawing(layers)
 
 
 def _document(name: str, data: bytes) -> Drawing:

@@ -10,7 +10,7 @@ import numpy as np
 from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.definition.exercise import Answers, Asked, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
-from graphcam.exercises.reading.drawn_layers import Drawn
+from graphcam.exercises.reading.drawn_layers import CadDrawing
 from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import notebook_values
 from graphcam.exercises.reading.paper_area import PaperArea
@@ -94,7 +94,7 @@ def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
 def _answers(
     asked: list[Asked],
     given: Mapping[str, list[Any]],
-    drawing: Drawn | None,
+    drawing: CadDrawing | None,
     notes: list[Caption],
     rooms: Mapping[str, PaperArea],
 ) -> Answers:
@@ -118,7 +118,7 @@ def _answers(
     return Answers(values, problems, (*notes, *_unknown(asked, given)))
 
 
-def _drawn(asked: Asked, drawing: Drawn, room: PaperArea | None) -> tuple[Given, list[Caption]]:
+def _drawn(asked: Asked, drawing: CadDrawing, room: PaperArea | None) -> tuple[Given, list[Caption]]:
     """What is drawn, and sentences on it."""
     points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
     if room is None:
