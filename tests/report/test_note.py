@@ -220,7 +220,7 @@ def test_a_loss_of_contact_is_warned_of():
 )
 def test_what_lies_outside_its_bound_is_blamed_on_the_parts_or_on_the_hand(pencil, advice):
     solution = solve(task_of("3-4-5"), pencil)
-    smaller = replace(solution, cam=replace(solution.cam, prime_radius=solution.cam.prime_radius - 5))
+    smaller = replace(solution, cam=replace(solution.cam, prime_radius=solution.cam.prime_radius - 8))
     assert re.search(rf"Outside the bound: .*pressure angle, rise.*; {advice}", against_exact(smaller))
 
 
