@@ -40,9 +40,6 @@ class AccelerationGivens:
     unit: str
 
 
-PAPER = "mm of paper"
-"""The unit of a reading that stands for nothing but its own length."""
-
 AccelerationDiagram = Construction[AccelerationGivens]
 
 
@@ -67,13 +64,10 @@ def acceleration_diagram(
 ) -> AccelerationDiagram:
     """Lay off the cam angle, choose the ordinate of the first rise, compute the others, plot the middle ordinates.
 
-    motion, stations : the phases and how they are divided
     ordinate : greatest ordinate of the first rise [mm of paper]
-    mu_phi : scale of the cam angle [rad/mm]
-    unit : of the lift
+    mu_phi : scale of the cam angle [rad/mm];  unit : of the lift
 
-    Readings, all in mm of paper: ``greatest`` ordinate of each moving phase, ordinates at the ``stations`` (``before``:
-    on the near side of a jump) and at the ``middles`` of the parts, and the ``base``, the length of the axis.
+    Readings besides those of the meaning: ordinates at the ``stations``, and ``before``, on the near side of a jump.
     Points: the stations on the ``axis``.
     """
     hand, phases = Hand(pencil, MEANING), moving_phases(motion, stations)
@@ -100,9 +94,9 @@ def acceleration_diagram(
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
     middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.parts))
     hand.read("greatest", between(axis[begins], tops, UP), 1.0, rounded=False)
-    hand.read("stations", between(axis, plotted, UP), 1.0, PAPER, rounded=False)
     nearer = hand.take("before", plotted, near, which=which)
-    hand.read("before", between(axis, nearer, UP), 1.0, PAPER, rounded=False)
+    for name, ends in (("stations", plotted), ("before", nearer)):
+        hand.read(name, between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
     hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
     hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
     givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
@@ -202,15 +196,11 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
 
 def _curve(diagram: AccelerationDiagram, k: int, phase: Moving, greatest: float, ends: tuple[float, float]) -> Drawn:
     """The law over the k-th phase, from the axis and back to it, upright where the acceleration jumps."""
-    hand, law = showing(diagram), phase.normalised
-    places: list[Floats] = [np.zeros(1)]
-    heights: list[Floats] = [np.zeros(1)]
-    for first, last in pairwise((0.0, *law.jumps, 1.0)):
+    hand, places, heights = showing(diagram), [np.zeros(1)], [np.zeros(1)]
+    for first, last in pairwise((0.0, *phase.normalised.jumps, 1.0)):
         u = np.linspace(first, last, 97)
-        height = law(u)[2]
-        height[-1] = law(u[-1], side="left")[2]
         places.append(u)
-        heights.append(greatest * phase.direction * height / law.peak_acceleration)
+        heights += [greatest * _shape(phase, u[:-1]), greatest * _shape(phase, u[-1:], "left")]
     u = np.concatenate([*places, np.ones(1)])
     feet = hand.given("feet of the law", ends[0] + (ends[1] - ends[0]) * u)
     return hand.lay_off(f"law {k}", feet, UP, np.concatenate([*heights, np.zeros(1)]))

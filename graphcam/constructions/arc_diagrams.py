@@ -75,12 +75,10 @@ def arc_diagrams(
 ) -> Construction[ArcDiagramsGivens]:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
-    rolled : from :func:`~graphcam.constructions.arc_roller.arc_roller`
     mu_phi : scale of the cam angle, and of the pressure angle [rad/mm]
     heights : that the diagrams of a, v and s should keep to [mm of paper]
 
-    Readings: the ``lift``; ``max_v``, ``max_a`` and ``max_alpha``, the greatest magnitudes; ``v_candidates``,
-    ``a_candidates`` and ``alpha_candidates`` (..., 2), highest and lowest, which they were chosen from.
+    Readings besides those of the meaning: the candidates (..., 2), highest and lowest, for each of the greatest.
     Points: the plotted ``a``, ``v``, ``s`` and ``alpha`` of the rise, and ``a_tops`` ..., highest and lowest.
     """
     hand, stations, turn = Hand(pencil, MEANING), rolled.givens.stations, rolled.readings["edges"]
@@ -154,9 +152,8 @@ CARRIED = {
 
 def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
     if np.isnan(plotted.givens.rolled.first("phi")).any():
-        return [
-            Step(say("No diagrams"), say("Without a path of the roller there is nothing to plot."), DISPLACEMENT, ())
-        ]
+        said = say("Without a path of the roller there is nothing to plot.")
+        return [Step(say("No diagrams"), said, DISPLACEMENT, ())]
     return [_diagram(plotted, name) for name in VIEWS]
 
 

@@ -79,9 +79,8 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
     dwell : angle [rad] for which the outer circle holds the follower up
     mu_l : drawing scale [mm/mm]
 
-    Readings [mm]: x and y of ``C1``, ``C2``, ``C3`` and ``F`` as ``C3_x`` ..., and of the other root's ``other_C3`` and
-    ``other_F``; ``rho2``, ``rho3``, and the radii of the circles about the cam centre, ``base`` and ``outer``.
-    Points: these, with ``A``, ``D``, ``G`` and the laid off ``P`` and ``other_P``.
+    Points: ``C1``, ``C2``, ``C3`` and ``F``, the other root's ``other_C3`` and ``other_F``, with ``A``, ``D``, ``G``
+    and the laid off ``P`` and ``other_P``.
     """
     hand, rho1 = Hand(pencil, MEANING), given.rho1 / mu_l.per_mm
     o = hand.given("O")
@@ -206,7 +205,6 @@ def cam(arcs: ArcOutline) -> list[Mark]:
 
 
 def _dots(arcs: ArcOutline, *names: str) -> Dots:
-    """Some of the points, plotted."""
     return showing(arcs).take(" ".join(names), *(arcs.acts[name].first for name in names)).dots()
 
 
@@ -237,7 +235,6 @@ def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONST
 
 
 def _at(arcs: ArcOutline, name: str) -> Caption:
-    """A point's coordinates as they are told."""
     x, y = (float(arcs.value(reading)) for reading in _xy(name))
     return say("({x:.3f}, {y:.3f}) mm", x=x, y=y)
 
@@ -334,8 +331,8 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
         prime=prime, f=_at(arcs, f), orders=_orders(arcs, name)
     )
-    found = (*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role))
-    found = (*found, _dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3))
+    lines = (*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role))
+    found = (*lines, _dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3))
     line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
     if name:
         return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), (*_xy(c3), *_xy(f)))]
@@ -349,11 +346,9 @@ def _orders(arcs: ArcOutline, name: str) -> Caption:
     """What is read off the two lines of centres."""
     first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
     built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
-    verdict = (
-        say("the arcs touch from inside, and the cam can be built") if built else say("such a cam cannot be built")
-    )
+    can, cannot = say("the arcs touch from inside, and the cam can be built"), say("such a cam cannot be built")
     said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
-    return said.where(first=sequence(first), second=sequence(second), verdict=verdict)
+    return said.where(first=sequence(first), second=sequence(second), verdict=can if built else cannot)
 
 
 def _order(arcs: ArcOutline, *names: str) -> list[str]:

@@ -34,11 +34,6 @@ ROLLER = View(
 PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
-JOINTS = (
-    *(("a_A", 0, 0), ("a_G_before", 0, -1), ("a_G_after", 1, 0)),
-    *(("a_F_before", 1, -1), ("a_F_after", 2, 0), ("a_D", 2, -1)),
-)
-"""The accelerations at the ends of the arcs: their names, which arc, and its first or its last station."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +84,7 @@ ENDS = {
     "a_F_after": say("a in {point}, {side}", point="F", side=say("after")),
     "a_D": say("a in {point}", point="D"),
 }
-"""The accelerations at both ends of every arc."""
+"""The accelerations at the first and the last station of every arc, in order."""
 MEANING = Meaning(
     "arc_roller",
     say("The roller on the arcs"),
@@ -131,14 +126,8 @@ MEANING = Meaning(
 def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pencil: Pencil) -> RollerOnArcs:
     """Put the roller on the arcs at every station of the rise, and find s, v and a there.
 
-    arcs : from :func:`~graphcam.constructions.arc_outline.three_arcs`
-    roller_radius : mm
-
-    Readings: ``s``, ``v``, ``a`` [mm, per radian] and ``alpha`` [rad] at the stations, ``phi`` there [rad], ``x`` and
-    ``y`` of the roller's centre [mm]; the cam angles ``edges`` (..., 4) [rad] where the arcs begin and the last one
-    ends, and alone ``rise``, ``phi_G`` and ``phi_F``; the ``lift``, the ``prime_radius``, the ``roller_radius`` and
-    the least radius of curvature ``rho`` of the roller's path [mm]; the accelerations on both sides of the joints,
-    ``a_A``, ``a_G_before``, ``a_G_after``, ``a_F_before``, ``a_F_after`` and ``a_D``.
+    Readings besides those of the meaning: the cam angles ``phi`` of the stations, and ``edges`` (..., 4) where the arcs
+    begin and the last one ends.
     Points: ``B``, ``C`` the centre of its arc, ``K``, ``right`` the corner of the right angle, ``beyond`` where it cuts
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
@@ -181,8 +170,8 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     hand.read("prime_radius", prime_radius, mu_l)
     hand.read("roller_radius", between(touch[3], trace[3]), mu_l)
     hand.read("rho", reckoned(np.minimum, between(c1, trace[3]), prime_radius), mu_l)
-    for name, of, end in JOINTS:
-        at = range(stations.u.size)[stations.spans[of]][end]
+    ends = [at for span in stations.spans for at in (span.start, span.stop - 1)]
+    for name, at in zip(ENDS, ends, strict=True):
         hand.read(name, between(m[at], o, rays[at]), mu_l)
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace}
     givens = ArcRollerGivens(arcs, roller_radius, stations)
@@ -304,7 +293,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     titles = say("Velocity at station {name}", name=station), say("Acceleration at station {name}", name=station)
     return [
         Step(titles[0], velocity, PLAN, _velocity(hand, p, centre, side)),
-        Step(titles[1], acceleration, PLAN, _acceleration(hand, p, side), ("v", "a", *(name for name, *_ in JOINTS))),
+        Step(titles[1], acceleration, PLAN, _acceleration(hand, p, side), ("v", "a", *ENDS)),
     ]
 
 
@@ -333,5 +322,4 @@ def _acceleration(hand: Hand, p: Mapping[str, Drawn], side: float) -> tuple[Mark
 
 
 def _row(hand: Hand, p: Mapping[str, Drawn], *names: str) -> Drawn:
-    """Some of the plan's points."""
     return hand.take(" ".join(names), *(p[name] for name in names))

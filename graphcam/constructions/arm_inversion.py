@@ -50,10 +50,7 @@ def arm_inversion(
 ) -> Construction[ArmInversionGivens]:
     """Step the pivot off on its circle, swing the arm to the prime circle, and turn it by the displacement.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
-    mu_l : drawing scale of the profile [mm/mm]
-
-    Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
+    integrated : of an angle s [rad];  mu_l : drawing scale of the profile [mm/mm]
     """
     hand, s = Hand(pencil, MEANING), integrated.readings["s"]
     prime = profile_view.prime_circle(hand, prime_radius, mu_l)

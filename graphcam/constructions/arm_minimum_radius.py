@@ -68,8 +68,7 @@ def arm_positions(
 ) -> Mapping[str, Drawn]:
     """Lay the displacements off as angles of the arm, and the velocities as segments along it.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
-    arm : length [mm]; mu_l : scale of the drawing [mm/mm]
+    integrated : of an angle s [rad];  arm : length [mm];  mu_l : scale of the drawing [mm/mm]
     returns : by name the ``pivot``; the ``arm at rest``, on its left, with its end, the ``start``; the ``arms``, that
         swing clockwise from there, with their ``ends`` B; and the ``tips`` D of the segments
     """
@@ -95,8 +94,6 @@ def arm_least_radius(
 
     arm : length [mm]; distance : of the pivot from the cam centre [mm], or None to let it be found
     mu_l : scale of the drawing [mm/mm]
-
-    Readings: ``prime_radius`` and ``distance`` [mm].
     """
     hand, givens = Hand(pencil, MEANING), ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
@@ -184,10 +181,7 @@ def _nearest_on(hand: Hand, lines: Drawn, circle: Drawn) -> Drawn:
 
 
 def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
-    """The stretches (k, 2) of centre distances [mm] at which a prime radius [mm] keeps the limits, on one drawing.
-
-    region : from :func:`arm_least_radius`
-    """
+    """The stretches (k, 2) of centre distances [mm] at which a prime radius [mm] keeps the limits, on one drawing."""
     arm, mu = region.givens.arm / region.givens.mu_l.per_mm, region.givens.mu_l.per_mm
     start, radius = -arm + 0j, prime_radius / mu
     lines = region.acts["lines"].first
@@ -230,35 +224,22 @@ def _draw(region: ArmRegion) -> list[Step]:
         permitted = say("{rise} on the rise and {back} on the return", **angles)
     most = np.degrees(integrated.value("s").max())
     positions = (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
+    turned = say(
+        "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the displacements up "
+        "to {most:.2f}°."
+    ).where(ratio=ratio_text(mu_l.per_mm), arm=region.givens.arm / mu_l.per_mm, most=most)
+    along = say(
+        "Along every position the segment l·ds/dφ is laid off from its end, on the rise {side}, at most {longest:.1f} "
+        "mm; the ends D are joined by smooth curves."
+    ).where(side=side, longest=float(lengths.max()))
+    cut_off = say(
+        "Through every D the line at the permitted angle to that arm's normal is drawn: {limits}. The cam centre may "
+        "lie where no line cuts it off."
+    ).where(limits=permitted)
     return [
-        Step(
-            say("Arm positions"),
-            say(
-                "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the "
-                "displacements up to {most:.2f}°."
-            ).where(ratio=ratio_text(mu_l.per_mm), arm=region.givens.arm / mu_l.per_mm, most=most),
-            shown,
-            (*positions, *given, start.label("B₀", -UP)),
-            given=given,
-        ),
-        Step(
-            say("Velocities along the arm"),
-            say(
-                "Along every position the segment l·ds/dφ is laid off from its end, on the rise {side}, at most "
-                "{longest:.1f} mm; the ends D are joined by smooth curves."
-            ).where(side=side, longest=float(lengths.max())),
-            shown,
-            laid_off,
-        ),
-        Step(
-            say("Lines at the permitted angles"),
-            say(
-                "Through every D the line at the permitted angle to that arm's normal is drawn: {limits}. The cam "
-                "centre may lie where no line cuts it off."
-            ).where(limits=permitted),
-            shown,
-            (*_lines(region), _shaded(region)),
-        ),
+        Step(say("Arm positions"), turned, shown, (*positions, *given, start.label("B₀", -UP)), given=given),
+        Step(say("Velocities along the arm"), along, shown, laid_off),
+        Step(say("Lines at the permitted angles"), cut_off, shown, (*_lines(region), _shaded(region))),
         _result(region),
     ]
 
@@ -266,12 +247,10 @@ def _draw(region: ArmRegion) -> list[Step]:
 def _lines(region: ArmRegion) -> list[Segments]:
     """The lines at the limits as far as they matter: from the ends D down towards the region."""
     length, marks = SHOWN_LINE * abs(region.acts["start"].place), list[Segments]()
-    for name in region.acts:
-        if name.startswith("limits: "):
-            lines = region.acts[name].first
-            along = unit(lines.directions)
-            down = np.where(along.imag < 0, along, -along)
-            marks.append(Segments(lines.points, lines.points + length * down, Role.CONSTRUCTION, of=lines.act))
+    for lines in (drawn.first for name, drawn in region.acts.items() if name.startswith("limits: ")):
+        along = unit(lines.directions)
+        down = np.where(along.imag < 0, along, -along)
+        marks.append(Segments(lines.points, lines.points + length * down, Role.CONSTRUCTION, of=lines.act))
     return marks
 
 
@@ -288,8 +267,7 @@ def _shaded(region: ArmRegion) -> Region:
 
 def _result(region: ArmRegion) -> Step:
     title, distance = say("The least prime radius"), region.givens.distance
-    shown = at_scale(REGION, region.givens.mu_l)
-    start, centre = region.acts["start"], region.acts["centre"][0]
+    start, centre, shown = region.acts["start"], region.acts["centre"][0], at_scale(REGION, region.givens.mu_l)
     if np.isnan(centre.place):
         said = say("No cam centre keeps all the limits.")
         if distance is not None:

@@ -66,12 +66,9 @@ def arm_pressure_angle(
 ) -> Construction[ArmPressureAngleGivens]:
     """Measure the pressure angle at every station.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`, of an angle s [rad]
-    prime_radius, arm, distance : of the cam centre A from the start of the lift and from the pivot [mm]
+    integrated : of an angle s [rad]
+    prime_radius, distance : of the cam centre A from the start of the lift and from the pivot [mm]
     mu_l : scale of the drawing [mm/mm]
-
-    Readings at the stations: ``alpha`` and ``transmission`` [rad]; ``psi0`` between arm and line of centres at the
-    start of the lift [rad].
     """
     hand = Hand(pencil, MEANING)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)

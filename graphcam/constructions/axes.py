@@ -160,8 +160,7 @@ def degree_ticks(mu_phi: Scale) -> tuple[Mark, ...]:
 
 
 def numbered(points: Points, stations: Stations) -> list[int]:
-    """Which stations are named: of each moving phase both ends, and between them every k-th, so that the names find
-    room beside their points.
+    """Which stations are named: of each phase both ends, and every k-th between, so that the names find room.
 
     >>> from math import pi
     >>> import graphcam as gc
@@ -176,8 +175,7 @@ def numbered(points: Points, stations: Stations) -> list[int]:
         between = np.abs(np.diff(points[span]))
         # A covered touch point is none.
         spacing = float(np.nanmedian(between)) if np.isfinite(between).any() else 0.0
-        room = NUMBER_ROOM[parts >= 10]
-        every = next((k for k in EVERY if k * spacing >= room), parts)
+        every = next((k for k in EVERY if k * spacing >= NUMBER_ROOM[parts >= 10]), parts)
         # The last one before the end would stand too near to it.
         found += [span.start + k for k in range(0, parts, every) if k == 0 or parts - k >= every]
         found.append(span.start + parts)

@@ -31,10 +31,7 @@ class FollowerSize:
 
 
 class DrawnFollower(ABC):
-    """A follower on the drawing board: the constructions that are its own, and what it is called.
-
-    A subclass states what differs from a stem with a roller.
-    """
+    """A follower on the drawing board: what differs from a stem with a roller is stated by a subclass."""
 
     place: float | None
     """Where it stands beside the cam [mm]: its offset or centre distance; None where it is to be found."""

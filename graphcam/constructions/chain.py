@@ -70,9 +70,8 @@ class Chain(Drawings):
     @DrawnOnce
     def acceleration(self) -> Construction:
         """The acceleration diagram."""
-        board = self.board
-        given = board.motion, board.stations, board.ordinate, board.mu_phi, board.follower.unit
-        return acceleration_diagram(*given, self.pencil)
+        board, unit = self.board, self.board.follower.unit
+        return acceleration_diagram(board.motion, board.stations, board.ordinate, board.mu_phi, unit, self.pencil)
 
     @DrawnOnce
     def integration(self) -> Construction:
@@ -209,10 +208,8 @@ class Chain(Drawings):
         radius, place = self.board.prime_radius, self.board.follower.place
         if radius is not None and place is not None:
             return radius, place
-        if place is None:
-            place = self._rounded_place()
-        if radius is None:
-            radius = self._rounded_radius(place)
+        place = self._rounded_place() if place is None else place
+        radius = self._rounded_radius(place) if radius is None else radius
         together = lies_in(self._places(radius), place, self.rounding)
         return (radius, place) if together else self._next_together() or (radius, place)
 
@@ -223,7 +220,8 @@ class Chain(Drawings):
         # The region of an arm may end at the distance found: then the circle about the pivot just inside misses it.
         beyond = nearest + (1 if found > nearest else -1)
         rounded = [multiple(count, self.rounding) for count in (nearest, beyond)]
-        return next((place for place in rounded if self.perfect._permits(place)), rounded[0])
+        least = (float(self.perfect._least_radius(place).value("prime_radius")) for place in rounded)
+        return next((place for place, radius in zip(rounded, least, strict=True) if not math.isnan(radius)), rounded[0])
 
     def _rounded_radius(self, place: float) -> float:
         """The next round number above the least radius at a place."""
@@ -245,12 +243,10 @@ class Chain(Drawings):
             first = steps_up(self._proposal("prime_radius"), step)
             radii = [multiple(first + k, step) for k in range(FURTHER)] if given[0] is None else [given[0]]
             for radius in radii:
-                places = self._places(radius)
-                if given[1] is None:
+                places, place = self._places(radius), given[1]
+                if place is None:
                     place = nearest_multiple(places, self._proposal(self.board.follower.place_name), step)
-                else:
-                    place = given[1] if lies_in(places, given[1], step) else None
-                if place is not None:
+                if place is not None and lies_in(places, place, step):
                     return radius, place
         return None
 
@@ -293,9 +289,6 @@ class Chain(Drawings):
     def _least_radius(self, place: float | None) -> Construction:
         board = self.board
         return board.follower.least_radius(self.integration, board.rotation, board.limits, place, self.pencil)
-
-    def _permits(self, place: float) -> bool:
-        return not math.isnan(self._least_radius(place).value("prime_radius"))
 
     def _proposal(self, name: str) -> float:
         return self._readable(self.perfect.minimum_radius, name)

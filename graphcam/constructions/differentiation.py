@@ -109,8 +109,8 @@ def differentiation(
         first; None for a diagram that ends there
     by : "chords", or "tangents" with a mirror ruler; the intervals may be unequal
 
-    Readings: ``v`` and ``a``, and the cam angles they belong to, ``v_at`` and ``a_at``; ``rise`` and ``run`` of every
-    chord or tangent of s [mm of paper]; ``max_v`` and ``max_a``, the greatest ordinates up or down.
+    Readings besides those of the meaning: ``v_at`` and ``a_at``, the cam angles that they belong to; ``rise`` and
+    ``run`` of every chord or tangent of s.
 
     Raises
     ------
@@ -252,22 +252,16 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     said = say_many(
         "The displacement is plotted at {count} station.", "The displacement is plotted at {count} stations.", x.size
     )
-    cyclic = say("After the last of them the revolution goes on with the first.")
-    return Step(
-        say("The displacement"),
-        sequence([said, cyclic], " ") if c.givens.turn else said,
-        _view(c, "s"),
-        (*plotted, _curve(c, "s")),
-        given=plotted,
-    )
+    if c.givens.turn:
+        said = sequence([said, say("After the last of them the revolution goes on with the first.")], " ")
+    return Step(say("The displacement"), said, _view(c, "s"), (*plotted, _curve(c, "s")), given=plotted)
 
 
 def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str, number: int) -> list[Step]:
     derived, distance, by = c.acts[target], c.givens.poles[number - 1], c.givens.by
     rays, heights, index = c.acts[f"rays {number}"], c.acts[f"heights {number}"], f"{number}".translate(SUBSCRIPTS)
     title, traced = (said.where(source=source, count=derived.shown.size) for said in _TRACED[by])
-    kept = once(heights)
-    titled = say("Pole and rays, {source} to {target}", source=source, target=target)
+    kept, titled = once(heights), say("Pole and rays, {source} to {target}", source=source, target=target)
     axes = (*_axes(c, target), *pole_marks(c.acts[f"P{number}"], distance, index, heights.shown.imag))
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act),
@@ -276,12 +270,11 @@ def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str,
     smooth = say(
         "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} mm."
     ).where(greatest=float(c.first(f"max_{target}")))
-    curve = (derived.dots(), _curve(c, target))
     parallel = _RAYS[by].where(index=index, pole=distance, target=target)
     return [
         Step(title, traced, _view(c, source), (_traces(c, number),)),
         Step(titled, parallel, _view(c, target), (*axes, *carried), given=axes),
-        Step(say("Curve of {target}", target=target), smooth, _view(c, target), curve),
+        Step(say("Curve of {target}", target=target), smooth, _view(c, target), (derived.dots(), _curve(c, target))),
     ]
 
 
@@ -306,8 +299,8 @@ def _traces(c: Construction[DifferentiationGivens], number: int) -> Mark:
 
 def _curve(c: Construction[DifferentiationGivens], name: str) -> Mark:
     """The faired curve; of a cyclic diagram over the ends of the turn."""
-    smooth, turn = showing(c), c.givens.turn
-    line = smooth.fair(f"curve of {name}", _going_on(smooth, turn, c.acts[name].first), [slice(None)])
+    hand, turn = showing(c), c.givens.turn
+    line = hand.fair(f"curve of {name}", _going_on(hand, turn, c.acts[name].first), [slice(None)])
     drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
     return line[drawn].line(Role.RESULT)
 

@@ -50,11 +50,7 @@ def flat_inversion(
 ) -> profile_view.Inverted:
     """Lay off r0 + s on the rays, draw the faces, and mark where the profile touches them.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`
     mu_l : drawing scale of the profile [mm/mm]
-
-    Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the profile at the stations; the ``contact`` to the right
-    of the ray, and the face's least half-widths ``face_left`` and ``face_right`` [mm].
     """
     hand, sigma, pieces = Hand(pencil, MEANING), sense(rotation), integrated.givens.stations.pieces
     s, v = integrated.readings["s"], integrated.readings["v"]

@@ -78,10 +78,7 @@ CURVATURE_MEANING = Meaning(
 def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pencil) -> FlatRegion:
     """Find the least prime radius at which the profile is nowhere sharper than permitted.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`
     least_curvature : the least permitted radius of curvature of the profile [mm]
-
-    Readings: ``prime_radius`` and the greatest ``need`` = -(s + a) [mm].
     """
     hand, stations = Hand(pencil, LEAST_RADIUS_MEANING), integrated.givens.stations
     s, a, before = (integrated.readings[name] for name in ("s", "a", "a_before"))
@@ -131,10 +128,7 @@ def _rests(integrated: Integrated) -> NDArray[np.intp]:
 def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> FlatCurved:
     """Read the least radius of curvature of the profile off the same diagram, at the adopted prime radius [mm].
 
-    region : from :func:`flat_least_radius`
-
-    Readings: ``rho`` [mm], negative where the profile under the face would have to turn inside out, and its only
-    candidate.
+    It is negative where the profile under the face would have to turn inside out, and its own only candidate.
     """
     hand, need = Hand(pencil, CURVATURE_MEANING), region.readings["need"]
     origin, zero = hand.given("origin"), hand.found(region, "zero")

@@ -83,13 +83,11 @@ def force_plan(
 ) -> Construction[ForcePlanGivens]:
     """Draw the force plan at a station.
 
-    measured : from :func:`~graphcam.constructions.pressure_angle.pressure_angle`
     guide : None for one without friction
     station : None for the one of :func:`plan_station`
     mu_force : scale of forces [N/mm]; None for a round one
 
-    Readings [N]: ``load``; ``normal``, the contact force, with its parts ``along`` the motion and ``side``, across it;
-    ``friction`` and ``reaction`` of the guide.  NaN where the load does not press, or the guide jams.
+    Readings are NaN where the load does not press, or the guide jams.
     """
     hand, k = Hand(pencil, MEANING), plan_station(measured, load) if station is None else station
     integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.acceleration import AccelerationDiagram
+from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
 from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
@@ -22,7 +22,6 @@ from graphcam.drafting.ink import Caption, Construction, Step, View, say
 from graphcam.drafting.marks import Dimension, Line, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -36,31 +35,11 @@ SAME_HEIGHT = 2e-3
 
 
 @dataclass(frozen=True, eq=False)
-class IntegrationGivens:
-    """The acceleration diagram, and the distances of the two poles [mm of paper]."""
+class IntegrationGivens(AccelerationGivens):
+    """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper]."""
 
     diagram: AccelerationDiagram
     poles: tuple[float, float]
-
-    @property
-    def motion(self) -> Motion:
-        """The motion that the diagram shows."""
-        return self.diagram.givens.motion
-
-    @property
-    def stations(self) -> Stations:
-        """Its stations."""
-        return self.diagram.givens.stations
-
-    @property
-    def mu_phi(self) -> Scale:
-        """The scale of its cam angle [rad/mm]."""
-        return self.diagram.givens.mu_phi
-
-    @property
-    def unit(self) -> str:
-        """The unit of the lift."""
-        return self.diagram.givens.unit
 
 
 Integrated = Construction[IntegrationGivens]
@@ -101,22 +80,19 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     diagram : from :func:`~graphcam.constructions.acceleration.acceleration_diagram`
     poles : H1 (acceleration to velocity) and H2 (velocity to displacement) [mm of paper]
 
-    Readings at the stations: ``s``, ``v``, ``a``, and ``a_before`` on the near side of a jump; ``max_v``, ``max_a``.
-    In mm of paper the closing errors: ``closing_v`` (one a moving phase, taken up by turning its base line) and
-    ``closing_s`` (shared out by the returns).
+    Readings besides those of the meaning: ``a_before``, at the stations as ``a``, on the near side of a jump.
     """
-    givens = IntegrationGivens(diagram, poles)
+    givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
 
-    # First integration.  Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the
-    # base line.
+    # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
     v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
-    # Second integration: the middle ordinate is read from the curve's chord, halfway between its ends.
+    # The middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
     v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
     heights = between(axis, polygons, UP)
@@ -137,18 +113,13 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     down = hand.tangent("lowest v", v, stations.pieces, -UP)
     ends = (between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP), between(down, origin, UP))
     hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
-    hand.read("max_a", reckoned(_greatest, hand.carry(diagram.readings["greatest"])), mu_a)
+    hand.read("max_a", reckoned(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
     hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
     hand.read("closing_s", closing, mu_s, rounded=False)
-    places = {
-        "a_projected": middles.points.real + a_heights.points,
-        "v_chords": v_chords,
-        "v_curve": v,
-        "v_projected": middles.points.real + v_heights.points,
-        "s_chords": s_chords,
-        "s_curve": s,
-    }
-    return hand.finished(givens, _draw, places)
+    projected = {"a_projected": middles.points.real + a_heights.points}
+    projected["v_projected"] = middles.points.real + v_heights.points
+    curves = {"v_chords": v_chords, "v_curve": v, "s_chords": s_chords, "s_curve": s}
+    return hand.finished(givens, _draw, projected | curves)
 
 
 def _integrated(
@@ -186,10 +157,6 @@ def _stacked(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
     raised = (np.cumsum(ends, axis=-1) - ends)[..., stations.moving] - lowest
     heights = polygons - turned[..., stations.moving] * stations.u + starts[..., stations.moving] - lowest
     return (raised, heights, closing)[part]
-
-
-def _greatest(heights: Floats) -> Floats:
-    return heights.max(axis=-1)
 
 
 def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
@@ -242,8 +209,7 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     pole, levelled, polygon = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"{target}_chords"))
     curve, left = c.acts[f"{target}_curve"], float(np.max(np.abs(c.first(f"closing_{target}"))))
     # Projections that fall on one another are drawn once, from the farthest ordinate.
-    height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
-    kept = once(levelled)
+    height, farthest, kept = levelled.shown.imag, c.first(f"{source}_projected").real, once(levelled)
     reach = np.array([farthest[np.abs(height - height[k]) < SAME_HEIGHT].max() for k in kept])
     laid_out = pole_marks(pole, distance, index, height[kept])
     projected = levelled.first[kept]
@@ -258,33 +224,21 @@ def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
     )
     smooth = showing(c)
     curves = tuple(smooth.fair(f"{target}", curve.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
+    joined = say(
+        "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate of "
+        "{source} is projected on the vertical axis and joined to the pole."
+    ).where(index=index, distance=distance, source=source)
+    set_on = say(
+        "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end of the one "
+        "before. {closing}"
+    ).where(closing=run.closing.where(left=left))
+    faired = say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration.")
+    titles = say("Pole and rays, {source} to {target}"), say("Chords parallel to the rays: {target}")
+    to_rays, to_chords = (title.where(source=source, target=target) for title in titles)
     return [
-        Step(
-            say("Pole and rays, {source} to {target}", source=source, target=target),
-            say(
-                "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate of "
-                "{source} is projected on the vertical axis and joined to the pole."
-            ).where(index=index, distance=distance, source=source),
-            run.source,
-            (*laid_out, *rays),
-            given=laid_out,
-        ),
-        Step(
-            say("Chords parallel to the rays: {target}", target=target),
-            say(
-                "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end of "
-                "the one before. {closing}"
-            ).where(closing=run.closing.where(left=left)),
-            run.target,
-            (*axes, *polygons),
-            given=axes,
-        ),
-        Step(
-            say("Curve of {target}", target=target),
-            say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration."),
-            run.target,
-            (*curves, *rests(c, curve)),
-        ),
+        Step(to_rays, joined, run.source, (*laid_out, *rays), given=laid_out),
+        Step(to_chords, set_on, run.target, (*axes, *polygons), given=axes),
+        Step(say("Curve of {target}", target=target), faired, run.target, (*curves, *rests(c, curve))),
     ]
 
 
@@ -292,12 +246,10 @@ def rests(c: Integrated, curve: Drawn) -> list[Line]:
     """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
     ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
     level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)
-    x, y = level.points.real, level.points.imag
-    reach = [0.0, *x[:-1], FULL_TURN / c.givens.mu_phi.per_mm]
-    heights = [y[-1], *y[:-1], y[-1]]
-    places = [complex(*place) for place in zip(reach, heights, strict=True)]
-    pairs = zip(places[::2], places[1::2], strict=True)
-    return [Line(np.array(pair), Role.RESULT, of=level.act) for pair in pairs]
+    *places, last = level.points
+    turn = FULL_TURN / c.givens.mu_phi.per_mm
+    bounds = np.array([last.imag * UP, *places, turn + last.imag * UP])
+    return [Line(pair, Role.RESULT, of=level.act) for pair in bounds.reshape(-1, 2)]
 
 
 def _draw_scales(c: Integrated) -> Step:

@@ -44,24 +44,6 @@ class Kind(StrEnum):
     READ = "read"  # ruler or protractor: a length, an angle; or in the head, from others
 
 
-INSTRUMENTS: Mapping[Kind, str] = {
-    Kind.DIVIDE: "dividers",
-    Kind.ERECT: "set square",
-    Kind.PROJECT: "T-square",
-    Kind.LAY_OFF: "dividers",
-    Kind.JOIN: "ruler",
-    Kind.PARALLEL: "set squares",
-    Kind.PERPENDICULAR: "set squares",
-    Kind.TANGENT: "set square",
-    Kind.BISECT: "compass",
-    Kind.CIRCLE: "compass",
-    Kind.PROTRACTOR: "protractor",
-    Kind.FAIR: "curve template",
-    Kind.READ: "ruler",
-}
-"""With what each act is done; the others need none."""
-
-
 @dataclass(frozen=True, eq=False)
 class Setting:
     """What dividers or a protractor are set to, or what is read, and where that comes from.
@@ -94,11 +76,6 @@ class Act:
     construction: str
     name: str
     takes: Mapping[str, Any]
-
-    @property
-    def instrument(self) -> str:
-        """With what it is done."""
-        return INSTRUMENTS.get(self.kind, "")
 
 
 @dataclass(frozen=True, eq=False)

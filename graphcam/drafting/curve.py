@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.euclid import UP, Floats
+from graphcam.drafting.euclid import Floats
 from graphcam.drafting.marks import Points
 from graphcam.plane import dot
 
@@ -67,16 +67,6 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
     # Of pieces that reach equally far it is the first, not the one that rounding favours.
     return at_greatest(tops, np.round(dot(np.asarray(direction)[..., None], tops), NANOMETRES))
-
-
-def highest_and_lowest(points: Points, pieces: Sequence[slice]) -> Points:
-    """The two ends of what smooth pieces reach over, each faired for itself: (..., 2).
-
-    >>> x = np.arange(5.0)
-    >>> [complex(end) for end in highest_and_lowest(x + 1j * np.minimum(x, 4 - x), [slice(0, 3), slice(2, 5)])]
-    [(2+2j), 0j]
-    """
-    return np.stack([farthest_of(points, pieces, side * UP) for side in (1, -1)], axis=-1)
 
 
 def faired(points: Points, between: int = 8) -> Points:

@@ -56,15 +56,6 @@ def divided(a: Points | complex, b: Points | complex, parts: int) -> Points:
     return start + length * share
 
 
-def stepped_off(start: Points | complex, centre: Points | complex, angles: Floats) -> Points:
-    """The points of a circle about the centre that lie the angles [rad] from ``start``, counter-clockwise positive.
-
-    >>> complex(np.round(stepped_off(3 + 0j, 1 + 0j, np.array(np.pi / 2)), 15))
-    (1+2j)
-    """
-    return centre + turned(start - centre, angles)
-
-
 def climb_along(direction: Points, width: Floats) -> Floats:
     """How far a parallel to a direction climbs over a width across.
 

@@ -105,10 +105,9 @@ class Hand:
 
     def given(self, name: str, points: ArrayLike = 0j, along: ArrayLike | None = None) -> Drawn:
         """Places, or lines along a direction, that lie on the board before the first act: origin, axes, data."""
-        places = np.asarray(points, dtype=np.complex128)
-        direction = None if along is None else np.asarray(along, dtype=np.complex128)
-        if direction is not None:
-            places, direction = np.broadcast_arrays(places, direction)
+        places, direction = np.asarray(points, dtype=np.complex128), None
+        if along is not None:
+            places, direction = np.broadcast_arrays(places, np.asarray(along, dtype=np.complex128))
         takes = {"points": places, "along": direction}
         return self._left(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
@@ -203,10 +202,9 @@ class Hand:
     ) -> Drawn:
         points, along = np.broadcast_arrays(*_aligned(_places(places), _way(to)))
         along = along * turn
-        if self.pencil.line:
-            points = points + euclid.UP * euclid.unit(along) * self._line(points)
-            if square:
-                along = euclid.turned(along, self._line(points) / square)
+        points = self._moved(points, along * euclid.UP)
+        if self.pencil.line and square:
+            along = euclid.turned(along, self._line(points) / square)
         return self._left(kind, name, takes, points, along)
 
     def join(self, name: str, start: Drawn, end: Drawn) -> Drawn:
@@ -222,9 +220,7 @@ class Hand:
         else:
             p, q, d = _aligned(_places(points), _places(onto), _way(onto))
             feet = euclid.foot(p, q, d)
-        if self.pencil.line:
-            feet = feet + euclid.unit(d) * self._line(feet)
-        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
+        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, self._moved(feet, d))
 
     def end_to_end(self, name: str, lines: Drawn, cuts: Drawn, chains: Sequence[tuple[slice, slice]]) -> Drawn:
         """Chords set end to end, each parallel to its line, from one upright to the next.
@@ -242,12 +238,8 @@ class Hand:
             if self.pencil.line:
                 rises = rises + self._line(rises) + self._line(rises) / SQUARE * width
             heights[..., at][..., 1:] = np.cumsum(rises, axis=-1)
-        return self._left(
-            Kind.PARALLEL,
-            name,
-            {"lines": lines, "cuts": cuts, "chains": tuple(chains)},
-            cuts.points + euclid.UP * heights,
-        )
+        takes = {"lines": lines, "cuts": cuts, "chains": tuple(chains)}
+        return self._left(Kind.PARALLEL, name, takes, cuts.points + euclid.UP * heights)
 
     def cross(self, name: str, one: Drawn, other: Drawn, *, flat: bool = False) -> Drawn:
         """Where two lines meet; where a ray leaves a circle; where two circles meet, left of the way between centres.
@@ -291,12 +283,8 @@ class Hand:
     def protractor(self, name: str, vertex: Drawn, base: Direction, angle: Length) -> Drawn:
         """Lines through places at angles [rad], counter-clockwise from a direction: off by the setting and a line."""
         points, d, turn = np.broadcast_arrays(*_aligned(_places(vertex), _way(base), _amount(angle)))
-        if self.pencil.protractor:
-            turn = turn + self._protractor(points)
-        along = euclid.turned(d, turn)
-        if self.pencil.line:
-            points = points + euclid.UP * euclid.unit(along) * self._line(points)
-        return self._left(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
+        along, takes = euclid.turned(d, self._protracted(turn)), {"vertex": vertex, "base": base, "angle": angle}
+        return self._left(Kind.PROTRACTOR, name, takes, self._moved(points, along * euclid.UP), along)
 
     # --- curves ------------------------------------------------------------------------------------------------------
 
@@ -306,16 +294,9 @@ class Hand:
         The line is moved along until it touches: its place is off by a line's offset.
         """
         direction = _way(inward)[0]
-        touch = curve.farthest_of(points.points, pieces, direction)
-        if self.pencil.line:
-            touch = touch + euclid.unit(direction) * self._line(touch)
-        return self._left(
-            Kind.TANGENT,
-            name,
-            {"points": points, "pieces": tuple(pieces), "inward": inward},
-            touch,
-            direction * euclid.UP,
-        )
+        touch = self._moved(curve.farthest_of(points.points, pieces, direction), direction)
+        takes = {"points": points, "pieces": tuple(pieces), "inward": inward}
+        return self._left(Kind.TANGENT, name, takes, touch, direction * euclid.UP)
 
     def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points]) -> Drawn:
         """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle.
@@ -323,8 +304,7 @@ class Hand:
         rule : the directions that the eye sees, from the points and their neighbours
         """
         along = rule(points.points)
-        if self.pencil.protractor:
-            along = euclid.turned(along, self._protractor(along))
+        along = euclid.turned(along, self._protracted(np.zeros(along.shape)))
         return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, points.points, along)
 
     def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
@@ -368,16 +348,11 @@ class Hand:
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
-        paper = sense * np.angle(e * np.conj(d))
-        if self.pencil.protractor:
-            paper = paper + self._protractor(paper)
+        paper = self._protracted(sense * np.angle(e * np.conj(d)))
         return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
 
     def finished(
-        self,
-        givens: G,
-        draw: Callable[[Construction[G]], list[Step]],
-        points: Mapping[str, Drawn | Points],
+        self, givens: G, draw: Callable[[Construction[G]], list[Step]], points: Mapping[str, Drawn | Points]
     ) -> Construction[G]:
         """The construction with all that was read, the acts, and the places that later ones go on from."""
         places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
@@ -391,14 +366,19 @@ class Hand:
 
     # --- errors ------------------------------------------------------------------------------------------------------
 
+    def _moved(self, points: Points, along: Points) -> Points:
+        """Places that a line's offset moves along a direction of any length."""
+        return points + euclid.unit(along) * self._line(points) if self.pencil.line else points
+
     def _line(self, like: Any) -> Floats:
         return self._errors(self.pencil.line, like)
 
     def _dividers(self, like: Any) -> Floats:
         return self._errors(self.pencil.dividers, like)
 
-    def _protractor(self, like: Any) -> Floats:
-        return self._errors(self.pencil.protractor, like)
+    def _protracted(self, angles: Floats) -> Floats:
+        """Angles as they are set or read with a protractor."""
+        return angles + self._errors(self.pencil.protractor, angles) if self.pencil.protractor else angles
 
     def _errors(self, deviation: float, like: Any) -> Floats:
         if self._stream is None:
@@ -416,9 +396,9 @@ class Hand:
     ) -> Drawn:
         if along is not None and along.shape != points.shape:
             along = np.broadcast_to(along, points.shape)  # one direction for all places
-        left = Drawn(Act(kind, self.construction, name, takes), points, along, radius, self.pencil.samples is not None)
-        self.acts[name] = left
-        return left
+        act = Act(kind, self.construction, name, takes)
+        self.acts[name] = Drawn(act, points, along, radius, self.pencil.samples is not None)
+        return self.acts[name]
 
 
 def showing(construction: Construction) -> Hand:

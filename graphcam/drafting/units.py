@@ -7,24 +7,12 @@ from collections.abc import Mapping
 from graphcam.words import Caption, say
 
 UNITS: Mapping[str, Caption] = {
-    "mm": say("mm"),
-    "mm/rad": say("mm/rad"),
-    "mm/rad²": say("mm/rad²"),
-    "rad": say("rad"),
-    "rad/rad": say("rad/rad"),
-    "rad/rad²": say("rad/rad²"),
-    "deg": say("deg"),
-    "mm of paper": say("mm of paper"),
-    "m": say("m"),
-    "s": say("s"),
-    "m/s": say("m/s"),
-    "m/s²": say("m/s²"),
-    "rad/s": say("rad/s"),
-    "rad/s²": say("rad/s²"),
-    "N": say("N"),
-    "mm/mm": say("mm/mm"),
-    "(mm/rad)/mm": say("(mm/rad)/mm"),
-    "(mm/rad²)/mm": say("(mm/rad²)/mm"),
+    str(unit): unit
+    for unit in (
+        *(say("mm"), say("mm/rad"), say("mm/rad²"), say("rad"), say("rad/rad"), say("rad/rad²"), say("deg")),
+        *(say("mm of paper"), say("m"), say("s"), say("m/s"), say("m/s²"), say("rad/s"), say("rad/s²"), say("N")),
+        *(say("mm/mm"), say("(mm/rad)/mm"), say("(mm/rad²)/mm")),
+    )
 }
 
 
