@@ -39,7 +39,7 @@ from graphcam.sheets.model import (
     Strokes,
     Text,
 )
-from graphcam.sheets.player_svg import group_svg, roles_css
+from graphcam.sheets.player import group_svg, roles_css
 from graphcam.sheets.sampling import pieces
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import ACCENT, BLACK, CENTER, DASHED, GREY, STYLES
