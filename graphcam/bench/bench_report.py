@@ -13,7 +13,6 @@ from graphcam.bench.peers import Peer, peers
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
-from graphcam.constructions.chain import Chain
 
 DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
 
@@ -34,10 +33,8 @@ def drawing_times(timer: Timer, pair: float) -> list[DrawingTime]:
     for follower in FOLLOWERS:
         chain = scene(follower, DRAWN_LAW).chain(DRAWN_PARTS)
         for name in chain:
-            # The property's own function draws anew, from constructions that the chain keeps.
-            draw = vars(Chain)[name].func
-            construction = chain[name]
-            readings, steps = timer.seconds(partial(draw, chain)), timer.seconds(construction.steps)
+            # The function itself draws anew, from constructions that the chain keeps.
+            readings, steps = timer.seconds(partial(chain.own[name], chain)), timer.seconds(chain[name].steps)
             found.append(DrawingTime(follower, name, readings / pair, steps / pair))
     return found
 

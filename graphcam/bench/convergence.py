@@ -4,7 +4,7 @@ All errors are relative: to the greatest exact value of the quantity, lengths on
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -13,8 +13,6 @@ import numpy as np
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, TestScene, scene
 from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.ink import Construction
-from graphcam.drafting.meaning import Measured
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Complexes
@@ -100,43 +98,25 @@ def error_of(where: TestScene, construction: str, reading: str, chain: Chain) ->
     >>> error_of(where, "integration", "s", where.chain(24)) < error_of(where, "integration", "s", where.chain(12)) / 3
     True
     """
-    drawn = chain[construction]
+    drawn, phi = chain[construction], chain.board.stations.phi
     said = drawn.meaning.reading(reading).converges
     assert said is not None
-    return MEASURES[said.measured](where, chain, drawn, said.of or reading, said.exact)
-
-
-def _of_value(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
-    """Of several candidates the first."""
-    return abs(float(np.atleast_1d(drawn.value(reading))[0]) / where.exact[exact] - 1)
-
-
-def _at_stations(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
-    at = Comparison(chain, where.cam).exact_stations
-    s, v, a, _ = at.values
-    there = {"s": s, "v": v, "a": a, "pressure_angle": at.pressure_angle}[exact]
-    return float(np.nanmax(np.abs(drawn.value(reading) - there)) / np.abs(there).max())
-
-
-def _from_pitch_curve(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
-    there = where.cam.pitch_curve(chain.board.stations.phi)
-    distance = np.hypot(drawn.value("x") - there[:, 0], drawn.value("y") - there[:, 1])
-    return float(distance.max()) / where.sizes.prime_radius
-
-
-def _from_profile(where: TestScene, chain: Chain, drawn: Construction, reading: str, exact: str) -> float:
-    touch = drawn.points["touch"] * drawn.readings[reading].per_mm
-    distance = distance_from_profile(where.cam, touch, chain.board.stations.phi)
-    return float(distance.max()) / where.sizes.prime_radius
-
-
-MEASURES: Mapping[Measured, Callable[[TestScene, Chain, Construction, str, str], float]] = {
-    "value": _of_value,
-    "at stations": _at_stations,
-    "from the pitch curve": _from_pitch_curve,
-    "from the profile": _from_profile,
-}
-"""The ways of measuring an error: of the scene's chain a construction's reading, and the exact counterpart's name."""
+    read = said.of or reading
+    value = drawn.value(read)
+    match said.measured:
+        case "value":
+            # Of several candidates the first.
+            return abs(float(np.atleast_1d(value)[0]) / where.exact[said.exact] - 1)
+        case "at stations":
+            at = Comparison(chain, where.cam).exact_stations
+            there = {**dict(zip("sva", at.values, strict=False)), "pressure_angle": at.pressure_angle}[said.exact]
+            return float(np.nanmax(np.abs(value - there)) / np.abs(there).max())
+        case "from the pitch curve":
+            off = np.abs(drawn.value("x") + 1j * drawn.value("y") - as_complex(where.cam.pitch_curve(phi)))
+        case "from the profile":
+            touch = drawn.points["touch"] * drawn.readings[read].per_mm
+            off = distance_from_profile(where.cam, touch, phi)
+    return float(off.max()) / where.sizes.prime_radius
 
 
 def distance_from_profile(cam: Cam, points: Complexes, near: Floats, reach: float = math.radians(3)) -> Floats:

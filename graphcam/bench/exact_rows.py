@@ -47,17 +47,6 @@ HALVINGS = 8
 """Of the chords between three points of a curve, from 0.1 rad on."""
 
 
-@dataclass(frozen=True)
-class SweepTime:
-    """One sweep: seconds a design, of it and of the loop, of 181 pairs; the greatest relative difference."""
-
-    name: str
-    seconds: float
-    looped: float
-    pairs: float
-    error: float
-
-
 def designs(follower: str, law: str, n: int) -> Designs:
     """Cams of random sizes, always the same: with a translating follower or an arm.
 
@@ -74,24 +63,18 @@ def designs(follower: str, law: str, n: int) -> Designs:
     return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
 
 
-def sweep_times(timer: Timer) -> list[SweepTime]:
-    """All quantities of a chunk of designs."""
-    pairs, patient = timer.pairs(STATIONS * LOOPED) / LOOPED, Timer(timer.budget, max(timer.least_runs, RUNS))
-    times: list[SweepTime] = []
-    for follower, law_name in SWEEPS:
-        many = designs(follower, law_name, CHUNK_OF_DESIGNS)
-        seconds = patient.seconds(lambda many=many: sweep(many)) / CHUNK_OF_DESIGNS
-        looped = timer.seconds(lambda many=many: [many.cam(k).extremes() for k in range(LOOPED)]) / LOOPED
-        times.append(SweepTime(f"{follower}, {law_name}", seconds, looped, pairs, _error(many)))
-    return times
-
-
-def _error(many: Designs) -> float:
-    some = many.part(slice(0, LOOPED))
-    found = sweep(some, QUANTITIES[:3])
-    cams = [some.cam(k).extremes() for k in range(LOOPED)]
-    exact = [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in cams]
-    return float(np.abs(np.array([found[name] for name in QUANTITIES[:3]]).T / np.array(exact) - 1).max())
+RIVAL_STATIONS = 360
+RIVAL_RUNS = 40
+GOALS = (
+    dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
+    | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
+    | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
+)
+"""Of the laws: polynomial, trigonometric, piecewise."""
+SUMMED = 10_000_000
+"""Values of the running sums."""
+HALVINGS = 8
+"""Of the chords between three points of a curve, from 0.1 rad on."""
 
 
 @dataclass(frozen=True)
@@ -173,11 +156,26 @@ def _extremes(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
 
 
 def _sweeps(timer: Timer) -> Iterator[ExactRow]:
-    for t in sweep_times(timer):
-        name, unit, eps = f"sweep, {t.name}", Unit(STATIONS, t.pairs), t.error / reference.EPS
-        yield unit.row(name, "all quantities of a design", t.seconds, "<= 1.6", eps)
-        what, faster = "beside a loop over the extremes of one cam", t.looped / t.seconds
-        yield ExactRow(name, what, faster, "times faster", ">= 8", None, t.looped)
+    """All quantities of a chunk of designs, beside a loop over some of them."""
+    unit = Unit(STATIONS, timer.pairs(STATIONS * LOOPED) / LOOPED)
+    patient = Timer(timer.budget, max(timer.least_runs, RUNS))
+    for follower, law_name in SWEEPS:
+        many, name = designs(follower, law_name, CHUNK_OF_DESIGNS), f"sweep, {follower}, {law_name}"
+        some = many.part(slice(0, LOOPED))
+        seconds = patient.seconds(partial(sweep, many)) / CHUNK_OF_DESIGNS
+        looped = timer.seconds(partial(_by_loop, some)) / LOOPED
+        swept = sweep(some, QUANTITIES[:3])
+        ratios = np.stack([swept[quantity] for quantity in QUANTITIES[:3]], axis=1) / _by_loop(some)
+        error_eps = float(np.abs(ratios - 1).max()) / reference.EPS
+        yield unit.row(name, "all quantities of a design", seconds, "<= 1.6", error_eps)
+        what = "beside a loop over the extremes of one cam"
+        yield ExactRow(name, what, looped / seconds, "times faster", ">= 8", None, looped)
+
+
+def _by_loop(some: Designs) -> list[list[float]]:
+    """The same of one cam after another: the greatest pressure angles and the least convex radius."""
+    extremes = [some.cam(k).extremes() for k in range(len(some))]
+    return [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in extremes]
 
 
 def _least_radii(unit: Unit, timer: Timer) -> Iterator[ExactRow]:

@@ -11,7 +11,6 @@ from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
-from graphcam.report.contents import Contents
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.note import (
     against_exact,
@@ -23,7 +22,7 @@ from graphcam.report.note import (
     whole_note,
 )
 from graphcam.report.note_tables import station_table
-from graphcam.report.sheet_contents import scaled_steps, title_block
+from graphcam.report.sheet_contents import Contents, scaled_steps, title_block
 from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution

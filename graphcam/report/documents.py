@@ -1,10 +1,9 @@
 """The documents that a solution gets, whichever kind of task it solves."""
 
 from graphcam.report.arcs_report import arcs_contents, arcs_note
-from graphcam.report.contents import Contents, last_step, parts, whole
 from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
-from graphcam.report.sheet_contents import motion_contents
+from graphcam.report.sheet_contents import Contents, motion_contents
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import compose_parts
 from graphcam.sheets.model import Drawing
@@ -29,8 +28,8 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     (True, True)
     """
     contents, paper = contents_of(solution), solution.task.drawing
-    last = None if upto is None else last_step(contents, upto)
-    drawn = parts(contents) if per_construction else [whole(contents)]
+    last = None if upto is None else contents.last_step(upto)
+    drawn = contents.parts if per_construction else [contents.whole]
     return compose_parts(drawn, contents.title, Format(paper.format, paper.frame, paper.orientation), last, paper.tell)
 
 

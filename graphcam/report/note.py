@@ -42,8 +42,8 @@ def note(solution: Solution) -> str:
         chapters.append((say("Spring"), _spring(spring, solution.tell)))
     chapters += [
         (say("Result"), _result(solution)),
-        (say("Values at the stations"), _stations(solution)),
-        (say("Polar coordinates"), _polar(solution)),
+        (say("Values at the stations"), at_stations(solution)),
+        (say("Polar coordinates"), polar_coordinates(solution)),
         (say("Drawn against exact"), against_exact(solution)),
     ]
     return whole_note(_head(solution), chapters, solution)
@@ -240,24 +240,6 @@ def _result(solution: Solution) -> str:
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is built with these sizes: {sizes}.", sizes=joined(built))
     return blocks(said, *map(warning, solution.warnings), tell=solution.tell)
-
-
-def _stations(solution: Solution) -> str:
-    of_lift = solution.chain.board.follower.unit
-    said = say(
-        "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, as drawn and "
-        "as they are exactly. The acceleration at both ends of a phase is the one inside the phase.",
-        **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
-    )
-    return blocks(said, at_stations(solution), tell=solution.tell)
-
-
-def _polar(solution: Solution) -> str:
-    said = say(
-        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted counter-clockwise from the "
-        "horizontal, on the cam as it stands at φ = 0. A dash stands where no point of the profile is left."
-    )
-    return blocks(said, polar_coordinates(solution), tell=solution.tell)
 
 
 def against_exact(solution: AnySolution) -> str:

@@ -1,4 +1,4 @@
-"""The long tables of the note."""
+"""The chapters of the note that are long tables."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -9,7 +9,7 @@ from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import station_names
 from graphcam.drafting.units import unit
 from graphcam.given.laws import Floats
-from graphcam.report.markdown import number, table
+from graphcam.report.markdown import blocks, number, table
 from graphcam.report.paragraphs import digits
 from graphcam.report.sheet_data import on_paper
 from graphcam.solving.solution import Solution
@@ -24,6 +24,12 @@ Column = tuple[str, Floats, Floats, int]
 
 def at_stations(solution: Solution) -> str:
     """s, v, a and the pressure angle at the stations, drawn and exact."""
+    of_lift = solution.chain.board.follower.unit
+    said = say(
+        "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, as drawn and "
+        "as they are exactly. The acceleration at both ends of a phase is the one inside the phase.",
+        **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
+    )
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
     drawn, exact = compared.drawn_stations, compared.exact_stations
     columns = [
@@ -31,7 +37,8 @@ def at_stations(solution: Solution) -> str:
         for name, values in zip(("s", "v", "a"), exact.values, strict=False)
     ]
     columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
-    return station_table(station_names(stations), stations.phi, columns, solution.tell)
+    told = station_table(station_names(stations), stations.phi, columns, solution.tell)
+    return blocks(said, told, tell=solution.tell)
 
 
 def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], tell: Tell) -> str:
@@ -53,7 +60,11 @@ def polar_coordinates(solution: Solution) -> str:
     columns = (phi, pitch.value("radius"), theta, profile.value("radius"), touch)
     rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
     header = (say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"))
-    return table(header, rows, solution.tell)
+    said = say(
+        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted counter-clockwise from the "
+        "horizontal, on the cam as it stands at φ = 0. A dash stands where no point of the profile is left."
+    )
+    return blocks(said, table(header, rows, solution.tell), tell=solution.tell)
 
 
 def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:

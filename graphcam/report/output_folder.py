@@ -19,7 +19,6 @@ from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import profile_spline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
-from graphcam.report.contents import last_step
 from graphcam.report.documents import contents_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
@@ -86,7 +85,7 @@ def check_choices(
     """
     one_of("dxf", dxf, DXF)
     if upto is not None:
-        last_step(contents_of(solution), upto)
+        contents_of(solution).last_step(upto)
     # A text is a collection of letters, none of which is meant.
     if isinstance(files, str):
         raise DesignError("files", files, "a list of kinds", f"for this one alone write ['{files}']")

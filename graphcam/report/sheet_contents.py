@@ -1,23 +1,77 @@
-"""The sheets of a solution: which steps, tables and notes go on them."""
+"""What stands on the sheets of a solution, and which of it is drawn: finished, half done, or a blank worksheet."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import count
 
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
-from graphcam.report.contents import Contents
+from graphcam.errors import DesignError
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
+from graphcam.sheets.layout import Numbered, Part
+from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
 UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What stands on the sheets of a solution.
+
+    drawn : the constructions by name
+    steps : (number, name of the construction, step), in order
+    givens, results : tables that stand with the first construction, and with the last
+    """
+
+    solution: AnySolution
+    title: TitleBlock
+    drawn: Mapping[str, Construction]
+    steps: Numbered
+    givens: tuple[Table, ...]
+    results: tuple[Table, ...]
+
+    def last_step(self, upto: int | str) -> int:
+        """The number of the last step that is drawn.
+
+        Raises
+        ------
+        DesignError : there is no such step or construction
+        """
+        numbers = {name: number for number, name, _ in self.steps}
+        if isinstance(upto, str) and upto in numbers:
+            return numbers[upto]
+        if isinstance(upto, int) and 0 <= upto <= len(self.steps):
+            return upto
+        known = f"a number of steps from 0 to {len(self.steps)}, or one of {', '.join(numbers)}"
+        raise DesignError("upto", upto, known)
+
+    @property
+    def whole(self) -> Part:
+        """All of it as one part."""
+        return Part(self.steps, self.givens + self.results, tuple(self.solution.warnings))
+
+    @property
+    def parts(self) -> list[Part]:
+        """A part for each construction that draws something, with what was drawn before in its views."""
+        drawing = list(dict.fromkeys(name for _, name, step in self.steps if step.marks))
+        return [self._part(name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]
+
+    def _part(self, construction: str, *, first: bool, last: bool) -> Part:
+        own = [(number, step) for number, name, step in self.steps if name == construction]
+        views = {step.view.name for _, step in own if step.marks}
+        shown = tuple(row for row in self.steps if row[0] <= own[-1][0] and row[2].view.name in views)
+        tables = (self.givens if first else ()) + (self.results if last else ())
+        return Part(shown, tables, tuple(self.solution.warnings) if last else ())
 
 
 def motion_contents(solution: Solution) -> Contents:
@@ -52,10 +106,11 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
     )
 
 
-def scaled_steps(drawn: Mapping[str, Construction]) -> tuple[tuple[str, Step], ...]:
-    """The steps with their constructions' names; the titles of their views say the scales that were settled."""
-    settled = {view: by for by in drawn.values() for view in by.meaning.scales}
-    return tuple((name, _scaled(step, settled.get(step.view.name))) for name, c in drawn.items() for step in c.steps())
+def scaled_steps(drawn: Mapping[str, Construction]) -> Numbered:
+    """The steps of all constructions; the titles of their views say the scales that were settled."""
+    settled, numbers = {view: by for by in drawn.values() for view in by.meaning.scales}, count(1)
+    steps = ((name, step) for name, construction in drawn.items() for step in construction.steps())
+    return tuple((next(numbers), name, _scaled(step, settled.get(step.view.name))) for name, step in steps)
 
 
 def _scaled(step: Step, by: Construction | None) -> Step:

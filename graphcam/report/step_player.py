@@ -29,11 +29,11 @@ def player_of(solution: AnySolution, drawing: Drawing) -> str:
 def slides(solution: AnySolution, tell: Tell = str) -> list[Slide]:
     """What is said of each step of the sheet, in order."""
     sheets = contents_of(solution)
-    chapters = groupby(sheets.steps, key=lambda step: step[0])
+    chapters = groupby(sheets.steps, key=lambda step: step[1])
     return [
         _slide(sheets.drawn[name], step, tell, opens=k == 0)
         for name, steps in chapters
-        for k, (_, step) in enumerate(steps)
+        for k, (_, _, step) in enumerate(steps)
     ]
 
 

@@ -34,15 +34,19 @@ HEADING = 12.0
 """Of the title of a view, mm."""
 
 
+Numbered = tuple[tuple[int, str, Step], ...]
+"""(number, name of the construction, step), in order."""
+
+
 @dataclass(frozen=True, eq=False)
 class Part:
     """What stands together on sheets of its own.
 
-    steps : (number, name of the construction, step), in order; the number stays with the step in every part
+    steps : each with the number that stays with it in every part
     notes : sentences that are numbered on the sheet
     """
 
-    steps: tuple[tuple[int, str, Step], ...]
+    steps: Numbered
     tables: tuple[Table, ...] = ()
     notes: tuple[str, ...] = ()
 

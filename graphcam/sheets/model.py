@@ -116,20 +116,6 @@ class Text:
 Entity = Stroke | Strokes | Curve | Circles | ArcEntity | Heads | Text
 
 
-def count(entity: Entity) -> int:
-    """How many entities of a CAD program the entity makes.
-
-    >>> import numpy as np
-    >>> count(Strokes(np.array([0, 1j]), np.array([5, 5 + 1j]), "construction"))
-    2
-    """
-    match entity:
-        case Strokes(starts=items) | Circles(centres=items) | Heads(corners=items):
-            return len(items)
-        case _:
-            return 1
-
-
 @dataclass(frozen=True)
 class Group:
     """Entities that appear together: a step of a construction, the frame, the tables.

@@ -14,7 +14,7 @@ from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.model import Entity, Text
 from graphcam.sheets.packing import Room
-from graphcam.sheets.sampling import around, box_of, outline, sampled
+from graphcam.sheets.sampling import around, box_of, pieces, sampled
 from graphcam.words import Tell, say
 
 AIR = 3.0
@@ -51,7 +51,7 @@ class Panel:
     @cached_property
     def points(self) -> Points:
         """Points 1 mm apart on all that is drawn."""
-        return np.concatenate([np.empty(0, dtype=np.complex128), *(sampled(*outline(e), 1.0) for e in self._drawn)])
+        return np.concatenate([np.empty(0, dtype=np.complex128), *(sampled(*pieces(e), 1.0) for e in self._drawn)])
 
     @cached_property
     def content(self) -> Box:

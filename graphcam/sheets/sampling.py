@@ -18,7 +18,7 @@ FLATNESS = 0.02
 
 
 def pieces(entity: Entity) -> tuple[Points, Points]:
-    """Starts and ends (n,) of straight pieces that follow the entity; a text has none."""
+    """Starts and ends (n,) of straight pieces that follow the entity, or the box of a text."""
     match entity:
         case Strokes():
             return entity.starts, entity.ends
@@ -32,10 +32,11 @@ def pieces(entity: Entity) -> tuple[Points, Points]:
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             bow = centre + _bow(radius, start, end)
             return bow[:-1], bow[1:]
-        case Heads(corners=corners):
-            return corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        case Heads(corners=triangles):
+            return triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
         case Text():
-            return np.empty(0, dtype=np.complex128), np.empty(0, dtype=np.complex128)
+            box = corners(entity)
+            return box, np.roll(box, -1)
 
 
 def _bow(radius: float, start: float, end: float) -> Points:
@@ -67,14 +68,6 @@ def corners(text: Text) -> Points:
     return text.at + box * cmath.rect(1.0, text.angle)
 
 
-def outline(entity: Entity) -> tuple[Points, Points]:
-    """Starts and ends (n,) of the straight pieces of an entity, or of a text's box."""
-    if isinstance(entity, Text):
-        box = corners(entity)
-        return box, np.roll(box, -1)
-    return pieces(entity)
-
-
 def within(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Floats, Floats]:
     """The parts of lines (n,), from 0 at the start to 1 at the end, in a text's box (4 corners) with a margin.
 
@@ -99,7 +92,7 @@ def within(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Fl
 
 def box_of(entities: Iterable[Entity]) -> Box | None:
     """The box around entities; None if there is nothing to see."""
-    points = np.concatenate([np.empty(0, dtype=np.complex128), *(np.concatenate(outline(e)) for e in entities)])
+    points = np.concatenate([np.empty(0, dtype=np.complex128), *(np.concatenate(pieces(e)) for e in entities)])
     points = points[np.isfinite(points)]
     if not len(points):
         return None

@@ -9,10 +9,10 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.document import Drawing as Document
-from scene import drawing, oval
+from scene import count, drawing, oval
 
 from graphcam.sheets.dxf_renderer import BETWEEN_PAGES, write_dxf
-from graphcam.sheets.model import Curve, Drawing, Page, Text, count
+from graphcam.sheets.model import Curve, Drawing, Page, Text
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 

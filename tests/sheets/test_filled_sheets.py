@@ -12,7 +12,7 @@ import graphcam as gc
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS
 from graphcam.sheets.model import Page, Text
-from graphcam.sheets.sampling import outline, sampled
+from graphcam.sheets.sampling import pieces, sampled
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_task
@@ -27,7 +27,7 @@ def filled(page: Page) -> float:
     full = np.zeros((int(inside.height // CELL), int(inside.width // CELL)), dtype=bool)
     for group in page.groups:
         for entity in group.entities if group.key != "frame" else ():
-            cells = (sampled(*outline(entity), 1.0) - inside.corner) / CELL
+            cells = (sampled(*pieces(entity), 1.0) - inside.corner) / CELL
             x, y = cells.real.astype(int), cells.imag.astype(int)
             held = (x >= 0) & (y >= 0) & (x < full.shape[1]) & (y < full.shape[0])
             full[y[held], x[held]] = True

@@ -13,7 +13,7 @@ from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent, width
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.panels import Panel, apart, clusters, panels, shares, stand
-from graphcam.sheets.sampling import box_of, outline, sampled
+from graphcam.sheets.sampling import box_of, pieces, sampled
 
 LETTERS = Lettering(5.0, 3.5, 2.5)
 STAR = 40 * (1 + 0.5 * (-1) ** np.arange(12)) * np.exp(2j * np.pi * np.arange(12) / 12)
@@ -276,5 +276,5 @@ def test_paper_has_the_size_of_iso_216_and_the_margins_of_its_frame(paper, wide,
 
 
 def test_every_point_of_a_view_is_on_what_it_draws():
-    drawn = [sampled(*outline(e), 1.0) for e in VIEWS["star"]._drawn]
+    drawn = [sampled(*pieces(e), 1.0) for e in VIEWS["star"]._drawn]
     np.testing.assert_array_equal(np.concatenate(drawn), VIEWS["star"].points)

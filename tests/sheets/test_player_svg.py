@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from scene import drawing
+from scene import count, drawing
 
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text, count
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.player import Slide, group_svg, player
 from graphcam.sheets.styles import STYLES
 
