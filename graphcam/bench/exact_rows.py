@@ -63,20 +63,6 @@ def designs(follower: str, law: str, n: int) -> Designs:
     return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
 
 
-RIVAL_STATIONS = 360
-RIVAL_RUNS = 40
-GOALS = (
-    dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
-    | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
-    | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
-)
-"""Of the laws: polynomial, trigonometric, piecewise."""
-SUMMED = 10_000_000
-"""Values of the running sums."""
-HALVINGS = 8
-"""Of the chords between three points of a curve, from 0.1 rad on."""
-
-
 @dataclass(frozen=True)
 class ExactRow:
     """One figure of the exact side.
