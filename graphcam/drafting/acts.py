@@ -25,23 +25,31 @@ Index = int | slice | list[int] | NDArray[np.integer[Any]] | NDArray[np.bool_]
 class Kind(StrEnum):
     """What is done, and with which instrument."""
 
-    GIVEN = "given"  # lies on the board before the first line, or is found in a drawing made before
-    DIVIDE = "divide"  # dividers: equal parts
-    ERECT = "erect"  # T-square and set square: an upright, or another line of known direction
-    PROJECT = "project"  # T-square: square across to a line
-    LAY_OFF = "lay off"  # dividers: a length from a place
-    JOIN = "join"  # ruler: a line through two places
-    PARALLEL = "parallel"  # two set squares
-    PERPENDICULAR = "perpendicular"  # two set squares
-    TANGENT = "tangent"  # set square or mirror, moved until it touches
-    BISECT = "bisect"  # compass: two arcs of one setting
-    CIRCLE = "circle"  # compass
-    PROTRACTOR = "protractor"  # an angle laid off
-    CROSS = "cross"  # where two lines meet
-    FAIR = "fair"  # curve template
-    TAKE = "take"  # of what lies there, what one goes on with
-    ENLARGE = "enlarge"  # the same places once more, in another view or on the other side of a line
-    READ = "read"  # ruler or protractor: a length, an angle; or in the head, from others
+    GIVEN = "given", ""  # lies on the board before the first line, or is found in a drawing made before
+    DIVIDE = "divide", "dividers"  # equal parts
+    ERECT = "erect", "set square"  # an upright, or another line of known direction
+    PROJECT = "project", "T-square"  # square across to a line
+    LAY_OFF = "lay off", "dividers"  # a length from a place
+    JOIN = "join", "ruler"  # a line through two places
+    PARALLEL = "parallel", "set squares"
+    PERPENDICULAR = "perpendicular", "set squares"
+    TANGENT = "tangent", "set square"  # or a mirror, moved until it touches
+    BISECT = "bisect", "compass"  # two arcs of one setting
+    CIRCLE = "circle", "compass"
+    PROTRACTOR = "protractor", "protractor"  # an angle laid off
+    CROSS = "cross", ""  # where two lines meet
+    FAIR = "fair", "curve template"
+    TAKE = "take", ""  # of what lies there, what one goes on with
+    ENLARGE = "enlarge", ""  # the same places once more, in another view or on the other side of a line
+    READ = "read", "ruler"  # or a protractor: a length, an angle; or in the head, from others
+
+    instrument: str
+
+    def __new__(cls, act: str, instrument: str) -> Kind:
+        """A kind of act, with its instrument."""
+        kind = str.__new__(cls, act)
+        kind._value_, kind.instrument = act, instrument
+        return kind
 
 
 @dataclass(frozen=True, eq=False)

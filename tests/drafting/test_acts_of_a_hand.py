@@ -333,7 +333,7 @@ def test_an_act_says_with_what_from_where_and_at_which_stations():
     hand = exact()
     start = hand.given("start", np.array([0j, 1 + 0j]))
     end = hand.lay_off("end", start[1], UP, 5.0)
-    assert (end.act.kind, end.act.construction) == (Kind.LAY_OFF, "example")
+    assert (end.act.kind, end.act.kind.instrument, end.act.construction) == (Kind.LAY_OFF, "dividers", "example")
     assert end.act.takes["start"].whole is start
     assert end.act.takes["start"].at == 1
     assert end.act.takes["length"] == 5.0
