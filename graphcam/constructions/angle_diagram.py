@@ -56,11 +56,9 @@ MEANING = Meaning(
 def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> Construction[AngleDiagramGivens]:
     """Plot the pressure angles over the cam angle, fair the curve between breaks, and read off the greatest.
 
-    measured : the follower's pressure angles, with a reading ``alpha``
     mu_alpha : scale of the pressure angle [rad/mm]
 
-    Readings: ``max_rise`` and ``max_return``, the signed angles of greatest magnitude [mm times mu_alpha, rad]; the
-    ``rise_candidates`` and ``return_candidates`` (..., 2) they were chosen from, highest and lowest.
+    Readings: besides the greatest angles, with their signs, the candidates (..., 2), highest and lowest.
     """
     hand, integrated = Hand(pencil, MEANING), measured.givens.integrated
     motion, stations, origin = integrated.givens.motion, integrated.givens.stations, hand.given("origin")

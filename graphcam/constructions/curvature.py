@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,12 +69,9 @@ MEANING = Meaning(
 def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the rests.
 
-    inverted : from :func:`~graphcam.constructions.inversion.inversion`
-
-    Readings: ``rho``, the least radius of curvature [mm], and the ``rho_candidates`` (..., 2) it is the smaller of, in
-    the moving phases and in the rests, infinite where nothing is convex; ``phi`` (..., 3), the cam angles of the three
-    points.  NaN where no bend is readable, and of the moving phases and of rho where the curve turns a corner that
-    three points cannot tell.
+    Readings: besides ``rho`` and ``phi`` the ``rho_candidates`` (..., 2), of moving phases and of rests, infinite
+    where nothing is convex.  NaN where no bend is readable, and of the moving phases and of rho where the curve turns a
+    corner that three points cannot tell.
     Points: the ``triple`` (..., 3) at the sharpest place and its ``centre``.
     """
     hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
@@ -81,15 +79,19 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     rests, angles = _rests(hand, inverted, pitch, centre)
     places, corner = hand.take("places", pitch, rests, nowhere), _turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
-    seen = [
-        _sharpest(inverted, places.points, triples) for triples in (_neighbours(inverted), _of_rests(inverted, rests))
-    ]
+    candidates = _neighbours(inverted), _of_rests(inverted, rests)
+    seen = [_sharpest(inverted, places.points, triples) for triples in candidates]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
+<<<<<<< HEAD
     # Where nothing rests no arc is near, seen from any place.
     at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
     before, b, after = (
         hand.take(name, places, which=at[..., k]) for k, name in enumerate(("before B", "B", "after B"))
     )
+=======
+    names = ("before B", "B", "after B")
+    before, b, after = (hand.take(name, places, which=at[..., k]) for k, name in enumerate(names))
+>>>>>>> diet1
     bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
     met = hand.cross("crossings", *bisectors, flat=integrated.givens.stations.refine > 1)
     # A rest is an arc about the cam centre; of what is not bent the centre is far away.
@@ -98,10 +100,8 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     centres = hand.take("centres", met, centre, nowhere, hand.given("far away", [np.inf]), which=which)
 
     radii = np.abs(centres.points - b.points)
-    unread, best = (
-        corner | ~np.isfinite(radii).any(axis=-1),
-        np.argmin(np.where(np.isnan(radii), np.inf, radii), axis=-1),
-    )
+    unread = corner | ~np.isfinite(radii).any(axis=-1)
+    best = np.argmin(np.where(np.isnan(radii), np.inf, radii), axis=-1)
     chosen = np.take_along_axis(at, best[..., None, None], -2)[..., 0, :]
     chosen = np.where(unread[..., None], places.points.shape[-1] - 1, chosen)
     triple = hand.take("triple", places, which=chosen)
@@ -125,12 +125,9 @@ def _neighbours(inverted: Inverted) -> Triples:
     fourth, and so on: with very many parts the chords between neighbours hardly bend.
     """
     stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
-    places = [
-        (k, min(k - piece.start, piece.stop - 1 - k))
-        for piece in stations.pieces
-        for k in range(piece.start + 1, piece.stop - 1)
-    ]
-    middle, reach = np.reshape(np.array(places, dtype=np.intp), (-1, 2)).T
+    middle = np.concatenate([np.arange(piece.start + 1, piece.stop - 1) for piece in stations.pieces])
+    within = [np.arange(1, piece.stop - piece.start - 1) for piece in stations.pieces]
+    reach = np.concatenate([np.minimum(inside, inside[::-1]) for inside in within])
     step = np.ones((*pitch.shape[:-1], middle.size), dtype=np.intp)
     while True:
         at = np.stack([middle - step, middle + 0 * step, middle + step], axis=-1)
@@ -337,11 +334,9 @@ def _bisectors(curved: Curved, hand: Hand, detail: Drawn, times: float) -> tuple
         marks.append(Line(ends, Role.CONSTRUCTION, of=line.act))
         setting = reckoned(partial(np.multiply, COMPASS), between(a, b))
         arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
-        for meeting in (hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])):
-            for arc in arcs:
-                to = float(np.angle(meeting.place - arc.place))
-                radius = float(np.asarray(arc.radius))
-                marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act))
+        for meeting, arc in product((hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])), arcs):
+            to, radius = float(np.angle(meeting.place - arc.place)), float(np.asarray(arc.radius))
+            marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act))
     return tuple(marks)
 
 
@@ -349,8 +344,7 @@ def _radius(curved: Curved, hand: Hand, detail: Drawn, hub: Drawn) -> tuple[Mark
     """The radius of curvature, from the centre to the middle place, and a little of its circle."""
     ob, read = hand.join("OB", hub, detail[1]), curved.readings["rho"]
     circle = hand.circle("circle of curvature", hub, between(hub, detail[1]))
-    said = say("ρ = {rho:.2f}", rho=float(curved.value("rho")))
-    sector = _sector(detail.shown, hub.place)
+    said, sector = say("ρ = {rho:.2f}", rho=float(curved.value("rho"))), _sector(detail.shown, hub.place)
     return (
         Line(np.array([hub.place, detail[1].place]), Role.LIMIT, of=ob.act),
         Arc(hub.place, abs(hub.place), *sector, Role.CONSTRUCTION, of=circle.act),

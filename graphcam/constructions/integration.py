@@ -77,7 +77,6 @@ MEANING = Meaning(
 def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil) -> Integrated:
     """Integrate the acceleration diagram twice and fix its scale by the known lift.
 
-    diagram : from :func:`~graphcam.constructions.acceleration.acceleration_diagram`
     poles : H1 (acceleration to velocity) and H2 (velocity to displacement) [mm of paper]
 
     Readings besides those of the meaning: ``a_before``, at the stations as ``a``, on the near side of a jump.

@@ -43,19 +43,11 @@ MEANING = Meaning(
 
 
 def inversion(
-    integrated: Integrated,
-    rotation: Rotation,
-    prime_radius: float,
-    offset: float,
-    mu_l: Scale,
-    pencil: Pencil,
+    integrated: Integrated, rotation: Rotation, prime_radius: float, offset: float, mu_l: Scale, pencil: Pencil
 ) -> OffsetInverted:
     """Lay the displacements off along the follower's line in its inverted positions: the pitch curve.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`
     mu_l : drawing scale of the profile [mm/mm]
-
-    Readings: ``x``, ``y``, ``radius`` and ``polar_angle`` of the pitch curve at the stations.
     """
     hand, s = Hand(pencil, MEANING), integrated.readings["s"]
     prime = profile_view.prime_circle(hand, prime_radius, mu_l)

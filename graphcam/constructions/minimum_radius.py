@@ -66,18 +66,11 @@ MEANING = Meaning(
 
 
 def least_radius(
-    integrated: Integrated,
-    rotation: Rotation,
-    limits: Limits,
-    offset: float | None,
-    pencil: Pencil,
+    integrated: Integrated, rotation: Rotation, limits: Limits, offset: float | None, pencil: Pencil
 ) -> LeastRadius:
     """Find the cam centre that is nearest to the start of the lift.
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`
     offset : of the follower's line [mm, machine sign], or None to let it be found
-
-    Readings: ``prime_radius``, ``offset`` and ``s0`` [mm].
     """
     givens = LeastRadiusGivens(integrated, rotation, limits, offset)
     hand, s = Hand(pencil, MEANING), integrated.readings["s"]
@@ -92,9 +85,8 @@ def least_radius(
     hand.read("prime_radius", between(start, centre), s.scale)
     hand.read("offset", between(centre, start, RIGHT), s.scale)
     hand.read("s0", between(centre, start, UP), s.scale)
-    return hand.finished(
-        givens, _draw, {"ends": hand.acts["ends"], "centre": centre} | {line.act.name: line for line in lines}
-    )
+    places = {"ends": hand.acts["ends"], "centre": centre} | {line.act.name: line for line in lines}
+    return hand.finished(givens, _draw, places)
 
 
 def velocities(hand: Hand, integrated: Integrated, rotation: Rotation) -> Drawn:
@@ -167,42 +159,25 @@ def _draw(region: LeastRadius) -> list[Step]:
     curves = tuple(hand.fair("curve", ends.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
     alternatives = [mark for name, place in others.items() for mark in _cross(hand, place, PLACES[name])]
     permitted = hand.given("permitted places", permitted_part(lines, _box(ends.shown, bottom)))
+    hatched = Region(permitted.points, permitted.act)
     floor = hand.given("lower edge", UP * bottom, RIGHT)
+    marked_on = say(
+        "On the follower's line the displacements are marked; at each of them v is laid off in the scale of s, turned "
+        "by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} mm."
+    ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(v).max()))
+    joined = say("The ends are joined by smooth curves, one for the rise and one for the return.")
+    touching = say(
+        "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion ({angles}); "
+        "{zero}{further}"
+    ).where(angles=_angles(lines, limits), zero=_at_zero_lift(region), further=_spring_and_rest(limits))
+    tangents = tuple(mark for line in lines for mark in _limit_line(region, hand, line, floor))
+    shaded = say("Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}.")
+    shaded = shaded.where(names=sequence([PLACES[name] for name in others]))
     return [
-        Step(
-            say("Velocities at the displacements"),
-            say(
-                "On the follower's line the displacements are marked; at each of them v is laid off in the scale of "
-                "s, turned by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} "
-                "mm."
-            ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(v).max())),
-            COMBINED,
-            (*line, *laid_off, *named),
-            given=line,
-        ),
-        Step(
-            say("Curves of rise and return"),
-            say("The ends are joined by smooth curves, one for the rise and one for the return."),
-            COMBINED,
-            curves,
-        ),
-        Step(
-            say("Tangents at the permitted angles"),
-            say(
-                "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion "
-                "({angles}); {zero}{further}"
-            ).where(angles=_angles(lines, limits), zero=_at_zero_lift(region), further=_spring_and_rest(limits)),
-            COMBINED,
-            tuple(mark for line in lines for mark in _limit_line(region, hand, line, floor)),
-        ),
-        Step(
-            say("The region of the cam centre"),
-            say(
-                "Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}."
-            ).where(names=sequence([PLACES[name] for name in others])),
-            COMBINED,
-            (Region(permitted.points, permitted.act), *alternatives),
-        ),
+        Step(say("Velocities at the displacements"), marked_on, COMBINED, (*line, *laid_off, *named), given=line),
+        Step(say("Curves of rise and return"), joined, COMBINED, curves),
+        Step(say("Tangents at the permitted angles"), touching, COMBINED, tangents),
+        Step(say("The region of the cam centre"), shaded, COMBINED, (hatched, *alternatives)),
         _result(region),
     ]
 
@@ -212,8 +187,8 @@ def _result(region: LeastRadius) -> Step:
     centre, start = region.acts["centre"].first, region.acts["start of the lift"].first
     if np.isnan(centre.place):
         unreadable = say(
-            "No cam centre can be read: the lines that bound the region cross one another, or the "
-            "line of the offset, at less than a degree."
+            "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
+            "at less than a degree."
         )
         return Step(title, unreadable, COMBINED, ())
     place = say("The place of the region nearest to the start of the lift is the cam centre A.")
@@ -297,10 +272,7 @@ def _alternatives(region: LeastRadius) -> dict[str, Drawn]:
 def _cross(hand: Hand, place: Drawn, name: Caption) -> tuple[Mark, ...]:
     strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
     starts, ends = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
-    return (
-        Segments(starts, ends, Role.CONSTRUCTION, of=strokes.act),
-        place.label(name, towards=1 - 1j, small=True),
-    )
+    return Segments(starts, ends, Role.CONSTRUCTION, of=strokes.act), place.label(name, towards=1 - 1j, small=True)
 
 
 def _centre_lines(region: LeastRadius, centre: complex) -> tuple[Mark, ...]:

@@ -73,17 +73,13 @@ def pressure_angle(
 ) -> Construction[PressureAngleGivens]:
     """Measure the pressure angle at every station, with the cam centre at the prime radius and offset [mm].
 
-    integrated : from :func:`~graphcam.constructions.integration.integration`
-
-    Readings at the stations: ``alpha`` [rad], positive on an ordinary rise, and ``transmission`` [rad]; ``s0`` [mm].
+    It is positive on an ordinary rise.
     """
     hand = Hand(pencil, MEANING)
     s, start, ends = integrated.readings["s"], hand.given("start of the lift"), velocities(hand, integrated, rotation)
     # The cam centre: on the line at the offset, as far from the start of the lift as the prime radius.
-    line, prime = (
-        offset_line(hand, start, offset, s),
-        hand.circle("prime circle", start, hand.at_scale(prime_radius, s)),
-    )
+    line = offset_line(hand, start, offset, s)
+    prime = hand.circle("prime circle", start, hand.at_scale(prime_radius, s))
     met, touch = hand.cross("circle and line", line, prime), hand.project("touch", start, line)
     # A line that misses the circle, by the hand's errors, is taken to touch it.
     either = hand.take("circle or touch", met, touch, which=np.isnan(met.points).astype(int)[..., None])
@@ -108,8 +104,6 @@ def _complement(alpha: Floats) -> Floats:
 
 PLAN_HEIGHT = 70.0
 """The velocity plan is drawn at the largest standard scale at which the mechanism's triangle is not taller [mm]."""
-
-
 SLOW = 0.25
 """The plan is not drawn where the follower is slower than this part of its greatest velocity."""
 

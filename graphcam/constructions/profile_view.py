@@ -47,10 +47,7 @@ CURVE = {
     "polar_angle": ReadingMeaning(say("polar angle"), "θ", "rad"),
 }
 """What is read of the points of any follower's inverted motion."""
-
-
-CURVE_READINGS = ("x", "y", "radius", "polar_angle")
-"""What is read of a profile's points."""
+CURVE_READINGS = tuple(CURVE)
 
 
 def prime_circle(hand: Hand, prime_radius: float, mu_l: Scale) -> Drawn:
@@ -143,9 +140,8 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
 
 def start_of_turn(inverted: Inverted) -> complex:
     """Where the turn begins on the prime circle: a start of the lift, turned back; above the centre if none is read."""
-    back = turned(
-        inverted.acts["starts"].shown, sense(inverted.givens.rotation) * inverted.givens.integrated.givens.stations.phi
-    )
+    turn = sense(inverted.givens.rotation) * inverted.givens.integrated.givens.stations.phi
+    back = turned(inverted.acts["starts"].shown, turn)
     return complex(np.append(back[~np.isnan(back)], UP)[0])
 
 
@@ -155,11 +151,9 @@ def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
     sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     rays: Points = np.exp(1j * limits[:-1])
-    of = inverted.acts["inverted positions"].act
-    marks = list[Mark]([Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS)])
-    for k, (a, b) in enumerate(pairwise(limits)):
-        marks.append(AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of))
-    return marks
+    turns, of = enumerate(pairwise(limits)), inverted.acts["inverted positions"].act
+    angles = [AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of) for k, (a, b) in turns]
+    return [Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS), *angles]
 
 
 def _outer_radius(inverted: Inverted) -> float:

@@ -80,10 +80,7 @@ def roller_radius(
 ) -> Construction[RollerGivens]:
     """What the rule proposes from the least radius of curvature and the prime radius; the smallest is taken.
 
-    curved : from :func:`~graphcam.constructions.curvature.curvature`
     given : the roller radius [mm] where the task gives one, which is then taken, or None
-
-    Readings: the ``candidates``, one a term of the rule or the given one, and their least, ``roller_radius`` [mm].
     """
     hand, inverted = Hand(pencil, ROLLER_MEANING), curved.givens.inverted
     mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
@@ -94,7 +91,7 @@ def roller_radius(
         candidates = between(centre, hand.lay_off("roller", centre, RIGHT, np.array([given / mu_l])))
     hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
-    hand.read("roller_radius", reckoned(_least, candidates), mu_l, rounded=False)
+    hand.read("roller_radius", reckoned(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
     return hand.finished(RollerGivens(curved, rule, given), _draw, {})
 
 
@@ -103,16 +100,9 @@ def _proposed(rule: tuple[Candidate, ...], mu_l: float, rho: Floats, prime_radiu
     return np.stack([t.factor * (rho if t.of == "rho" else prime_radius) - t.margin / mu_l for t in rule], axis=-1)
 
 
-def _least(candidates: Floats) -> Floats:
-    return np.fmin.reduce(candidates, axis=-1)
-
-
 def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profile:
     """From each pitch point the roller's radius [mm] towards the cam, square to the circle through its neighbours.
 
-    inverted : from :func:`~graphcam.constructions.inversion.inversion`
-
-    Readings: ``radius`` of the touch points from the cam centre [mm]; NaN where another roller circle covers the point.
     Points: ``touch`` (..., m), NaN where covered; ``covered`` the touch points that were dropped.
     """
     hand, mu_l = Hand(pencil, PROFILE_MEANING), inverted.givens.mu_l.per_mm
@@ -169,9 +159,8 @@ def _draw(rolled: Construction[RollerGivens]) -> list[Step]:
     taken = float(rolled.value("roller_radius"))
     if given is None:
         terms = [_proposal(term, radius) for term, radius in zip(rule, candidates, strict=True)]
-        caption = say("The rule proposes {proposed}; the smallest is taken, {taken:.2f} mm.").where(
-            proposed=sequence(terms), taken=taken
-        )
+        caption = say("The rule proposes {proposed}; the smallest is taken, {taken:.2f} mm.")
+        caption = caption.where(proposed=sequence(terms), taken=taken)
         if rule and rule[0].source:
             caption = sequence([caption, say("It is a rule of {source}.", source=rule[0].source)], " ")
     else:

@@ -33,10 +33,7 @@ MEANING = Meaning("scheme", say("Scheme of the mechanism"), say("The mechanism a
 
 
 def scheme(profile: Profile, follower: DrawnFollower) -> Construction[SchemeGivens]:
-    """Cam, follower and frame at the start of the turn.
-
-    profile : from :func:`~graphcam.constructions.roller.working_profile`
-    """
+    """Cam, follower and frame at the start of the turn."""
     return Construction(MEANING, SchemeGivens(profile, follower), profile.pencil, {}, {}, _draw)
 
 

@@ -3,27 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphcam.drafting.euclid import Floats
 from graphcam.drafting.marks import Points
 from graphcam.plane import dot
 
 NANOMETRES = 6
 """Places that differ by less [decimals of mm] are one."""
-Scalar = TypeVar("Scalar", bound=np.generic)
-
-
-def at_greatest(values: NDArray[Scalar], measure: Floats) -> NDArray[Scalar]:
-    """Of values (..., n) the one whose ``measure`` (..., n) is greatest; what is unread, NaN, may be.
-
-    >>> at_greatest(np.array([1, 2, 3]), np.array([0.5, 2.5, -4.0])).item()
-    2
-    """
-    return np.take_along_axis(values, np.argmax(measure, axis=-1)[..., None], -1)[..., 0]
 
 
 def farthest(points: Points, direction: Points | complex) -> Points:
@@ -66,7 +53,8 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     """
     tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
     # Of pieces that reach equally far it is the first, not the one that rounding favours.
-    return at_greatest(tops, np.round(dot(np.asarray(direction)[..., None], tops), NANOMETRES))
+    best = np.argmax(np.round(dot(np.asarray(direction)[..., None], tops), NANOMETRES), axis=-1)[..., None]
+    return np.take_along_axis(tops, best, -1)[..., 0]
 
 
 def faired(points: Points, between: int = 8) -> Points:

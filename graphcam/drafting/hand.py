@@ -96,11 +96,6 @@ class Hand:
         self.readings: dict[str, Reading] = {}
         self._stream: Stream | None = None
 
-    @property
-    def construction(self) -> str:
-        """The name of the construction that is drawn."""
-        return self.meaning.name
-
     # --- what lies there ---------------------------------------------------------------------------------------------
 
     def given(self, name: str, points: ArrayLike = 0j, along: ArrayLike | None = None) -> Drawn:
@@ -359,7 +354,7 @@ class Hand:
         return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
     def _read(self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str) -> Reading:
-        act = Act(Kind.READ, self.construction, name, takes)
+        act = Act(Kind.READ, self.meaning.name, name, takes)
         of = unit or self.meaning.readings[name].unit.replace("lift", self.lift)
         self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, of, act)
         return self.readings[name]
@@ -382,7 +377,7 @@ class Hand:
 
     def _errors(self, deviation: float, like: Any) -> Floats:
         if self._stream is None:
-            self._stream = self.pencil.stream(self.construction)
+            self._stream = self.pencil.stream(self.meaning.name)
         return deviation * self._stream.standard_normal(like.shape)
 
     def _left(
@@ -396,7 +391,7 @@ class Hand:
     ) -> Drawn:
         if along is not None and along.shape != points.shape:
             along = np.broadcast_to(along, points.shape)  # one direction for all places
-        act = Act(kind, self.construction, name, takes)
+        act = Act(kind, self.meaning.name, name, takes)
         self.acts[name] = Drawn(act, points, along, radius, self.pencil.samples is not None)
         return self.acts[name]
 
