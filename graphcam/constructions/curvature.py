@@ -82,16 +82,10 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     candidates = _neighbours(inverted), _of_rests(inverted, rests)
     seen = [_sharpest(inverted, places.points, triples) for triples in candidates]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
-<<<<<<< HEAD
     # Where nothing rests no arc is near, seen from any place.
     at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
-    before, b, after = (
-        hand.take(name, places, which=at[..., k]) for k, name in enumerate(("before B", "B", "after B"))
-    )
-=======
     names = ("before B", "B", "after B")
     before, b, after = (hand.take(name, places, which=at[..., k]) for k, name in enumerate(names))
->>>>>>> diet1
     bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
     met = hand.cross("crossings", *bisectors, flat=integrated.givens.stations.refine > 1)
     # A rest is an arc about the cam centre; of what is not bent the centre is far away.
