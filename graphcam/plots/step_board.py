@@ -100,18 +100,15 @@ class StepBoard:
         groups = [Group("titles", self._titles)] if self._titled else []
         for k, entities in enumerate(shading_parted(self._drawn[:count])):
             stage = CURRENT_STEP if k == count - 1 else FORMER_STEP
-            shown = entities if current is None else tuple(_in_progress(e, stage) for e in entities)
-            groups.append(Group(f"step-{k + 1:02d}", shown))
+            if current is not None:
+                entities = tuple(replace(e, role=in_progress(e.role, stage)) for e in entities)
+            groups.append(Group(f"step-{k + 1:02d}", entities))
         box = self._box.moved(self.origin)
         return Page(box.width, box.height, box, tuple(groups))
 
 
 def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
     return tuple(step for step in steps if step.view.name == name)
-
-
-def _in_progress(entity: Entity, stage: str) -> Entity:
-    return replace(entity, role=in_progress(entity.role, stage))
 
 
 def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:

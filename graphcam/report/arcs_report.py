@@ -57,8 +57,8 @@ def _xy(point: Sequence[float] | Floats) -> Caption:
     return say("({x}, {y}) mm", x=number(point[0], 3), y=number(point[1], 3))
 
 
-def _mm(length: float) -> Caption:
-    return say("{length:.3f} mm", length=length)
+def _radius(length: float) -> Caption:
+    return say("{length} mm", length=number(length, 3))
 
 
 def _data(solution: ArcsSolution) -> Table:
@@ -70,7 +70,7 @@ def _data(solution: ArcsSolution) -> Table:
         *((name, _xy(point), GIVEN) for name, point in points.items() if point is not None),
         ("ρ₁", mm(given.rho1), GIVEN),
         *((name, _xy([float(arcs.value(f"{name}_{axis}")) for axis in "xy"]), DRAWN) for name in found),
-        *((name, _mm(float(arcs.value(key))), DRAWN) for name, key in (("ρ₂", "rho2"), ("ρ₃", "rho3"))),
+        *((name, _radius(float(arcs.value(key))), DRAWN) for name, key in (("ρ₂", "rho2"), ("ρ₃", "rho3"))),
         (say("upper dwell"), say("{angle:g}°", angle=task.arcs.dwell), GIVEN),
         (say("roller radius"), mm(task.follower.roller_radius), GIVEN),
         (say("rotation"), turning(solution.rotation), ADOPTED),
@@ -135,8 +135,7 @@ def _roots(solution: ArcsSolution) -> str:
 
 
 def _root(name: Caption, root: ThreeArcCam) -> tuple[Words, ...]:
-    radius, sound = say("{length} mm", length=number(root.rho3, 3)), say("yes") if root.sound else say("no")
-    return name, _xy(root.C3), _xy(root.F), radius, sound
+    return name, _xy(root.C3), _xy(root.F), _radius(root.rho3), say("yes") if root.sound else say("no")
 
 
 def _stations(solution: ArcsSolution) -> str:

@@ -110,14 +110,15 @@ def _references(paper: Format) -> list[Entity]:
     for edge, way in ((inside.bottom, -5), (inside.top, 5)):
         cuts = np.array(across[1:-1]) + 1j * edge
         entities.append(Strokes(cuts, cuts + 1j * way, "ruling"))
-        for k, (low, high) in enumerate(pairwise(across)):
-            entities.append(_reference(str(k + 1), complex((low + high) / 2, edge + way / 2)))
+        for k, (low, high) in enumerate(pairwise(across), 1):
+            entities.append(Text(complex((low + high) / 2, edge + way / 2) - 1.25j, str(k), 2.5, "center"))
     for edge, way in ((inside.left, -5), (inside.right, 5)):
         cuts = edge + 1j * np.array(up[1:-1])
         entities.append(Strokes(cuts, cuts + way, "ruling"))
         # Letters run from above, without I and O.
         for k, (high, low) in enumerate(pairwise(up[::-1])):
-            entities.append(_reference("ABCDEFGHJKLMNPQRSTUVWXYZ"[k], complex(edge + way / 2, (low + high) / 2)))
+            at = complex(edge + way / 2, (low + high) / 2) - 1.25j
+            entities.append(Text(at, "ABCDEFGHJKLMNPQRSTUVWXYZ"[k], 2.5, "center"))
     return entities
 
 
@@ -133,7 +134,3 @@ def _fields(centre: float, low: float, high: float) -> list[float]:
     """Ends of fields of 50 mm counted from the centre; what is left over goes to the last one at each end."""
     inner = [centre + 50.0 * k for k in range(-10, 11) if low + 25 < centre + 50.0 * k < high - 25]
     return [low, *inner, high]
-
-
-def _reference(text: str, centre: complex) -> Text:
-    return Text(centre - 1.25j, text, 2.5, "center")

@@ -119,12 +119,12 @@ def _leaves(sheet: Format, part: Part, tell: Tell) -> list[Leaf]:
     """The pages of a part."""
     views = panels((step for _, _, step in part.steps), sheet.lettering, tell)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
-    return fill(sheet, views, [way for height in heights for way in _ways(_blocks(sheet, part, height))])
-
-
-def _ways(blocks: Sequence[Block]) -> list[Sequence[Block]]:
-    """The orders in which blocks are placed: their own, and the largest first, which finds room for more."""
-    return [blocks, sorted(blocks, key=lambda block: -block.box.width * block.box.height)]
+    ways: list[list[Block]] = []
+    for height in heights:
+        blocks = _blocks(sheet, part, height)
+        # In their own order, and the largest first, which finds room for more.
+        ways += [blocks, sorted(blocks, key=lambda block: -block.box.width * block.box.height)]
+    return fill(sheet, views, ways)
 
 
 def _blocks(sheet: Format, part: Part, height: float) -> list[Block]:

@@ -98,11 +98,7 @@ def least(across: float, up: float) -> Preference:
     >>> least(10, -1)(np.array([2.0]), np.array([5.0])).tolist()
     [15.0]
     """
-
-    def cost(x: Grid, y: Grid) -> Grid:
-        return across * x + up * y
-
-    return cost
+    return lambda x, y: across * x + up * y
 
 
 top_left, top_right = least(10, -1), least(-1, -10)

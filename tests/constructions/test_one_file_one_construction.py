@@ -99,7 +99,7 @@ def test_the_sheet_shows_it_and_may_end_with_it(solution):
     for sheet in (sheet_of(solution), sheet_of(solution, "toy")):
         told = [each.text for page in sheet.pages for group in page.groups for each in group.entities if is_text(each)]
         assert "A line for the toy" in told
-    assert ("toy", "The toy's step") in [(name, str(step.title)) for name, step in contents_of(solution).steps]
+    assert ("toy", "The toy's step") in [(name, str(step.title)) for _, name, step in contents_of(solution).steps]
 
 
 def is_text(entity) -> bool:

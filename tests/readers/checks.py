@@ -15,11 +15,11 @@ import pytest
 from ezdxf.document import Drawing as Document
 from ezdxf.entities import LWPolyline
 from pdf_paths import PdfPage, pages
-from programs import program
+from programs import count, program
 from scipy.spatial import cKDTree
 
 from graphcam.sheets.fonts import width
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text, count
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.styles import STYLES
 
 RULER = 0.005

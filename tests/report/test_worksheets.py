@@ -15,7 +15,7 @@ from graphcam.cli import app
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Drawing, Entity, Group, Text
 from graphcam.sheets.panels import BLANK
-from graphcam.sheets.sampling import outline
+from graphcam.sheets.sampling import pieces
 from graphcam.solving.solution import Solution
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_file import builtin_task
@@ -33,7 +33,7 @@ def finished() -> Drawing:
 
 
 def place(entity: Entity) -> tuple[object, ...]:
-    starts, ends = outline(entity)
+    starts, ends = pieces(entity)
     text = entity.text if isinstance(entity, Text) else ""
     return entity.role, text, tuple(np.round(starts, 6).tolist()), tuple(np.round(ends, 6).tolist())
 

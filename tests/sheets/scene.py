@@ -7,7 +7,7 @@ import numpy as np
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
 from graphcam.sheets.layout import compose
-from graphcam.sheets.model import Circles, Drawing, Entity, Heads, Strokes
+from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
 
@@ -16,15 +16,6 @@ DISPLACEMENT = View("displacement", say("Displacement s"), across="phi", up="s")
 COMBINED = View("combined", say("Least radius"), across="offset", up="s")
 PROFILE = View("profile", say("Cam profile, 1:1"), across="x", up="y")
 TITLE = TitleBlock(name="Cam mechanism", number="ТММ.01.02", organisation="Кафедра ТММ", author="Ivanova", scale="1:1")
-
-
-def count(entity: Entity) -> int:
-    """How many entities of a CAD program the entity makes."""
-    match entity:
-        case Strokes(starts=items) | Circles(centres=items) | Heads(corners=items):
-            return len(items)
-        case _:
-            return 1
 
 
 def oval(n: int = 400) -> np.ndarray:

@@ -9,7 +9,8 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.document import Drawing as Document
-from scene import count, drawing, oval
+from programs import count
+from scene import drawing, oval
 
 from graphcam.sheets.dxf_renderer import BETWEEN_PAGES, write_dxf
 from graphcam.sheets.model import Curve, Drawing, Page, Text

@@ -7,7 +7,8 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from scene import count, drawing
+from programs import count
+from scene import drawing
 
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.player import Slide, group_svg, player

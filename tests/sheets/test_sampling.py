@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from scene import count
+from programs import count
 
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text, moved
