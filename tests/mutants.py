@@ -60,6 +60,7 @@ ROOMS = {
         (
             *("tests/drafting", *(f"tests/constructions/test_marks_of_{drawn}.py" for drawn in DRAWN)),
             *("tests/constructions/test_acts.py", "graphcam/drafting", "graphcam/constructions", "tests/constructions"),
+            *("tests/test_golden.py", "tests/test_golden_random.py"),
         ),
     ),
     "marking": Room(
@@ -263,7 +264,9 @@ def _tested(folder: Path, tests: Sequence[str]) -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
-    sys.path[:] = [str(folder), *(path for path in sys.path if not Path(path).resolve().is_relative_to(ROOT))]
+    # Nothing of the tree itself; but an environment may lie in it.
+    kept = [path for path in sys.path if "site-packages" in path or not Path(path).resolve().is_relative_to(ROOT)]
+    sys.path[:] = [str(folder), *kept]
     # No byte code: two mutants of one file within a second could not be told apart by it.
     sys.dont_write_bytecode = True
     os.environ |= {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}

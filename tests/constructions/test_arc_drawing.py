@@ -16,7 +16,7 @@ import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Caption
 from graphcam.drafting.marks import Arc, Dots
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import STANDARD_RATIOS, Scale
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.mechanism.arcs import three_arc_cam
 
@@ -28,6 +28,16 @@ every_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hand", "h
 
 def board_of(data: dict, roller: float = 10.0, dwell: float = 40.0, divisions: int = 4) -> ArcBoard:
     return ArcBoard(ThreeArcs(**data), math.radians(dwell), roller, divisions, DEGREE_A_MM, (370.0, 370.0))
+
+
+@pytest.mark.parametrize("roller", [0.0, 10.0, 60.0])
+def test_the_drawing_s_scale_leaves_room_for_the_roller_all_about_the_cam(roller):
+    """At the next larger standard scale cam and roller would not fit into their 370 mm."""
+    board = board_of(CASES["case 2"], roller)
+    reach = 2 * (math.hypot(*board.given.D) + 2 * roller)
+    assert reach / board.mu_l.per_mm <= 370
+    larger = min(ratio for ratio in STANDARD_RATIOS if ratio > 1 / board.mu_l.per_mm)
+    assert reach * larger > 370
 
 
 CASES = {f"case {k}": given(EXAMPLE, *out) for k, out in enumerate([(), ("C2",), ("C1",), ("C1", "C2")], 1)}

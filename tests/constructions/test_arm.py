@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -414,3 +415,14 @@ def test_many_hands_agree_on_the_arm_within_their_scatter():
 def region_by(pencil: Pencil):
     integrated = Chain(arm_board(arm_motion("cycloidal"), divisions=24), pencil)["integration"]
     return arm_least_radius(integrated, "ccw", limits(45, 35), ARM, None, Scale(1.0, "mm"), pencil)
+
+
+def test_the_scale_of_the_drawing_changes_no_angle_and_no_size():
+    """Similar figures: at 1:2 and at 2:1 the same cam is read."""
+    small, large = (Chain(replace(arm_board(arm_motion("3-4-5")), profile_room=(room, room))) for room in (150.0, 700.0))
+    assert small["inversion"].givens.mu_l.per_mm >= 2 * large["inversion"].givens.mu_l.per_mm
+    for name in ("minimum_radius", "pressure_angle", "inversion", "curvature", "working_profile"):
+        for key, read in small[name].readings.items():
+            assert_allclose(
+                read.value, large[name].readings[key].value, rtol=1e-10, atol=1e-10, err_msg=f"{name}.{key}"
+            )

@@ -15,8 +15,10 @@ from graphcam.constructions.axes import (
     OVERHANG,
     axes_over_phi,
     degree_ticks,
+    numbered,
     numbers,
     once,
+    phase_symbol,
     phi_axes,
     station_names,
 )
@@ -103,3 +105,23 @@ def test_of_heights_that_fall_on_one_another_each_is_drawn_once():
     heights = hand().given("heights", np.array([3, 1, 3.0001, -2, 1.0]) * 1j)
     kept = once(heights)
     assert_allclose(np.round(heights.points[kept].imag, 3), [-2, 1, 3])
+
+
+@pytest.mark.parametrize("parts", [9, 10, 40])
+@pytest.mark.parametrize("every", [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30])
+def test_the_stations_named_are_as_many_as_find_room_and_their_numbers_are_round(parts, every):
+    """4.5 mm for one digit, 6 mm for two; of rounder steps the first that is wide enough."""
+    turn = gc.Motion([gc.Rise(30, math.pi), gc.Return(30, math.pi)])
+    room = 4.5 if parts < 10 else 6.0
+    apart = room / every * (1 + 1e-9)
+    named = [k for k in numbered(apart * np.arange(2 * parts + 2) + 0j, divide(turn, parts)) if k <= parts]
+    expected = [k for k in range(0, parts, every) if k == 0 or parts - k >= every] if every <= parts else [0]
+    assert named == [*expected, parts]
+
+
+def test_phases_of_one_kind_are_counted_among_themselves_where_there_are_several():
+    """A school that names phases by their kind writes an index only where the kind comes again."""
+    twice = gc.Motion([gc.Rise(10, 1.0), gc.Dwell(1.0), gc.Rise(20, 1.0), gc.Return(30, 2.0), gc.Dwell(math.tau - 5)])
+    numbers_of = [phase_symbol(twice, k).values["number"] for k in range(5)]
+    assert [number.index for number in numbers_of] == ["₁", "₂", "₃", "₄", "₅"]
+    assert [number.again for number in numbers_of] == ["₁", "", "₂", "", ""]

@@ -380,3 +380,16 @@ def test_the_known_lift_fixes_the_scales(name, hand):
         expected *= {mu_s: 180 / math.pi / h2, mu_v: 180 / math.pi / h1}.get(mu, 1)
     rises = [k for k in moving(name) if board.motion.phases[k].direction > 0]
     assert any(size.end.real == pytest.approx(starts(name)[k + 1], abs=slack(hand, 2)) for k in rises)
+
+
+def test_what_is_carried_on_with_a_t_square_is_not_rounded_to_the_division_of_a_rule():
+    """The ordinates and the closing errors go on as they stand; s and v are read off a rule."""
+    chain = Chain(coursework("3-4-5"), Pencil(division=0.5))
+    exact = Chain(coursework("3-4-5"))
+    for name in ("greatest", "stations", "before", "middles", "base"):
+        read, drawn = (each["acceleration"].readings[name].paper for each in (chain, exact))
+        np.testing.assert_allclose(read, drawn, rtol=1e-14)
+    for name in ("s", "v"):
+        halves = 2 * chain["integration"].readings[name].paper
+        np.testing.assert_allclose(halves, np.round(halves), atol=1e-12)
+        assert np.abs(halves / 2 - exact["integration"].readings[name].paper).max() > 0.05
