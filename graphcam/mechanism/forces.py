@@ -34,15 +34,6 @@ NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
 """A guide without friction."""
 
 
-def transmission_angle(pressure_angle: ArrayLike) -> Floats:
-    """The angle between the contact normal and the line across the motion: pi/2 - |alpha| [rad].
-
-    >>> round(math.degrees(transmission_angle(math.radians(-30))), 9)
-    60.0
-    """
-    return np.asarray(math.pi / 2 - np.abs(pressure_angle))
-
-
 def grip(guide: Guide, s: Floats | float = 0.0) -> Floats:
     """g = mu (1 + 2 b/l), the friction in the guide over the side force, with the follower s mm up: b = overhang - s.
 

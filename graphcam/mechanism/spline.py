@@ -180,10 +180,7 @@ def _fitted(envelope: Envelope, stretch: list[Span], deviation: float, *, period
 
 @dataclass(frozen=True, eq=False)
 class _Need:
-    """How many parts a span wants, from its start on.
-
-    phi, parts : (n,) cam angles, and the number of parts up to there
-    """
+    """How many parts a span wants from its start on: (n,) cam angles, and the number of parts up to there."""
 
     phi: Floats
     parts: Floats
