@@ -131,9 +131,8 @@ class CamForces:
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
         along, friction = normal * cosine, grip(self.guide, s) * np.abs(across)
         bearings, efficiency = (across * (1 + leverage), across * leverage), np.where(direction == 0, np.nan, works)
-        return Forces(
-            motion.angle_at(phase, u), load, normal, along, across, *bearings, friction, along * v, efficiency
-        )
+        phi = motion.angle_at(phase, u)
+        return Forces(phi, load, normal, along, across, *bearings, friction, along * v, efficiency)
 
     def greatest_normal(self) -> ValueAt:
         """The greatest normal force over the turn [N], both sides of every jump included.

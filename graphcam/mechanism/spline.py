@@ -173,9 +173,8 @@ def _fitted(envelope: Envelope, stretch: list[Span], deviation: float, *, period
         # A poor span spoils its neighbours too, so the worst are mended first.
         poor = missed > max(1.0, missed.max() / 2)
         counts = np.where(poor, np.ceil(counts) * np.maximum(missed**0.25, LEAST_GROWTH), counts)
-    raise DesignError(
-        "deviation", f"{deviation:g} mm", "larger for this profile", "state a larger one, or take a smaller roller"
-    )
+    remedy = "state a larger one, or take a smaller roller"
+    raise DesignError("deviation", f"{deviation:g} mm", "larger for this profile", remedy)
 
 
 @dataclass(frozen=True, eq=False)

@@ -54,9 +54,13 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
             book.update_or_create_student(record["student"])
             book.update_or_create_submission(exercise.name, record["student"])
             for answer in record["answers"]:
-                name = answer["name"]
-                where = name, NOTEBOOK, exercise.name, record["student"]
-                grade, comment = book.find_grade(*where), book.find_comment(*where)
-                grade.manual_score, grade.needs_manual_grade = answer["marks"], False
-                comment.manual_comment = "\n".join(said for said in record["feedback"] if said.startswith(f"{name}:"))
+                _enter(book, exercise.name, record, answer)
         book.db.commit()
+
+
+def _enter(book: Any, assignment: str, record: dict[str, Any], answer: dict[str, Any]) -> None:
+    where = answer["name"], NOTEBOOK, assignment, record["student"]
+    grade = book.find_grade(*where)
+    grade.manual_score, grade.needs_manual_grade = answer["marks"], False
+    comment = book.find_comment(*where)
+    comment.manual_comment = "\n".join(said for said in record["feedback"] if said.startswith(f"{answer['name']}:"))
