@@ -75,7 +75,8 @@ def solve(
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
-        solution = solved(given, _pencil(pencil, seed))
+        hand = None if pencil is None else graphcam.Pencil(line=pencil, dividers=pencil, seed=seed)
+        solution = solved(given, hand)
         document = solution.to_dict()
         if folder is None:
             # A wrong choice is one even where nothing is drawn by it.
@@ -109,10 +110,6 @@ def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
     if worksheet:
         return 0
     return int(upto) if upto is not None and upto.isdecimal() else upto
-
-
-def _pencil(sigma: float | None, seed: int) -> graphcam.Pencil | None:
-    return None if sigma is None else graphcam.Pencil(line=sigma, dividers=sigma, seed=seed)
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:

@@ -206,21 +206,16 @@ def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
         leg.end if leg.to_rest else _turning(fitted, leg, following)
         for leg, following in zip(legs, [*legs[1:], legs[0].a_turn_later], strict=True)
     ]
-    starts = [
-        leg.start if leg.from_rest else end for leg, end in zip(legs, [ends[-1] - FULL_TURN, *ends[:-1]], strict=True)
-    ]
+    before = [ends[-1] - FULL_TURN, *ends[:-1]]
+    starts = [leg.start if leg.from_rest else end for leg, end in zip(legs, before, strict=True)]
     phases: list[tuple[float, Phase]] = []
     for leg, start, end, following in zip(legs, starts, ends, [*starts[1:], starts[0] + FULL_TURN], strict=True):
-        phases.append((start, _phase(fitted, leg, start, end)))
+        contact = AT_REST if leg.from_rest else TURNING, AT_REST if leg.to_rest else TURNING
+        lift, law = spline_law(fitted, start, end, contact)
+        phases.append((start, (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)))
         if leg.to_rest:
             phases.append((end, Dwell(following - end)))
     return *_from_zero(phases), min(float(fitted.spline(start)) for start in starts)
-
-
-def _phase(fitted: Fit, leg: Leg, start: float, end: float) -> Rise | Return:
-    contact = AT_REST if leg.from_rest else TURNING, AT_REST if leg.to_rest else TURNING
-    lift, law = spline_law(fitted, start, end, contact)
-    return (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)
 
 
 def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:

@@ -130,18 +130,14 @@ def _least_squares(phi: Floats, s: Floats, legs: list[Leg], knots: Floats) -> Fi
 
 
 def _signs(turns: Floats, legs: list[Leg]) -> tuple[Floats, Floats]:
-    """Bounds of the velocities' coefficients: zero over rests, of one sign on a leg, one of any sign at a turning.
-
-    turns : (2 n,) the knots of this turn and of the next
-    """
-    n = turns.size // 2
+    """Bounds of the velocities' coefficients: zero over rests, of one sign on a leg, one of any sign at a turning."""
+    n = turns.size // 2  # the knots of this turn and of the next are given
     reach = np.lib.stride_tricks.sliding_window_view(turns, DEGREE + 1)[:n]
     middle = reach[:, 1:-1].mean(axis=1)  # where the coefficient is about the velocity (T. N. E. Greville)
     around = [*legs, *(leg.a_turn_later for leg in legs)]
     ends = np.array([leg.end for leg in around])
-    direction = np.array([leg.direction for leg in around])[
-        np.minimum(np.searchsorted(ends, middle), 2 * len(legs) - 1)
-    ]
+    on = np.minimum(np.searchsorted(ends, middle), 2 * len(legs) - 1)
+    direction = np.array([leg.direction for leg in around])[on]
     lower, upper = np.where(direction > 0, 0.0, -np.inf), np.where(direction > 0, np.inf, 0.0)
     for a, b in pairwise(around):
         if a.to_rest:

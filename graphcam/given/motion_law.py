@@ -242,9 +242,8 @@ class Law:
                 k, name = int(off.argmax()), DERIVATIVES[order]
                 what = f"integral of {DERIVATIVES[order + 1]} from u = {low[k]:.3g} to {high[k]:.3g}"
                 remedy = "correct the derivative; if one jumps there, give an edge and a formula for either side"
-                raise self._wrong(
-                    what, integrals[order + 1, k], f"{change[order, k]:.6g}, the change of {name}", remedy
-                )
+                limit = f"{change[order, k]:.6g}, the change of {name}"
+                raise self._wrong(what, integrals[order + 1, k], limit, remedy)
 
     def _check_closed_forms(self, inside: Floats) -> None:
         for name, peak, order in zip(("max f'", "max |f''|"), self.peaks or (), (1, 2), strict=False):

@@ -92,6 +92,5 @@ def _candidate(term: str, rule: str) -> Candidate:
     if match := _MARGIN.fullmatch(term):
         return Candidate(term, "rho", margin=float(match[1]))
     remedy = nearest(rule, NAMED_RULES) if re.fullmatch(r"[a-z-]+", rule) else f"the term '{term}' is none of them"
-    raise DesignError(
-        "roller rule", rule, "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule", remedy
-    )
+    limit = "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule"
+    raise DesignError("roller rule", rule, limit, remedy)

@@ -86,8 +86,7 @@ def _lines(path: Path) -> list[str]:
     try:
         return content.decode("utf-8-sig").rstrip().splitlines()
     except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        wrong = content[error.start : error.start + 1]
+        line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
         raise TaskError(str(path), f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
 
 

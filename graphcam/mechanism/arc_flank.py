@@ -77,9 +77,8 @@ class ArcFlank:
         for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
             found, given = getattr(self, name), getattr(self.given, name)
             if not np.all(np.isfinite(found)):
-                raise DesignError(
-                    centre, _shown((0, 0)), f"on the line from the cam centre to {name}", f"move {centre}"
-                )
+                limit = f"on the line from the cam centre to {name}"
+                raise DesignError(centre, _shown((0, 0)), limit, f"move {centre}")
             if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
                 where = f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre"
                 raise DesignError(name, _shown(given), where, f"make {name} and {centre} agree, or leave {centre} out")

@@ -92,7 +92,11 @@ class ArcMotion(Shown):
         trace = points + self.roller_radius * outward
         r0, r1 = (abs(complex(points[k])) + self.roller_radius for k in (0, 3))
         object.__setattr__(self, "arcs", self._followed(trace, -outward, r0, r1))
-        _check_pressure(outward, trace)
+        # The follower is never pushed across its guide: on an arc it is not, if at neither end of it.
+        for name, n, z in zip("AGFD", outward.tolist(), trace.tolist(), strict=True):
+            if not (n * z.conjugate()).real > 0:
+                at = f"90 degrees or more at {name}"
+                raise DesignError("pressure angle", at, "less than 90 degrees", "move G or C1")
         object.__setattr__(self, "edges", self._edges(self.sigma * np.angle(trace[0] * np.conj(trace))))
 
     def _followed(self, trace: Complexes, inward: Complexes, r0: float, r1: float) -> Arcs:
@@ -251,10 +255,3 @@ class ArcMotion(Shown):
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))
         return float(abs(values[k])), float(psi[k])
-
-
-def _check_pressure(outward: Complexes, trace: Complexes) -> None:
-    """That the follower is never pushed across its guide: on an arc it is not, if at neither end of it."""
-    for name, n, z in zip("AGFD", outward.tolist(), trace.tolist(), strict=True):
-        if not (n * z.conjugate()).real > 0:
-            raise DesignError("pressure angle", f"90 degrees or more at {name}", "less than 90 degrees", "move G or C1")

@@ -128,7 +128,9 @@ def _root(given: ThreeArcs, c1: complex, c2: complex, k: float) -> ThreeArcCam:
             t = (k - abs(w)) * (k + abs(w)) / (2 * bend)
         why = _why(k, t, rho2)
     c3 = g + t * n if math.isfinite(t) else complex(math.nan, math.nan)
-    a, d, sound = _base_point(c2, rho2, g), _outer_point(c1, abs(k)), 0 < k < t < rho2
+    # D: where the circle about C1 touches one about the cam centre that it lies inside.
+    d = c1 * (1 + abs(k) / abs(c1)) if c1 else complex(math.nan, math.nan)
+    a, sound = _base_point(c2, rho2, g), 0 < k < t < rho2
     A, D, F, G, C1, C2, C3 = (_xy(point) for point in (a, d, f, g, c1, c2, c3))
     return ThreeArcCam(given, A, D, F, G, C1, C2, C3, abs(k), rho2, abs(t), t < 0, sound, why)
 
@@ -140,11 +142,6 @@ def _base_point(c2: complex, rho2: float, g: complex) -> complex:
     distance = abs(c2)
     # rho2 - |C2| without the difference of two large numbers that a flat arc would leave.
     return -c2 / distance * float(dot(g, g - 2 * c2)) / (rho2 + distance)
-
-
-def _outer_point(c1: complex, rho1: float) -> complex:
-    """D: where the circle about C1 touches one about the cam centre that it lies inside."""
-    return c1 * (1 + rho1 / abs(c1)) if c1 else complex(math.nan, math.nan)
 
 
 STRAIGHT = (

@@ -34,15 +34,6 @@ NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
 """A guide without friction."""
 
 
-def transmission_angle(pressure_angle: ArrayLike) -> Floats:
-    """The angle between the contact normal and the line across the motion: pi/2 - |alpha| [rad].
-
-    >>> round(math.degrees(transmission_angle(math.radians(-30))), 9)
-    60.0
-    """
-    return np.asarray(math.pi / 2 - np.abs(pressure_angle))
-
-
 def grip(guide: Guide, s: Floats | float = 0.0) -> Floats:
     """g = mu (1 + 2 b/l), the friction in the guide over the side force, with the follower s mm up: b = overhang - s.
 
@@ -140,9 +131,8 @@ class CamForces:
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
         along, friction = normal * cosine, grip(self.guide, s) * np.abs(across)
         bearings, efficiency = (across * (1 + leverage), across * leverage), np.where(direction == 0, np.nan, works)
-        return Forces(
-            motion.angle_at(phase, u), load, normal, along, across, *bearings, friction, along * v, efficiency
-        )
+        phi = motion.angle_at(phase, u)
+        return Forces(phi, load, normal, along, across, *bearings, friction, along * v, efficiency)
 
     def greatest_normal(self) -> ValueAt:
         """The greatest normal force over the turn [N], both sides of every jump included.

@@ -246,14 +246,11 @@ def _exchange(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: 
         exceeded = [margin < -KEPT for margin in problem.margins(worst, sizes).values()]
         chosen = np.any(exceeded, axis=0)
         # Where the least prime radius leaves no room at all, the second search comes to rest a little beyond a limit.
-        if not chosen.any() or _same(before, sizes):
+        steps = (abs(x - y) for x, y in zip(astuple(before), astuple(sizes), strict=True))
+        if not chosen.any() or all(step <= SAME * before.radius for step in steps):
             break
         places = places.joined(worst.where(chosen))
     return sizes
-
-
-def _same(a: Sizes, b: Sizes) -> bool:
-    return all(abs(x - y) <= SAME * a.radius for x, y in zip(astuple(a), astuple(b), strict=True))
 
 
 def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: float | None) -> Sizes:

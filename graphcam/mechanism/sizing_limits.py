@@ -46,9 +46,8 @@ class SizingLimits:
                 quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
                 raise DesignError(quantity, f"{math.degrees(angle):g} degrees", limit)
         if not 0 < self.roller_share <= 1:
-            raise DesignError(
-                "roller's share of the radius of curvature", self.roller_share, "greater than 0, at most 1"
-            )
+            quantity = "roller's share of the radius of curvature"
+            raise DesignError(quantity, self.roller_share, "greater than 0, at most 1")
 
 
 @dataclass(frozen=True)

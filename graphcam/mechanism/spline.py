@@ -173,17 +173,13 @@ def _fitted(envelope: Envelope, stretch: list[Span], deviation: float, *, period
         # A poor span spoils its neighbours too, so the worst are mended first.
         poor = missed > max(1.0, missed.max() / 2)
         counts = np.where(poor, np.ceil(counts) * np.maximum(missed**0.25, LEAST_GROWTH), counts)
-    raise DesignError(
-        "deviation", f"{deviation:g} mm", "larger for this profile", "state a larger one, or take a smaller roller"
-    )
+    remedy = "state a larger one, or take a smaller roller"
+    raise DesignError("deviation", f"{deviation:g} mm", "larger for this profile", remedy)
 
 
 @dataclass(frozen=True, eq=False)
 class _Need:
-    """How many parts a span wants, from its start on.
-
-    phi, parts : (n,) cam angles, and the number of parts up to there
-    """
+    """How many parts a span wants from its start on: (n,) cam angles, and the number of parts up to there."""
 
     phi: Floats
     parts: Floats

@@ -44,7 +44,9 @@ def circumradius(before: ArrayLike, middle: ArrayLike, after: ArrayLike) -> Floa
     turn = np.asarray(p - q)
     for k in np.argwhere(np.abs(turn) < DOUBTFUL * (np.abs(p) + np.abs(q))):
         at = tuple(k)
-        turn[at] = _exact_turn(first[at], centre[at], last[at], int(size[at]))
+        # b x a of the points as they are, in units of 2^size, rounded once.
+        (ax, ay), (mx, my), (bx, by) = ([Fraction(float(x)) for x in part[at]] for part in (first, centre, last))
+        turn[at] = float(((bx - mx) * (ay - my) - (by - my) * (ax - mx)) / Fraction(2) ** (2 * int(size[at])))
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.ldexp(chords * across / (2 * turn), size)
 
@@ -53,9 +55,3 @@ SHORT = 1e-70
 """Products of four such lengths are still told from zero."""
 DOUBTFUL = 1e-9
 """A difference of two products that is a smaller part of them has lost so many digits that it is taken exactly."""
-
-
-def _exact_turn(first: Floats, centre: Floats, last: Floats, size: int) -> float:
-    """b x a of the points as they are, in units of 2^size, rounded once."""
-    (ax, ay), (mx, my), (bx, by) = ([Fraction(float(x)) for x in point] for point in (first, centre, last))
-    return float(((bx - mx) * (ay - my) - (by - my) * (ax - mx)) / Fraction(2) ** (2 * size))

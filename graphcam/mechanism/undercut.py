@@ -143,7 +143,10 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
     phi, piece, arc = _samples(envelope)
     if not envelope.backward and np.all(envelope.support(phi, piece) > 0):
         return []  # seen from the centre the profile never turns back, so it cannot meet itself
-    crossings = [*_beside_cusps(envelope), *_far_apart(envelope, phi, piece, arc)]
+    # The two arcs that each backward stretch leads from and to may meet.
+    ways = zip(envelope.backward, pairwise(_forward(envelope)), strict=True)
+    beside = (_crossing(envelope, _seed(envelope, part), before, after) for part, (before, after) in ways)
+    crossings = [*filter(None, beside), *_far_apart(envelope, phi, piece, arc)]
     lost: list[Lost] = []
     here = envelope.edges[0]
     for crossing in sorted(crossings, key=lambda crossing: crossing.begin):
@@ -165,14 +168,6 @@ def _forward(envelope: Envelope) -> list[tuple[float, float]]:
     turns = [phi for part in envelope.backward for phi in (part.begin, part.end)]
     ends = [float(envelope.edges[0]), *turns, float(envelope.edges[-1])]
     return list(zip(ends[::2], ends[1::2], strict=True))
-
-
-def _beside_cusps(envelope: Envelope) -> Iterator[Lost]:
-    """The crossings of the two arcs that each backward stretch leads from and to, if they meet."""
-    for part, (before, after) in zip(envelope.backward, pairwise(_forward(envelope)), strict=True):
-        found = _crossing(envelope, _seed(envelope, part), before, after)
-        if found:
-            yield found
 
 
 def _seed(envelope: Envelope, part: Backward) -> tuple[float, float]:

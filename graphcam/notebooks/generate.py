@@ -121,10 +121,8 @@ def _chapter(drawn: Construction, construction: str, tell: Tell) -> list[Noteboo
     """Title, why and steps of a construction, which stands in the notebook's code as an expression."""
     # Its rays are drawn in the combined diagram.
     on = ', on=solution.drawn["minimum_radius"]' * (drawn.name == "pressure_angle")
-    return [
-        _section(tell, drawn.meaning.title, drawn.meaning.why),
-        _hidden(f"show_steps({construction}, tell=tell{on})"),
-    ]
+    shown = _hidden(f"show_steps({construction}, tell=tell{on})")
+    return [_section(tell, drawn.meaning.title, drawn.meaning.why), shown]
 
 
 def _spring(solution: AnySolution) -> list[NotebookNode]:
@@ -150,8 +148,8 @@ def _question(solution: AnySolution, name: str) -> list[NotebookNode]:
 
 def _parts(solution: AnySolution) -> str:
     """A slider for the number of parts, on the drawing that shows them best."""
-    construction = "arc_diagrams" if isinstance(solution, ArcsSolution) else "integration"
-    view = "acceleration" if isinstance(solution, ArcsSolution) else "displacement"
+    arcs = isinstance(solution, ArcsSolution)
+    construction, view = ("arc_diagrams", "acceleration") if arcs else ("integration", "displacement")
     start = solution.task.drawing.divisions
     values = sorted({2, 4, 8, 12, 24, start})
     shown = tuple(sorted({4, start}))

@@ -64,18 +64,6 @@ def markdown_page(source: str) -> str:
     return MarkdownWithMath(renderer=_Renderer(escape=False, exclude_anchor_links=True)).render(source)
 
 
-def _exporter(language: str) -> HTMLExporter:
-    """nbconvert's exporter with graphcam's template, plain colours for code, and stills for sliders."""
-    config = Config(
-        NbConvertBase={"display_data_priority": SHOWN},
-        CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
-    )
-    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATES)]}
-    exporter = HTMLExporter(config=config, language_code=language, **template)
-    exporter.register_filter("markdown2html", markdown_page)
-    return exporter
-
-
 def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     """An executed notebook as a page.
 
@@ -85,7 +73,14 @@ def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     ------
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     """
-    page, _ = _exporter(language).from_notebook_node(notebook, resources={"metadata": {"title": title, "name": title}})
+    config = Config(
+        NbConvertBase={"display_data_priority": SHOWN},
+        CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
+    )
+    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATES)]}
+    exporter = HTMLExporter(config=config, language_code=language, **template)
+    exporter.register_filter("markdown2html", markdown_page)
+    page, _ = exporter.from_notebook_node(notebook, resources={"metadata": {"title": title, "name": title}})
     return page
 
 

@@ -204,15 +204,12 @@ def _summits(table: LawTable, cam: Numbers, place: Numbers, heights: Floats) -> 
     # A summit stands out from the places about it by no more than these differ.
     spread = np.maximum(np.maximum(left, centre), right) - np.minimum(np.minimum(left, centre), right)
     may = own + spread >= top
-    place = place[may]
-    return _Summits(cam[may], place, _vertex(table.w, table.inner[place], left[may], centre[may], right[may]))
-
-
-def _vertex(w: Floats, middle: Numbers, left: Floats, centre: Floats, right: Floats) -> Floats:
-    """Where the parabola through three neighbours has its vertex."""
+    w, place = table.w, place[may]
+    middle = table.inner[place]
+    # The parabola through three neighbours has its vertex there.
     before, after = w[middle] - w[middle - 1], w[middle + 1] - w[middle]
-    fall, rise = (left - centre) / before, (right - centre) / after
-    return w[middle] + (rise * before - fall * after) / (2 * -(rise + fall))
+    fall, rise = (left[may] - centre[may]) / before, (right[may] - centre[may]) / after
+    return _Summits(cam[may], place, w[middle] + (rise * before - fall * after) / (2 * -(rise + fall)))
 
 
 def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> Floats:

@@ -215,12 +215,7 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
 
 
 _REMEDY = "graphcam/data/space.toml in the package is a commented example"
-_CLASSES: Classes = {
-    (): Space,
-    ("motion",): SpaceMotionTable,
-    ("cam",): SpaceCamTable,
-    ("limits",): SpaceLimitsTable,
-}
+_CLASSES: Classes = {(): Space, ("motion",): SpaceMotionTable, ("cam",): SpaceCamTable, ("limits",): SpaceLimitsTable}
 
 
 def load_space(path: str | Path) -> Space:

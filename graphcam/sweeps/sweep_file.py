@@ -69,9 +69,8 @@ def _parquet(path: Path, draft: Path) -> Generator[Write]:
         import pyarrow as arrow
         from pyarrow import parquet
     except ImportError:
-        raise OutputError(
-            path, "there is no pyarrow", "pip install 'graphcam[parquet]', or write a .csv file"
-        ) from None
+        remedy = "pip install 'graphcam[parquet]', or write a .csv file"
+        raise OutputError(path, "there is no pyarrow", remedy) from None
     writer: Any = None
     try:
 

@@ -109,7 +109,11 @@ class MotionTable:
             left_out = "left out where there is no table"
             raise DesignError("tolerance", self.tolerance, left_out, "phases are kept exactly")
         if self.phases is not None:
-            _check_angles(self.phases)
+            turn = math.fsum(phase.angle for phase in self.phases)
+            off = f"{abs(360 - turn):.10g} deg"
+            remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
+            if abs(turn - 360) > ANGLE_CLOSURE:
+                raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)
         self()
 
     def __call__(self) -> Motion:
@@ -118,11 +122,3 @@ class MotionTable:
             return self.table(self.tolerance, self.lift_unit)
         phases: list[Phase] = [phase(self.lift_unit) for phase in self.phases or ()]
         return Motion(phases)
-
-
-def _check_angles(phases: tuple[PhaseTable, ...]) -> None:
-    turn = math.fsum(phase.angle for phase in phases)
-    off = f"{abs(360 - turn):.10g} deg"
-    remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
-    if abs(turn - 360) > ANGLE_CLOSURE:
-        raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)

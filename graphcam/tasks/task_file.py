@@ -205,10 +205,8 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
     try:
         data = tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise TaskError(
-            path, f"line {line}", content[error.start : error.start + 1], "text in UTF-8", "save the file as UTF-8"
-        ) from None
+        line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
+        raise TaskError(path, f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
     except (ValueError, RecursionError) as error:
         line = re.search(r"at line (\d+)", str(error))
         comma = line and _DECIMAL_COMMA.search(content.splitlines()[int(line[1]) - 1])

@@ -10,7 +10,7 @@ import pytest
 from test_translating import random_cam
 
 import graphcam as gc
-from graphcam.mechanism.forces import grip, jamming_angle, transmission_angle
+from graphcam.mechanism.forces import grip, jamming_angle
 
 DEG = math.pi / 180
 
@@ -124,10 +124,6 @@ def test_the_guide_holds_the_spring_back_on_a_return():
     at = forces.at(down, np.linspace(0.1, 0.9, 9))
     assert np.all(at.along + at.friction == pytest.approx(at.load, rel=1e-13))
     assert np.all(at.along / at.load == pytest.approx(at.efficiency, rel=1e-13))
-
-
-def test_the_transmission_angle_completes_the_pressure_angle():
-    assert np.degrees(transmission_angle(np.radians([-30.0, 0.0, 12.0]))) == pytest.approx([60, 90, 78])
 
 
 def test_forces_that_are_not_worked_out_are_refused_with_reason():

@@ -42,7 +42,8 @@ def answer_file(exercise: Exercise) -> str:
     how = say("Take the # away before an answer and write the number behind the = sign, with a decimal point.")
     lines = [f"# {exercise.title}. {exercise.tell(how)}", ""]
     for asked in exercise.answers:
-        lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {_blank(asked)}", ""]
+        blank = "" if asked.kind == "number" else "[[x, y], [x, y]]"
+        lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {blank}", ""]
     return "\n".join(lines)
 
 
@@ -78,9 +79,8 @@ def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Draw
     """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
     exercise = variant.exercise
     chain = board_chain(variant.task)
-    steps = [
-        (name, step) for name in _drawn_for(exercise, tuple(chain)) for step in construction_of(chain, name).steps()
-    ]
+    names = _drawn_for(exercise, tuple(chain))
+    steps = [(name, step) for name in names for step in construction_of(chain, name).steps()]
     table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, answer_key)))
     return _composed(variant, student, steps, [table], [f"{student.id}: {instructions(variant)}"])
 
@@ -149,10 +149,6 @@ def _how(asked: Asked) -> Caption:
     if not asked.unit:
         return say("({decimals}.)", decimals=decimals)
     return say("(in {unit}, {decimals}.)", unit=asked.unit_said, decimals=decimals)
-
-
-def _blank(asked: Asked) -> str:
-    return "" if asked.kind == "number" else "[[x, y], [x, y]]"
 
 
 def write_handouts(variant: Variant, student: Student, folder: Path) -> None:

@@ -74,9 +74,8 @@ def _made(exercise: Exercise, secret: bytes, draft: Path, student: Student) -> s
 def _write_keys(path: Path, exercise: Exercise, answer_keys: list[AnswerKey]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, quoting=csv.QUOTE_ALL)
-        table.writerow(
-            ["student", "draw", "answer", "unit", "key", "tolerance", "marks", "tolerance_paper_mm", "bound"]
-        )
+        head = ["student", "draw", "answer", "unit", "key", "tolerance", "marks", "tolerance_paper_mm", "bound"]
+        table.writerow(head)
         for each in answer_keys:
             for row in key_rows(exercise, each):
                 length = each.keys[str(row[0])].tolerance_paper

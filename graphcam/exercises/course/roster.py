@@ -100,9 +100,8 @@ def read_roster(path: str | Path) -> list[Student]:
     seen: dict[str, str] = {}
     for student in students:
         if not student.id.strip():
-            raise TaskError(
-                str(path), "id", student.id, "given", f"fill in the id of {student.name or 'every student'}"
-            )
+            remedy = f"fill in the id of {student.name or 'every student'}"
+            raise TaskError(str(path), "id", student.id, "given", remedy)
         # Some file systems do not tell capitals from small letters.
         folder = folder_name(student.id).casefold()
         if folder in seen:

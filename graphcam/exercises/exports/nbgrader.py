@@ -40,21 +40,17 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
     (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
-    nbformat.write(_notebook(exercise), source / f"{NOTEBOOK}.ipynb")
+    how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
+    cells = [_markdown("task", f"# {exercise.title}\n\n{tell(how)}")]
+    for asked in exercise.answers:
+        cells += [_markdown(f"{asked.name}-asked", _question(asked, tell)), _answer(asked)]
+    nbformat.write(nb.new_notebook(cells=cells, metadata=PYTHON), source / f"{NOTEBOOK}.ipynb")
     sheets = folder / "sheets"
     sheets.mkdir()
     for answer_key in answer_keys:
         told = sentence(exercise.text, answer_key.parameters, tell)
         text = f"# {exercise.title}\n\n{answer_key.student}\n\n{told}"
         (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8")
-
-
-def _notebook(exercise: Exercise) -> NotebookNode:
-    how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
-    cells = [_markdown("task", f"# {exercise.title}\n\n{exercise.tell(how)}")]
-    for asked in exercise.answers:
-        cells += [_markdown(f"{asked.name}-asked", _question(asked, exercise.tell)), _answer(asked)]
-    return nb.new_notebook(cells=cells, metadata=PYTHON)
 
 
 def _question(asked: Asked, tell: Tell) -> str:

@@ -42,7 +42,10 @@ class Store:
     @staticmethod
     def beside(out: Path, assignment: Assignment) -> Store:
         """The store of a run that writes to ``out``."""
-        return Store(out.parent / f".{out.name}-{_fingerprint(assignment)}")
+        # Of the secret only a digest is left, and of that a part.
+        secret = hashlib.sha256(b"graphcam store" + assignment.secret).hexdigest()
+        said = [graphcam.__version__, repr(assignment.exercise), secret, assignment.level, repr(assignment.limits)]
+        return Store(out.parent / f".{out.name}-{hashlib.sha256(repr(said).encode()).hexdigest()[:16]}")
 
     @contextmanager
     def held(self) -> Generator[None]:
@@ -98,13 +101,6 @@ def _remove_empty(folders: Iterable[Path]) -> None:
     for folder in folders:
         with suppress(OSError):
             folder.rmdir()
-
-
-def _fingerprint(assignment: Assignment) -> str:
-    # Of the secret only a digest is left, and of that a part.
-    secret = hashlib.sha256(b"graphcam store" + assignment.secret).hexdigest()
-    said = [graphcam.__version__, repr(assignment.exercise), secret, assignment.level, repr(assignment.limits)]
-    return hashlib.sha256(repr(said).encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True)

@@ -76,9 +76,8 @@ def students_in(
         with os.scandir(folder) as entries:
             found = [Path(entry.path) for entry in entries if not _is_aside(entry, student_of, known)]
     except OSError as error:
-        raise TaskError(
-            str(folder), "the folder", error.strerror or "not there", "one with a folder a student"
-        ) from None
+        why = error.strerror or "not there"
+        raise TaskError(str(folder), "the folder", why, "one with a folder a student") from None
     return sorted((student_of(path.name), path) for path in found)
 
 

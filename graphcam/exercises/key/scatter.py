@@ -13,7 +13,6 @@ from graphcam.exercises.definition.drawn_answers import ask, per_mm
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.key.expectation import Expected, Floats, distance_to_curve
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.stations import Stations
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
@@ -123,7 +122,10 @@ def bulges(chain: Chain, asked: Asked) -> Floats:
         found[piece.start : piece.stop - 1] = _bulge(plotted[:-1], middle, plotted[1:])
     if asked.construction not in PROFILES:
         return found[:-1]
-    found[stations.last] = np.tan(_dwells(points, stations) / 4)
+    # The angles at the cam centre after every moving phase, counter-clockwise [rad].
+    inside = np.delete(np.angle(points[1:] / points[:-1]), stations.last[:-1])
+    after = (stations.phi[(stations.last + 1) % points.size] - stations.phi[stations.last]) % FULL_TURN
+    found[stations.last] = np.tan(np.copysign(after, inside.sum()) / 4)
     return found
 
 
@@ -131,10 +133,3 @@ def _bulge(start: Points, middle: Points, end: Points) -> Floats:
     half = (end - start) / 2
     bent: Points = np.divide(middle - start - half, half, out=np.zeros_like(half), where=half != 0)
     return np.asarray(-bent.imag, dtype=np.float64)
-
-
-def _dwells(points: Points, stations: Stations) -> Floats:
-    """The angles at the cam centre after every moving phase, counter-clockwise [rad]."""
-    inside = np.delete(np.angle(points[1:] / points[:-1]), stations.last[:-1])
-    after = (stations.phi[(stations.last + 1) % points.size] - stations.phi[stations.last]) % FULL_TURN
-    return np.copysign(after, inside.sum())

@@ -46,9 +46,8 @@ def perfect_hands(exercise: Exercise, right: Chain) -> PerfectHands:
     """
     answers, lengths = answers_of(exercise, right), lengths_of(exercise, right)
     wrong = {name: misconception(name).change(right) for name in exercise.misconceptions}
-    return PerfectHands(
-        right, wrong, answers, {name: answers_of(exercise, chain) for name, chain in wrong.items()}, lengths
-    )
+    wrong_answers = {name: answers_of(exercise, chain) for name, chain in wrong.items()}
+    return PerfectHands(right, wrong, answers, wrong_answers, lengths)
 
 
 def hypotheses(exercise: Exercise, drawn: PerfectHands) -> dict[str, tuple[Expected, ...]]:

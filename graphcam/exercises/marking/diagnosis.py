@@ -98,10 +98,7 @@ def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple
 
 
 def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
-    """How well every mistake fits; one that the numbers make hopeless is left out where something is drawn.
-
-    other : the badness of "something else"
-    """
+    """How well every mistake fits; one that the numbers make hopeless is left out where something is drawn."""
     bound, hypotheses = answer_key.bound, answer_key.hypotheses
     numbers = [(each.place, each.given, each.wrong) for each in compared if isinstance(each.given, float)]
     drawn = [each for each in compared if not isinstance(each.given, float)]

@@ -65,10 +65,7 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
 
 
 def _traced(pieces: list[Points], ends: Points, free: NDArray[np.bool_]) -> Points:
-    """The first free piece, prolonged at both its ends by those that follow there; all these are free no more.
-
-    ends : of every piece (n, 2)
-    """
+    """The first free piece, prolonged at both its ends by those that follow there; all these are free no more."""
     first = int(np.argmax(free))
     free[first] = False
     chain = deque([pieces[first]])

@@ -27,18 +27,15 @@ def run_notebook(
     ------
     UnreadableError : it is no notebook
     """
-    cells = [_without_commands(cell_source(cell)) for cell in code_cells(name, data)]
+    sources = [cell_source(cell).splitlines() for cell in code_cells(name, data)]
+    # Without the lines that are for the notebook program itself.
+    cells = ["\n".join("" if line.startswith(("%", "!")) else line for line in lines) for lines in sources]
     ended = run_cells(level, cells, [*names, "answers"], limits)
     values, notes = _handed_out(name, ended.handed_out)
     if not values:
         with suppress(UnreadableError):
             values, notes = notebook_values(name, data), []
     return values, [*_on_end(name, ended, limits), *notes]
-
-
-def _without_commands(source: str) -> str:
-    """Without the lines that are for the notebook program itself."""
-    return "\n".join("" if line.startswith(("%", "!")) else line for line in source.splitlines())
 
 
 def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
