@@ -419,7 +419,8 @@ def region_by(pencil: Pencil):
 
 def test_the_scale_of_the_drawing_changes_no_angle_and_no_size():
     """Similar figures: at 1:2 and at 2:1 the same cam is read."""
-    small, large = (Chain(replace(arm_board(arm_motion("3-4-5")), profile_room=(room, room))) for room in (150.0, 700.0))
+    board = arm_board(arm_motion("3-4-5"))
+    small, large = (Chain(replace(board, profile_room=(room, room))) for room in (150.0, 700.0))
     assert small["inversion"].givens.mu_l.per_mm >= 2 * large["inversion"].givens.mu_l.per_mm
     for name in ("minimum_radius", "pressure_angle", "inversion", "curvature", "working_profile"):
         for key, read in small[name].readings.items():
