@@ -74,8 +74,7 @@ def _sine_down(x: Floats, *, height: float, k: float, peak: float):
 
 def _sine_top(x: Floats, *, height: float):
     """The flat of the modified trapezoidal law after a sine ramp over 1/8."""
-    k = 4 * math.pi
-    y = x - 1 / 8
+    k, y = 4 * math.pi, x - 1 / 8
     return (
         height / k * (1 / 8 - 1 / k) + y * (height / k + height / 2 * y),
         height / k + height * y,

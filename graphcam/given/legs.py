@@ -84,8 +84,7 @@ def find_legs(phi: Floats, s: Floats, tolerance: float) -> list[Leg]:
     # Begun where it moves fastest, the table has no rest across its ends.
     steepness = np.abs(np.roll(s, -1) - s) / ((np.roll(phi, -1) - phi) % FULL_TURN)
     first = (int(np.argmax(steepness)) + 1) % s.size
-    phi = np.concatenate([phi[first:], phi[:first] + FULL_TURN])
-    s = np.roll(s, -first)
+    phi, s = np.concatenate([phi[first:], phi[:first] + FULL_TURN]), np.roll(s, -first)
     stops = _stops(phi, s, tolerance, lift)
     lowest = min(range(len(stops)), key=lambda k: stops[k].level)
     around = [*stops[lowest:], *(stop.a_turn_later for stop in stops[: lowest + 1])]

@@ -179,8 +179,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
             remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"
             limit = f"greater than the one before, {_degrees(phi[k - 1])}"
             raise RowError(k, "cam angle", _degrees(phi[k]), limit, remedy)
-    span = float(phi[-1] - phi[0])
-    widest = float(np.max(np.diff(phi)))
+    span, widest = float(phi[-1] - phi[0]), float(np.max(np.diff(phi)))
     last = phi.size - 1
     if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
         limit, remedy = "360 degrees, or a step less", "give one revolution of the cam"

@@ -80,8 +80,7 @@ def three_arc_cam(
     On the line of F, C1 and C3 the order is C1, F, C3 instead of F, C1, C3: the profile would turn back in a cusp at F.
     """
     given = ThreeArcs(D, G, rho1, A, C1, C2)
-    c1 = first_centre(given)
-    c2 = second_centre(given)
+    c1, c2 = first_centre(given), second_centre(given)
     return _root(given, c1, c2, given.rho1), _root(given, c1, c2, -given.rho1)
 
 

@@ -182,8 +182,7 @@ class Envelope:
         phi, piece = self._nodes
         behind = self.speed(phi, piece) < 0
         turns = np.flatnonzero(behind[:-1] != behind[1:])
-        cusps = self._cusps(turns)
-        jumps = self._jumps(turns)
+        cusps, jumps = self._cusps(turns), self._jumps(turns)
         margin = self.margin(phi, piece)
         return [
             Backward(float(cusps[k]), float(cusps[k + 1]), bool(jumps[k]), bool(jumps[k + 1]))

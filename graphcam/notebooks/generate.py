@@ -151,7 +151,6 @@ def _parts(solution: AnySolution) -> str:
     arcs = isinstance(solution, ArcsSolution)
     construction, view = ("arc_diagrams", "acceleration") if arcs else ("integration", "displacement")
     start = solution.task.drawing.divisions
-    values = sorted({2, 4, 8, 12, 24, start})
-    shown = tuple(sorted({4, start}))
+    values, shown = sorted({2, 4, 8, 12, 24, start}), tuple(sorted({4, start}))
     parts = solution.tell(say_in("of a slider", "parts"))
     return PARTS.format(construction=construction, view=view, values=values, start=start, shown=shown, parts=parts)

@@ -175,8 +175,7 @@ def _first_peak(motion: Motion) -> float:
 
 
 def _pole(room: DiagramRoom, high: float, height: Callable[[float], float]) -> float:
-    usual = USUAL_POLE / room.degrees_per_mm
-    longest = LONGEST_POLE * 360 / room.degrees_per_mm
+    usual, longest = USUAL_POLE / room.degrees_per_mm, LONGEST_POLE * 360 / room.degrees_per_mm
     possible = [pole for pole in POLES if pole <= longest]
     k = min(range(len(possible)), key=lambda k: abs(possible[k] - usual))
     while k + 1 < len(possible) and height(possible[k]) > high:

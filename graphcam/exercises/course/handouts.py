@@ -63,8 +63,7 @@ def notebook(variant: Variant) -> NotebookNode:
 
 def worksheet(variant: Variant, student: Student) -> Drawing:
     """The sheet to draw on: what is given, and the table for the answers."""
-    exercise = variant.exercise
-    chain = board_chain(variant.task)
+    exercise, chain = variant.exercise, board_chain(variant.task)
     steps = [
         (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
     ]
@@ -77,8 +76,7 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
 
 def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Drawing:
     """The teacher's sheet: every construction that is asked for, drawn to its end, and the key."""
-    exercise = variant.exercise
-    chain = board_chain(variant.task)
+    exercise, chain = variant.exercise, board_chain(variant.task)
     names = _drawn_for(exercise, tuple(chain))
     steps = [(name, step) for name in names for step in construction_of(chain, name).steps()]
     table = Table(say("Key"), KEY_COLUMNS, tuple(key_rows(exercise, answer_key)))
@@ -129,8 +127,7 @@ def _composed(
     # Diagrams alone have scales of their own, and the sheet none.
     shown = any(step.view.name == PROFILE.name for _, step in steps)
     title = title if shown or title.scale is not None else replace(title, scale="")
-    scale = board_chain(task).profile_scale
-    tell = variant.exercise.tell
+    scale, tell = board_chain(task).profile_scale, variant.exercise.tell
     block = title_block(title, scale, tell)
     return compose(steps, tables, block, task.drawing.format, task.drawing.frame, notes, tell=tell)
 
