@@ -30,7 +30,10 @@ class Timer:
         """
         repeats, best, spent, runs = 1, math.inf, 0.0, 0
         while runs < self.least_runs or spent < self.budget:
-            taken = _run(work, repeats)
+            start = time.thread_time()
+            for _ in range(repeats):
+                work()
+            taken = time.thread_time() - start
             best = min(best, taken / repeats)
             if taken < SHORTEST:
                 repeats *= 4
@@ -44,10 +47,3 @@ class Timer:
         x = np.linspace(0, 2 * np.pi, n, endpoint=False)
         out = np.empty(n)
         return self.seconds(lambda: (np.sin(x, out), np.cos(x, out)))
-
-
-def _run(work: Callable[[], object], repeats: int) -> float:
-    start = time.thread_time()
-    for _ in range(repeats):
-        work()
-    return time.thread_time() - start

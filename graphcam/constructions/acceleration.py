@@ -146,7 +146,9 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
         "mm."
     ).where(ordinate=greatest[chosen], greatest=sequence([say("{y:.1f}", y=y) for y in greatest]))
     dimensions = tuple(_ordinate(diagram, curve.shown, y) for curve, y in zip(curves, greatest, strict=True))
-    plotted = say("In each moving phase the acceleration is plotted by its law: {laws}.", laws=_laws(motion, stations))
+    moving = zip(stations.phase[stations.last].tolist(), phases, strict=True)
+    laws = [say("{phase} {law}", phase=phase_title(motion, k), law=law_name(p.normalised)) for k, p in moving]
+    plotted = say("In each moving phase the acceleration is plotted by its law: {laws}.", laws=sequence(laws))
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
@@ -154,12 +156,6 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
         Step(say("Acceleration by the law"), plotted, ACCELERATION, lines),
         _middle_ordinates(diagram),
     ]
-
-
-def _laws(motion: Motion, stations: Stations) -> Caption:
-    """The moving phases with their laws."""
-    phases = zip(stations.phase[stations.last].tolist(), moving_phases(motion, stations), strict=True)
-    return sequence([say("{phase} {law}", phase=phase_title(motion, k), law=law_name(p.normalised)) for k, p in phases])
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:

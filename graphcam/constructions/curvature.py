@@ -79,7 +79,8 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     rests, angles = _rests(hand, inverted, pitch, centre)
     places, corner = hand.take("places", pitch, rests, nowhere), _turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
-    candidates = _neighbours(inverted), _of_rests(inverted, rests)
+    of_rests = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
+    candidates = _neighbours(inverted), np.broadcast_to(of_rests, (*rests.points.shape[:-1], *of_rests.shape))
     seen = [_sharpest(inverted, places.points, triples) for triples in candidates]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
     # Where nothing rests no arc is near, seen from any place.
@@ -171,12 +172,6 @@ def _vanishes(phase: Moving, u: float) -> bool:
     """Whether the given acceleration of a phase is zero at its end u."""
     law = phase.normalised
     return abs(float(law(u)[2])) <= NO_ACCELERATION * law.peak_acceleration
-
-
-def _of_rests(inverted: Inverted, rests: Drawn) -> Triples:
-    """The three points of every rest."""
-    at = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
-    return np.broadcast_to(at, (*rests.points.shape[:-1], *at.shape))
 
 
 def _at(points: Points, at: Triples) -> Points:
@@ -338,18 +333,15 @@ def _radius(curved: Curved, hand: Hand, detail: Drawn, hub: Drawn) -> tuple[Mark
     """The radius of curvature, from the centre to the middle place, and a little of its circle."""
     ob, read = hand.join("OB", hub, detail[1]), curved.readings["rho"]
     circle = hand.circle("circle of curvature", hub, between(hub, detail[1]))
-    said, sector = say("ρ = {rho:.2f}", rho=float(curved.value("rho"))), _sector(detail.shown, hub.place)
+    before, middle, after = detail.shown - hub.place
+    turn, wide = float(np.angle(middle)), max(abs(float(np.angle(end / middle))) for end in (before, after))
+    # The circle is shown a little beyond the chords.
+    low, high = turn - 1.6 * wide, turn + 1.6 * wide
+    said = say("ρ = {rho:.2f}", rho=float(curved.value("rho")))
     return (
         Line(np.array([hub.place, detail[1].place]), Role.LIMIT, of=ob.act),
-        Arc(hub.place, abs(hub.place), *sector, Role.CONSTRUCTION, of=circle.act),
+        Arc(hub.place, abs(hub.place), low, high, Role.CONSTRUCTION, of=circle.act),
         hub.dots(Role.RESULT),
         hub.label("O", hub.place),
         Label(hub.place / 2, said, hub.place * UP, of=read.act),
     )
-
-
-def _sector(triple: Points, hub: complex) -> tuple[float, float]:
-    """The directions, counter-clockwise, between which the circle of curvature is shown: a little beyond the chords."""
-    middle = float(np.angle(triple[1] - hub))
-    wide = max(abs(float(np.angle((end - hub) / (triple[1] - hub)))) for end in (triple[0], triple[2]))
-    return middle - 1.6 * wide, middle + 1.6 * wide

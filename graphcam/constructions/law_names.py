@@ -8,18 +8,13 @@ from graphcam.given.motion_law import Law
 from graphcam.words import Caption, Words, say
 
 LAW_TITLES: Mapping[str, Caption] = {
-    "rectangular": say("rectangular"),
-    "triangular": say("triangular"),
-    "cosine": say("cosine"),
-    "cycloidal": say("cycloidal"),
-    "trapezoidal": say("trapezoidal"),
-    "modified-trapezoidal": say("modified-trapezoidal"),
-    "modified-sine": say("modified-sine"),
-    "measured": say("measured"),
-    # Polynomials are called by their powers; not every language leaves it at that.
-    "2-3": say("2-3"),
-    "3-4-5": say("3-4-5"),
-    "4-5-6-7": say("4-5-6-7"),
+    str(title): title
+    for title in (
+        *(say("rectangular"), say("triangular"), say("cosine"), say("cycloidal")),
+        *(say("trapezoidal"), say("modified-trapezoidal"), say("modified-sine"), say("measured")),
+        # Polynomials are called by their powers; not every language leaves it at that.
+        *(say("2-3"), say("3-4-5"), say("4-5-6-7")),
+    )
 }
 """What the laws are called; one that is not among them, as one of one's own, by its name."""
 

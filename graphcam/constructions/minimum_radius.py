@@ -28,7 +28,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Points, Region, Role, Segments
+from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
@@ -158,7 +158,9 @@ def _draw(region: LeastRadius) -> list[Step]:
     named = numbers(ends, stations, np.sign(v) + 0j, shown=np.abs(v) > 1)
     curves = tuple(hand.fair("curve", ends.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
     alternatives = [mark for name, place in others.items() for mark in _cross(hand, place, PLACES[name])]
-    permitted = hand.given("permitted places", permitted_part(lines, _box(ends.shown, bottom)))
+    left, right = float(ends.shown.real.min()), float(ends.shown.real.max())
+    paper = [complex(left, bottom), complex(right, bottom), complex(right, 0), complex(left, 0)]
+    permitted = hand.given("permitted places", permitted_part(lines, paper))
     hatched = Region(permitted.points, permitted.act)
     floor = hand.given("lower edge", UP * bottom, RIGHT)
     marked_on = say(
@@ -166,10 +168,12 @@ def _draw(region: LeastRadius) -> list[Step]:
         "by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} mm."
     ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(v).max()))
     joined = say("The ends are joined by smooth curves, one for the rise and one for the return.")
+    leaning = [line for line in lines if line.name != "rest"]
+    angles = [say("{angle} {line}", angle=_limit(line, limits), line=LINES[line.name]) for line in leaning]
     touching = say(
         "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion ({angles}); "
         "{zero}{further}"
-    ).where(angles=_angles(lines, limits), zero=_at_zero_lift(region), further=_spring_and_rest(limits))
+    ).where(angles=sequence(angles), zero=_at_zero_lift(region), further=_spring_and_rest(limits))
     tangents = tuple(mark for line in lines for mark in _limit_line(region, hand, line, floor))
     shaded = say("Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}.")
     shaded = shaded.where(names=sequence([PLACES[name] for name in others]))
@@ -236,12 +240,6 @@ def _bound_by(lines: list[Boundary]) -> Caption:
     return say("It lies on the limit of: {lines}.", lines=sequence([LINES[line.name] for line in lines]))
 
 
-def _angles(lines: list[Boundary], limits: Limits) -> Caption:
-    """The permitted angles of the tangents."""
-    tangents = [line for line in lines if line.name != "rest"]
-    return sequence([say("{angle} {line}", angle=_limit(line, limits), line=LINES[line.name]) for line in tangents])
-
-
 def _limit(line: Boundary, limits: Limits) -> Caption:
     return degrees(limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise)
 
@@ -284,9 +282,3 @@ def _centre_lines(region: LeastRadius, centre: complex) -> tuple[Mark, ...]:
         Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS),
         Dimension(1j * centre.imag, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0, of=of),
     )
-
-
-def _box(ends: Points, bottom: float) -> list[complex]:
-    """The corners of the paper between the outermost ends, from zero lift down to the bottom."""
-    left, right = float(ends.real.min()), float(ends.real.max())
-    return [complex(left, bottom), complex(right, bottom), complex(right, 0), complex(left, 0)]

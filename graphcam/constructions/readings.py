@@ -74,7 +74,9 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     paper = reading.paper[0] if construction.pencil.samples is not None else reading.paper
     paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
     title = construction.meaning.reading(name).title
-    places = _places(construction, paper.size) if paper.ndim else ()
+    places = _stations(construction) if paper.ndim else ()
+    if paper.ndim and len(places) != paper.size:
+        places = tuple(str(k) for k in range(1, paper.size + 1))
     mu = reading.per_mm
     if reading.unit == PAPER:
         return ReadingRow(name, title, paper, None, paper, "mm", places)
@@ -84,12 +86,6 @@ def _row(construction: Construction, name: str) -> ReadingRow:
         measured, scale = (degrees, None) if mu == 1 else (paper, float(np.degrees(mu)))
         return ReadingRow(name, title, measured, scale, degrees, "°", places)
     return ReadingRow(name, title, paper, mu, paper * mu, reading.unit, places)
-
-
-def _places(construction: Construction, size: int) -> tuple[str, ...]:
-    """The names of the stations, if there are so many."""
-    names = _stations(construction)
-    return names if len(names) == size else tuple(str(k) for k in range(1, size + 1))
 
 
 def _stations(construction: Construction) -> tuple[str, ...]:

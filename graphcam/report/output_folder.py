@@ -9,6 +9,7 @@ import csv
 import json
 import math
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from io import StringIO
 from pathlib import Path
 
@@ -126,7 +127,9 @@ def write(
                 (folder / name).write_text(text(solution), encoding="utf-8", newline="")
                 written[kind] = name
         if isinstance(solution, Solution):
-            written |= _profile(solution, folder, wanted)
+            # Where none can be cut the solution warns of it.
+            with suppress(DesignError):
+                written |= write_profile(solution.cam, folder, wanted)
         text = json.dumps(solution.to_dict() | {"files": written}, indent=2, ensure_ascii=False, allow_nan=False)
         (folder / "solution.json").write_text(text + "\n", encoding="utf-8")
     return written
@@ -159,14 +162,6 @@ def _write_sheet(
         report("writing DXF")
         (write_cad if dxf == "cad" else write_dxf)(drawing, folder / f"{stem}.dxf")
     return {kind: f"{stem}.{kind}" for kind in kinds}
-
-
-def _profile(solution: Solution, folder: Path, kinds: Collection[str]) -> dict[str, str]:
-    """The files of the exact profile; none where none can be cut, of which the solution warns."""
-    try:
-        return write_profile(solution.cam, folder, kinds)
-    except DesignError:
-        return {}
 
 
 def _csv(solution: AnySolution) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from itertools import count, product
+from itertools import chain, count, product
 
 from graphcam.drafting.scale import STANDARD_RATIOS
 from graphcam.sheets.box import Box
@@ -270,15 +270,10 @@ def _preferred(sheet: Format, run: Sequence[Panel], largest: Panel | None) -> Pr
 # --- what stands together --------------------------------------------------------------------------------------------
 
 
-def _reductions() -> Iterator[float]:
-    yield from (ratio for ratio in STANDARD_RATIOS if ratio <= 1)
-    # Beyond the standard series: powers of ten go on for ever.
-    yield from (10.0**-k for k in count(3))
-
-
 def _runs(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
     """The views of each page: with others that they share an axis with, if these fit together, and little reduced."""
-    for factor in _reductions():
+    # Beyond the standard series: powers of ten go on for ever.
+    for factor in chain((ratio for ratio in STANDARD_RATIOS if ratio <= 1), (10.0**-k for k in count(3))):
         reduced = [replace(panel, factor=factor) for panel in group]
         ways = [[reduced], _columns(reduced)] if sheet.name in ONE_PAGE else [_joined(sheet, reduced)]
         for runs in ways:

@@ -195,6 +195,8 @@ def player(
         return Markup(loader.get_source(environment, name)[0])
 
     data = {"steps": _places(drawing, slides), "mechanism": mechanism, "words": dict(words)}
+    entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)
+    lettering = (entity.text for entity in entities if isinstance(entity, Text))
     said = [drawing.title, *words.values(), *(text for slide in slides for text in _texts(slide))]
     return environment.get_template("page.html").render(
         title=drawing.title,
@@ -206,7 +208,7 @@ def player(
         style=whole("player.css") + Markup(roles_css()),
         scripts=[whole("player.js"), *([whole("mechanism.js")] if mechanism else [])],
         mechanism=mechanism,
-        font=_font([*said, *_lettering(drawing)]),
+        font=_font([*said, *lettering]),
         # No text of a drawing may end the script that holds it.
         data=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
     )
@@ -251,11 +253,6 @@ def _texts(slide: Slide) -> Iterable[str]:
     yield from (slide.chapter, slide.why, slide.title, slide.caption)
     for reading in slide.readings:
         yield from (reading.title, reading.taken, reading.value)
-
-
-def _lettering(drawing: Drawing) -> Iterable[str]:
-    entities: Iterable[Entity] = (e for page in drawing.pages for group in page.groups for e in group.entities)
-    return (entity.text for entity in entities if isinstance(entity, Text))
 
 
 def _font(texts: Iterable[str]) -> str:
