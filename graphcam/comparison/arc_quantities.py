@@ -1,7 +1,5 @@
 """Drawn against exact for a cam of three circular arcs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Running sums that keep their digits over millions of stations."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """Drawn against exact: the quantities a design ends with, and the values at the stations."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass

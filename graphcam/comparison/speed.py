@@ -1,7 +1,5 @@
 """What the analogues mean at a speed: phase times, velocities in m/s, accelerations in m/s^2."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -5,8 +5,6 @@ back to the axis every other ordinate must be y = y1 (C h/F^2)/(C1 h1/F1^2).  Wh
 known only after two integrations, when the known lift fixes the scale.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Adopting sizes as in a design office: round numbers, as far as the drawn region has any."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

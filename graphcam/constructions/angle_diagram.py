@@ -1,7 +1,5 @@
 """The diagram of the pressure angle over the cam angle, from which the greatest angles are read."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

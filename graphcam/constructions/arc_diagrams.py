@@ -1,7 +1,5 @@
 """Lift, velocity, acceleration and pressure angle of a roller on a cam of arcs, over the cam angle."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial

@@ -5,8 +5,6 @@ P, the centre of the third arc is as far from P as from C1: the perpendicular bi
 Laid off the other way it gives the other root.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations

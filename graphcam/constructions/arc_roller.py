@@ -7,8 +7,6 @@ by the theorem of the height in a right triangle, is the rod's normal accelerati
 meets the follower's line in M, and MO is the acceleration d^2s/dphi^2 (after Klein, who found N by two circles).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial

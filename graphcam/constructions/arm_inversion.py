@@ -1,7 +1,5 @@
 """The profile of an oscillating follower by inversion: the pivot goes round the cam, against the cam's rotation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

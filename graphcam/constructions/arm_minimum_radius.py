@@ -6,8 +6,6 @@ makes the pressure angle with the arm's normal; so through every D the line at t
 is drawn, and A may lie where no line cuts it off.  Between the positions the lines are faired like any other curve.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ senses on the rise, towards the pivot when in the same sense.  The angle of D A 
 angle.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What every diagram over the cam angle has: its axes, the phases' limits and the stations' names."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What lies on the drawing board before the first line: the task, and what differs between followers."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass

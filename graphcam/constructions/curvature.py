@@ -4,8 +4,6 @@ The perpendicular bisectors of two neighbouring chords meet in the centre of the
 dwell the pitch curve is an arc about the cam centre; its ends and its middle are three such points.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import partial

@@ -6,8 +6,6 @@ right to second order; by tangents to the station itself.  The scales follow as 
 mu_a = mu_v/(mu_phi H2).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal

@@ -1,7 +1,5 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

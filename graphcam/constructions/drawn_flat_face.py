@@ -1,7 +1,5 @@
 """The flat-faced follower on the drawing board."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The translating follower on the drawing board: knife edge or roller, central or offset."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

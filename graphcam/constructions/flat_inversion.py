@@ -4,8 +4,6 @@ On the ray of every inverted position r0 + s is laid off and the perpendicular, 
 it ds/dphi to the side of the ray: to the right of a cam that turns counter-clockwise while the follower rises.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphcam.constructions import profile_view

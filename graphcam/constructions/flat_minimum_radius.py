@@ -6,8 +6,6 @@ meets the axis of s where the greatest of -(s + a) is read.  With unequal scales
 arctan(mu_a/mu_s) in place of 45 degrees.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import itemgetter

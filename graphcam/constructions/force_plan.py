@@ -8,8 +8,6 @@ mu (l + 2 b)/l.  The lines of F and R through the ends of Q meet in the third co
 Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import dataclass, replace

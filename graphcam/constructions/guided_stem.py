@@ -1,7 +1,5 @@
 """In the scheme of the mechanism: a stem that slides in its guide."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphcam.drafting.acts import Drawn

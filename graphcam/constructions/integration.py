@@ -5,8 +5,6 @@ the left: the ray.  A chord parallel to the ray carries the integral over the pa
 scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s from the known lift.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 

@@ -1,7 +1,5 @@
 """The profile by inversion: the cam stands still and the frame turns about it, against the cam's rotation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

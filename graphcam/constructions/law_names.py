@@ -1,7 +1,5 @@
 """What the motion laws are called."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from graphcam.given.motion_law import Law

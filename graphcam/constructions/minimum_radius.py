@@ -5,8 +5,6 @@ rotation, to D_i, in the scale of s.  Seen from a cam centre A, the angle betwee
 pressure angle; so the tangents to the curve of the D_i at the permitted angles bound the region in which A may lie.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ sense of the cam's rotation, it ends in D; the angle of D A with the motion is t
 needed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What every drawing about the cam centre has: closed curves, the phases' angles, the sense of the rotation."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What a step reads off the paper, as a reader writes it down: millimetres times a scale are a value."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Every place is found with ruler and compass on lines of the paper; all of it works on arrays, one region a sample.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations

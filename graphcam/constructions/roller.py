@@ -1,7 +1,5 @@
 """The roller radius by the rule of the school, and the working profile as the envelope of the roller's circles."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import partial

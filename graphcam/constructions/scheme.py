@@ -1,7 +1,5 @@
 """The scheme of the mechanism: cam, follower and frame at the start of the turn, small, for the eye alone."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The drawings on the sheet, and which axes they share."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from graphcam.drafting.ink import View, say

@@ -1,7 +1,5 @@
 """Plotted points and the curve that a hand fairs through them: a parabola through three neighbouring points."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

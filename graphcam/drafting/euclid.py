@@ -4,8 +4,6 @@ A line is a point and a direction of any length.  Everything broadcasts.  What a
 element alone: lines that cross at less than :data:`READABLE_CROSSING`, a line that misses a circle.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

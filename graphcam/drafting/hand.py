@@ -4,8 +4,6 @@ Every act errs as CONSTRUCTIONS in textbooks say it does, is recorded, and retur
 and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -4,8 +4,6 @@ Points are complex numbers in mm of paper, in the frame of their view (x right, 
 where a label finds room, is the sheet's business.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, Protocol

@@ -4,8 +4,6 @@ Whoever shows, compares or asks for a construction goes by this alone.  Exact co
 named here, not computed: the drawn and the exact side meet in the comparison.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal

@@ -1,7 +1,5 @@
 """Scale factors: machine units per millimetre of paper."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Units by the names that they have in readings and files, as a language writes them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from graphcam.words import Caption, say

@@ -1,7 +1,5 @@
 """The sheet and the note of a cam of three circular arcs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

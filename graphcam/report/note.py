@@ -1,7 +1,5 @@
 """The coursework note: the calculation that goes with the sheet, in Markdown."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The note's paragraphs on what several followers have in common: the formula, the numbers put in, the result."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import replace

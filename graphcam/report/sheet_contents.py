@@ -1,7 +1,5 @@
 """What stands on the sheets of a solution, and which of it is drawn: finished, half done, or a blank worksheet."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

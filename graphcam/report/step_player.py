@@ -1,7 +1,5 @@
 """The step player of a solution: its sheet step by step with what is read off, and its mechanism."""
 
-from __future__ import annotations
-
 from itertools import groupby
 
 from graphcam.constructions.readings import ReadingRow, rows
