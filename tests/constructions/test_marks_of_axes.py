@@ -107,8 +107,8 @@ def test_of_heights_that_fall_on_one_another_each_is_drawn_once():
     assert_allclose(np.round(heights.points[kept].imag, 3), [-2, 1, 3])
 
 
-@pytest.mark.parametrize("parts", [9, 10, 40])
-@pytest.mark.parametrize("every", [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30])
+@pytest.mark.parametrize("parts", [9, 10, 100])
+@pytest.mark.parametrize("every", [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50])
 def test_the_stations_named_are_as_many_as_find_room_and_their_numbers_are_round(parts, every):
     """4.5 mm for one digit, 6 mm for two; of rounder steps the first that is wide enough."""
     turn = gc.Motion([gc.Rise(30, math.pi), gc.Return(30, math.pi)])
