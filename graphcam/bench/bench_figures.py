@@ -39,6 +39,8 @@ def save(draw: Callable[[Report], Figure], report: Report, path: Path) -> None:
     with mpl.rc_context(SETTINGS):
         figure = draw(report)
         figure.savefig(path.with_suffix(".pdf"), metadata={"CreationDate": None})
+        # Laid out once for both.
+        figure.set_layout_engine("none")
         figure.savefig(path.with_suffix(".png"), dpi=DPI)
 
 

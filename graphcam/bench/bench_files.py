@@ -2,14 +2,17 @@
 
 import csv
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 from graphcam import __version__
-from graphcam.bench.bench_report import Effort, Report, measure
+from graphcam.bench.bench_report import SECTIONS, Effort, Report, measure
 from graphcam.bench.hand_errors import SIGMA
+from graphcam.bench.rows import Row, Section, spoken_time
 from graphcam.bench.timing import Timer
 from graphcam.files import whole_folder
 from graphcam.report.documents import sheet_of
@@ -37,7 +40,8 @@ class TextTable:
 
 def tables(report: Report) -> list[TextTable]:
     """All tables of a report, in order."""
-    return [_convergence(report), _pencil(report), _methods(report), _exact(report), _peers(report), _drawing(report)]
+    figures = [_figures(section, report.rows[section.key]) for section in SECTIONS]
+    return [_convergence(report), _pencil(report), _methods(report), *figures, _peers(report), _drawing(report)]
 
 
 def markdown(report: Report) -> str:
@@ -51,9 +55,24 @@ def markdown(report: Report) -> str:
     return "\n".join(parts)
 
 
+HEAD = (
+    *("section", "subject", "law", "quantity", "n", "error", "error_unit", "ratio", "ratio_unit", "remark"),
+    *("goal", "goal_met"),
+)
+
+
 def numbers(report: Report) -> Iterator[list[Cell]]:
-    """Header and rows: section, subject, law, quantity, n, error, its unit, time ratio, its unit, remark."""
-    yield ["section", "subject", "law", "quantity", "n", "error", "error_unit", "ratio", "ratio_unit", "remark"]
+    """Head and rows of the long table; only the measured figures have a goal."""
+    yield list(HEAD)
+    for row in _without_goals(report):
+        yield [*row, "", ""]
+    for key, rows in report.rows.items():
+        for r in rows:
+            figures: list[Cell] = [None, r.error_eps, "eps", r.ratio, r.unit, "", r.goal, _said(r.goal_met)]
+            yield [key, r.name, "", r.what, *figures]
+
+
+def _without_goals(report: Report) -> Iterator[list[Cell]]:
     for s in report.series:
         remark = "exact" if s.exact else f"order {s.order}"
         for n, error in zip(s.parts, s.errors, strict=True):
@@ -65,8 +84,6 @@ def numbers(report: Report) -> Iterator[list[Cell]]:
     for m in report.methods:
         for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True):
             yield ["time", m.name, "", m.question, n, error, "relative", pairs, "sine-cosine pairs", m.kind]
-    for r in report.rows:
-        yield ["exact", r.name, "", r.what, None, r.error_eps, "eps", r.ratio, r.unit, r.goal]
     for p in report.peers:
         yield ["peers", p.package, "", p.quantity, None, p.error, p.unit, p.slower, "times graphcam's", p.reason]
     for d in report.drawing:
@@ -76,11 +93,16 @@ def numbers(report: Report) -> Iterator[list[Cell]]:
         yield ["rendering", "sheet", "", name, None, None, "", pairs, "sine-cosine pairs", ""]
 
 
+def _said(met: bool | None) -> str:
+    return "" if met is None else "yes" if met else "no"
+
+
 def _convergence(report: Report) -> TextTable:
     laws = list(dict.fromkeys(s.law for s in report.series))
     cells: dict[tuple[str, str], dict[str, str]] = {}
     for s in report.series:
-        text = "exact" if s.exact else f"{s.order:.2f} ({s.constant:.2g})" if s.order else NONE
+        constant = np.format_float_positional(round(s.constant, 3), 2, fractional=False, unique=False, trim="-")
+        text = "exact" if s.exact else f"{s.order:.2f} ({constant})" if s.order else NONE
         cells.setdefault((s.follower, s.quantity), {})[s.law] = text
     rows = [[*key, *(by_law.get(law, NONE) for law in laws)] for key, by_law in cells.items()]
     note = (
@@ -119,17 +141,14 @@ def _methods(report: Report) -> TextTable:
     )
 
 
-def _exact(report: Report) -> TextTable:
+def _figures(section: Section, found: Sequence[Row]) -> TextTable:
     rows: list[list[str]] = []
-    for r in report.rows:
-        rounding = NONE if r.error_eps is None else f"{r.error_eps:.1f}"
-        rows.append([r.name, r.what, f"{r.ratio:.3g} {r.unit}", r.goal or NONE, f"{1e6 * r.seconds:.3g}", rounding])
-    note = (
-        "Times are those of the processor, SC(N) that of N sines and N cosines in the same run. Rounding is in units "
-        "of 2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
-        "processors badly: where other work runs, set OPENBLAS_NUM_THREADS=1."
-    )
-    return TextTable("The exact side", note, ("what", "of what", "ratio", "goal", "µs here", "rounding, eps"), rows, 2)
+    for r in found:
+        rounding = "" if r.error_eps is None else f"{r.error_eps:.1f}"
+        ratio, here = f"{r.ratio:.3g} {r.unit}", spoken_time(r.seconds)
+        rows.append([r.name, r.what, ratio, r.goal, _said(r.goal_met), here, rounding])
+    columns = ("what", "of what", "ratio", "goal", "goal met", "here", "eps")
+    return TextTable(section.title, section.note, columns, rows, 2)
 
 
 def _peers(report: Report) -> TextTable:
@@ -145,12 +164,18 @@ def _peers(report: Report) -> TextTable:
 
 
 def _drawing(report: Report) -> TextTable:
-    rows = [[d.follower, d.construction, f"{d.readings:.0f}", f"{d.steps:.0f}"] for d in report.drawing]
-    rows += [["sheet", name, NONE, f"{pairs:.0f}"] for name, pairs in report.rendering.items()]
+    def here(pairs: float) -> str:
+        """Milliseconds."""
+        return f"{1e3 * report.pair * pairs:.3g}"
+
+    rows = [[d.follower, d.construction, here(d.readings), here(d.steps)] for d in report.drawing]
+    rows += [["sheet", name, "", here(pairs)] for name, pairs in report.rendering.items()]
     note = (
-        "In sine-cosine pairs, 12 parts a phase: what is read, then what is drawn of it, then the sheet of all of it."
+        "Milliseconds on this machine, 12 parts a phase: what is read, then what is drawn of it, then the sheet of all "
+        "of it."
     )
-    return TextTable("Readings, steps and rendering", note, ("follower", "construction", "readings", "steps"), rows, 2)
+    columns = ("follower", "construction", "readings, ms", "steps, ms")
+    return TextTable("Readings, steps and rendering", note, columns, rows, 2)
 
 
 def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None] | None = None) -> Report:

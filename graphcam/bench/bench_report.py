@@ -7,13 +7,16 @@ from functools import partial
 from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
-from graphcam.bench.exact_rows import ExactRow, exact_rows
+from graphcam.bench.exact_rows import EXACT
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
 from graphcam.bench.peers import Peer, peers
+from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
+SECTIONS: tuple[Section, ...] = (EXACT,)
+"""The tables of measured figures and goals, in order."""
 DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
 
 
@@ -76,6 +79,7 @@ class Report:
 
     pair : the time of one sine and one cosine on this machine [s], the unit of all times
     bands : between which relative errors nine hands in ten stay, by the question of the methods
+    rows : figures and goals, by the keys of the sections
     rendering : times of laying out and rendering the sheet of the built-in task, in pairs
     """
 
@@ -84,7 +88,7 @@ class Report:
     hands: tuple[Hands, ...]
     bands: Mapping[str, tuple[float, float]]
     methods: tuple[Method, ...]
-    rows: tuple[ExactRow, ...]
+    rows: Mapping[str, tuple[Row, ...]]
     peers: tuple[Peer, ...]
     drawing: tuple[DrawingTime, ...]
     rendering: Mapping[str, float]
@@ -103,7 +107,7 @@ class Report:
                 ],
                 "pencil_bands": dict(self.bands),
                 "error_against_time": [asdict(m) for m in self.methods],
-                "exact": [{key: value for key, value in asdict(r).items() if key != "seconds"} for r in self.rows],
+                **{key: [_without_seconds(row) for row in rows] for key, rows in self.rows.items()},
                 "peers": [asdict(p) for p in self.peers],
                 "drawing": [asdict(d) for d in self.drawing],
                 "rendering": dict(self.rendering),
@@ -124,8 +128,11 @@ def measure(
     bands_of_hands = bands(LAW, effort.hands)
     progress("error against time")
     methods = tuple(tradeoff(effort.sizes, timer, pair))
-    progress("the exact side")
-    rows = tuple(exact_rows(effort.law_stations, effort.cam_stations, timer))
+    gauge = Gauge(timer, effort.law_stations, effort.cam_stations)
+    rows: dict[str, tuple[Row, ...]] = {}
+    for section in SECTIONS:
+        progress(section.title.lower())
+        rows[section.key] = tuple(section.measured(gauge))
     progress("other packages")
     others = tuple(peers(timer))
     progress("readings and steps")
@@ -133,6 +140,10 @@ def measure(
     progress("rendering")
     rendered = {name: seconds / pair for name, seconds in rendering(timer).items()}
     return Report(pair, series, hands, bands_of_hands, methods, rows, others, drawing, rendered)
+
+
+def _without_seconds(row: Row) -> dict[str, Any]:
+    return {key: value for key, value in asdict(row).items() if key != "seconds"} | {"goal_met": row.goal_met}
 
 
 def _plain(value: Any) -> Any:

@@ -5,13 +5,13 @@ Beside it stand running sums, in memory copies, and the order of the curvature t
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from graphcam.bench import reference, rivals
+from graphcam.bench.rows import Gauge, Row, Section, Unit
 from graphcam.bench.scenes import ARM, FOLLOWERS, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import INSIDE, exact_profile_error, inner_places, turn
@@ -63,51 +63,19 @@ def designs(follower: str, law: str, n: int) -> Designs:
     return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
 
 
-@dataclass(frozen=True)
-class ExactRow:
-    """One figure of the exact side.
-
-    ratio : in ``unit``, or how many times faster;  goal : what the ratio should keep to
-    error_eps : the rounding, None where it was not held against more digits
-    seconds : on this machine, for the terminal alone
-    """
-
-    name: str
-    what: str
-    ratio: float
-    unit: str
-    goal: str
-    error_eps: float | None
-    seconds: float
+def exact_rows(gauge: Gauge) -> Iterator[Row]:
+    """Laws, cam points, extremes, sweeps, and least radii beside their rivals."""
+    timer, few = gauge.timer, gauge.unit(RIVAL_STATIONS)
+    yield from _laws(gauge.unit(gauge.stations), timer)
+    yield from _cam_points(gauge.unit(gauge.points), few, timer)
+    yield from _extremes(few, timer)
+    yield from _sweeps(timer)
+    yield from _least_radii(few, timer)
+    yield from _sums(timer)
+    yield from _three_points(timer)
 
 
-@dataclass(frozen=True)
-class Unit:
-    """The time of n sines and n cosines, which other times are told in."""
-
-    n: int
-    seconds: float
-
-    def row(self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None) -> ExactRow:
-        """A time [s] in this unit."""
-        return ExactRow(name, what, seconds / self.seconds, f"SC({self.n})", goal, error_eps, seconds)
-
-
-def exact_rows(stations: int, points: int, timer: Timer) -> list[ExactRow]:
-    """Laws at ``stations``, cam points at ``points`` stations, extremes, and least radii beside their rivals."""
-    few = Unit(RIVAL_STATIONS, timer.pairs(RIVAL_STATIONS))
-    return [
-        *_laws(Unit(stations, timer.pairs(stations)), timer),
-        *_cam_points(Unit(points, timer.pairs(points)), few, timer),
-        *_extremes(few, timer),
-        *_sweeps(timer),
-        *_least_radii(few, timer),
-        *_sums(timer),
-        *_three_points(timer),
-    ]
-
-
-def _laws(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
+def _laws(unit: Unit, timer: Timer) -> Iterator[Row]:
     u, what = np.linspace(0, 1, unit.n), f"f, f', f'', f''' at {unit.n} places"
     for name, goal in GOALS.items():
         yield unit.row(f"law {name}", what, timer.seconds(partial(law(name), u)), goal, _law_error(name))
@@ -123,7 +91,7 @@ def _law_error(name: str) -> float | None:
     return float((off[greatest > 0] / greatest[greatest > 0]).max()) / reference.EPS
 
 
-def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[ExactRow]:
+def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[Row]:
     where, phi = scene("translating", "3-4-5"), turn(unit.n)
     motion, cam, at = where.board.motion, where.cam, f"at {unit.n} stations"
     yield unit.row("motion", f"s, v, a, j {at}", timer.seconds(partial(motion, phi)))
@@ -135,13 +103,13 @@ def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[ExactRow]:
     yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 2.5")
 
 
-def _extremes(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
+def _extremes(unit: Unit, timer: Timer) -> Iterator[Row]:
     for follower in FOLLOWERS:
         seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
         yield unit.row(f"extremes, {follower}", "pressure angles and least convex radius", seconds)
 
 
-def _sweeps(timer: Timer) -> Iterator[ExactRow]:
+def _sweeps(timer: Timer) -> Iterator[Row]:
     """All quantities of a chunk of designs, beside a loop over some of them."""
     unit = Unit(STATIONS, timer.pairs(STATIONS * LOOPED) / LOOPED)
     patient = Timer(timer.budget, max(timer.least_runs, RUNS))
@@ -155,7 +123,7 @@ def _sweeps(timer: Timer) -> Iterator[ExactRow]:
         error_eps = float(np.abs(ratios - 1).max()) / reference.EPS
         yield unit.row(name, "all quantities of a design", seconds, "<= 1.6", error_eps)
         what = "beside a loop over the extremes of one cam"
-        yield ExactRow(name, what, looped / seconds, "times faster", ">= 8", None, looped)
+        yield Row(name, what, looped / seconds, "times faster", ">= 8", None, looped)
 
 
 def _by_loop(some: Designs) -> list[list[float]]:
@@ -164,7 +132,7 @@ def _by_loop(some: Designs) -> list[list[float]]:
     return [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in extremes]
 
 
-def _least_radii(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
+def _least_radii(unit: Unit, timer: Timer) -> Iterator[Row]:
     free, arm, n = free_scene("3-4-5"), scene("arm", "3-4-5"), unit.n
     closed, exchange = timer.seconds(free.least), timer.seconds(arm.least)
     least, arm_least = free.least().prime_radius, arm.least().prime_radius
@@ -187,10 +155,10 @@ def _least_radii(unit: Unit, timer: Timer) -> Iterator[ExactRow]:
     for follower, rival, work, goal in beside:
         ours, exact = (exchange, arm_least) if follower == "arm" else (closed, least)
         seconds, what = patient.seconds(work), f"beside {rival}, {n} stations: off by {work() / exact - 1:+.1e}"
-        yield ExactRow(f"least radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
+        yield Row(f"least radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
 
 
-def _sums(timer: Timer) -> Iterator[ExactRow]:
+def _sums(timer: Timer) -> Iterator[Row]:
     """Running sums of values of one sign, beside numpy's own, against the correctly rounded sum."""
     values = np.random.default_rng(0).uniform(0.0, 1.0, SUMMED)
     copied = np.empty_like(values)
@@ -198,10 +166,10 @@ def _sums(timer: Timer) -> Iterator[ExactRow]:
     for name, goal, work in (("accurate", "<= 4", accurate_cumsum), ("plain", "", np.cumsum)):
         seconds, error = timer.seconds(partial(work, values)), abs(float(work(values)[-1]) - exact) / exact
         eps = error / reference.EPS
-        yield ExactRow(f"running sum, {name}", what, seconds / copy, "memory copies", goal, eps, seconds)
+        yield Row(f"running sum, {name}", what, seconds / copy, "memory copies", goal, eps, seconds)
 
 
-def _three_points(timer: Timer) -> Iterator[ExactRow]:
+def _three_points(timer: Timer) -> Iterator[Row]:
     """The order of the curvature through three points of the pitch curve, at equal and at unequal chords."""
     cam, at, steps = scene("translating", "3-4-5").cam, 0.6, 0.1 / 2 ** np.arange(HALVINGS)
 
@@ -213,4 +181,14 @@ def _three_points(timer: Timer) -> Iterator[ExactRow]:
         errors = np.abs(curvature(share) - float(cam.pitch_curvature(at)))
         order = float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
         seconds, what = timer.seconds(partial(curvature, share)), f"curvature, {name} chords"
-        yield ExactRow("three points", what, order, "order", goal, None, seconds)
+        yield Row("three points", what, order, "order", goal, None, seconds)
+
+
+EXACT = Section(
+    "exact",
+    "The exact side",
+    "Times are those of the processor, SC(N) that of N sines and N cosines in the same run. Rounding is in units of "
+    "2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
+    "processors badly: where other work runs, set OPENBLAS_NUM_THREADS=1.",
+    exact_rows,
+)

@@ -47,7 +47,9 @@ def notebook(
 
 
 def bench(
-    quick: Annotated[bool, Option("--quick", help="Fewer and shorter measurements: half a minute.")] = False,
+    quick: Annotated[
+        bool, Option("--quick", help="Fewer and shorter measurements: about 20 s of processor time.")
+    ] = False,
     out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_FOLDER
     / "bench",
 ) -> None:
@@ -66,7 +68,7 @@ def bench(
         measured = measure(report.QUICK if quick else report.FULL, out, progress_lines(quiet=False))
     for table in tables(measured):
         if table.brief:
-            print_table(table.columns, table.rows, table.words, title=table.title, title_justify="left")
+            print_table(table.columns, table.rows, table.words, title=f"\n{table.title}")
     typer.echo(f"{out}: " + ", ".join(FILES))
 
 

@@ -28,23 +28,15 @@ Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its
 @exercise.command("list")
 def list_exercises() -> None:
     """List the exercises that come with graphcam."""
-    from rich.console import Console
-    from rich.table import Table
-
     from graphcam.exercises.definition.exercise_file import find_exercise, library
 
-    table = Table()
-    # The names are to be typed: none is cut short where the window is narrow.
-    table.add_column("name", no_wrap=True, min_width=max(map(len, library())))
-    table.add_column("title")
-    for column in ("answers", "marks", "mistakes told"):
-        table.add_column(column, justify="right")
+    rows: list[list[str]] = []
     with one_message():
         for name in library():
             found = find_exercise(name)
             counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
-            table.add_row(name, found.title, *map(str, counts))
-    Console().print(table)
+            rows.append([name, found.title, *map(str, counts)])
+    print_table(("name", "title", "answers", "marks", "mistakes told"), rows, words=2)
 
 
 @exercise.command()

@@ -1,11 +1,13 @@
 """What the commands share: how they end on wrong input, and how they say what they are doing."""
 
+import shutil
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -38,17 +40,54 @@ def progress_lines(*, quiet: bool) -> Callable[[str], None]:
     return lambda line: None if silent else typer.echo(f"{line} ...", err=True)
 
 
-def print_table(columns: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1, **style: Any) -> None:
+def print_table(
+    columns: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1, *, title: str = "", caption: str = ""
+) -> None:
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
-    from rich.console import Console
-    from rich.table import Table
+    width = shutil.get_terminal_size().columns
+    lines = [title, *table_lines([columns, *rows], words, width), caption]
+    typer.echo("\n".join(line for line in lines if line))
 
-    table = Table(**style)
-    for k, column in enumerate(columns):
-        table.add_column(column, justify="left" if k < words else "right")
-    for row in rows:
-        table.add_row(*row)
-    Console().print(table)
+
+def table_lines(rows: Sequence[Sequence[str]], words: int, width: int) -> list[str]:
+    """A table whose first row is its head; where it is wider than the window, as many words as need be stand above.
+
+    Words that several rows share are said once then.
+
+    >>> table = [("what", "of what", "ratio"), ("law", "f", "0.9"), ("law", "f and f'", "1.2")]
+    >>> print(*table_lines(table, 2, 80), sep="\\n")
+    what  of what   ratio
+    ─────────────────────
+    law   f           0.9
+    law   f and f'    1.2
+    >>> print(*table_lines(table, 2, 18), sep="\\n")
+    what
+      of what   ratio
+    ─────────────────
+    law
+      f           0.9
+      f and f'    1.2
+    """
+    above, aligned = 0, _aligned(rows, words)
+    while above < words and len(aligned[0]) > width:
+        above += 1
+        aligned = ["  " + line for line in _aligned([row[above:] for row in rows], words - above)]
+    lines: list[str] = []
+    said = ""
+    for k, (row, line) in enumerate(zip(rows, aligned, strict=True)):
+        shared = ": ".join(row[:above])
+        if shared != said:
+            lines += textwrap.wrap(shared, width, subsequent_indent="  ", break_on_hyphens=False)
+            said = shared
+        lines += [line.rstrip()] if k else [line.rstrip(), "─" * len(line)]
+    return lines
+
+
+def _aligned(rows: Sequence[Sequence[str]], words: int) -> list[str]:
+    """The rows as lines of one length."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    places = [f"{'<' if k < words else '>'}{width}" for k, width in enumerate(widths)]
+    return ["  ".join(map(format, row, places)) for row in rows]
 
 
 @contextmanager

@@ -30,6 +30,7 @@ from graphcam.bench.rivals import (
     integrated_error,
     translating_lines,
 )
+from graphcam.bench.rows import Row
 from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import (
@@ -40,7 +41,7 @@ from graphcam.bench.tradeoff import (
     exact_profile_error,
 )
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import WRONG_INPUT, table_lines
 
 SMOOTH = ("cycloidal", "3-4-5")
 SECOND_ORDER = ("displacement", "velocity", "greatest acceleration", "pitch curve", "working profile")
@@ -163,6 +164,7 @@ def test_the_faults_of_another_package_are_found_again():
 @pytest.mark.slow
 def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     monkeypatch.setattr(reports, "QUICK", TINY)
+    monkeypatch.setenv("COLUMNS", "80")
     result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "report")])
     assert result.exit_code == 0, result.output
     assert "Error against the number of parts" in result.output
@@ -181,13 +183,57 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     markdown = (tmp_path / "report" / "bench.md").read_text()
     tables = [line for line in markdown.splitlines() if line.startswith("|")]
     assert len(tables) > 60
-    assert markdown.count("\n## ") == 6
+    assert markdown.count("\n## ") == 5 + len(reports.SECTIONS)
+    printed = result.output[result.output.index("\nError against the number") :].splitlines()[:-1]
+    assert len(printed) > 120
+    assert max(map(len, printed)) <= 80
+
+
+@pytest.mark.parametrize(
+    ("goal", "ratio", "seconds", "met"),
+    [
+        ("<= 0.7", 0.7, 1.0, True),
+        ("<= 0.7", 0.71, 1.0, False),
+        (">= 10", 10.0, 1.0, True),
+        (">= 10", 9.9, 1.0, False),
+        ("<= 5 µs", 9.0, 4.9e-6, True),
+        ("<= 5 µs", 0.1, 5.1e-6, False),
+        ("<= 0.5 s", 9.0, 0.4, True),
+        ("<= 120 MB", 130.0, 1e-9, False),
+        ("2.00 ± 0.05", 1.96, 1.0, True),
+        ("2.00 ± 0.05", 2.06, 1.0, False),
+        ("<= 0.7", math.nan, 1.0, False),
+        ("", 1.0, 1.0, None),
+    ],
+)
+def test_a_goal_is_met_by_the_ratio_or_by_the_time_where_it_names_one(goal, ratio, seconds, met):
+    assert Row("", "", ratio, "MB", goal, None, seconds).goal_met is met
+
+
+@pytest.mark.parametrize("goal", ["0.7", "< 0.7", "<= fast", "<= 5 minutes"])
+def test_a_goal_that_cannot_be_read_is_no_goal_met(goal):
+    with pytest.raises(ValueError, match=r"goal|float"):
+        _ = Row("", "", 0.0, "SC(1)", goal, None, 0.0).goal_met
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_no_word_and_no_number_of_a_table_is_cut_or_leaves_the_window(width):
+    words = ("least radius, translating", "beside SLSQP given the half-planes, 360 stations: off by -5.0e-06")
+    numbers = ("0.864 SC(1000000)", "2.00 ± 0.05", "yes", "3000 µs", "371.7")
+    rows = [("what", "of what", "ratio", "goal", "goal met", "here", "eps"), (*words, *numbers), (*words, *numbers)]
+    lines = table_lines(rows, 2, width)
+    assert max(map(len, lines)) <= width
+    assert sum(all(number in line for number in numbers) for line in lines) == 2
+    assert " ".join(": ".join(words).split()) in " ".join(" ".join(lines).split())
+    # A second row of the same words does not say them again.
+    assert len([line for line in lines if words[0] in line]) == 1
 
 
 def _check(document) -> None:
     assert "seconds" not in json.dumps(document)
-    for row in document["exact"]:
+    for row in (row for section in reports.SECTIONS for row in document[section.key]):
         assert row["ratio"] > 0
+        assert row["goal_met"] in ((True, False) if row["goal"] else (None,))
     for method in document["error_against_time"]:
         assert len(method["n"]) == len(method["pairs"]) == len(method["errors"])
         assert min(method["pairs"]) > 0
