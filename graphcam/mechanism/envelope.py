@@ -129,20 +129,30 @@ class Envelope:
     def _turned(self, phi: Floats | float) -> Complexes:
         return np.exp(-1j * self.kinematics.sigma * np.asarray(phi))
 
-    def way(self, begin: float, end: float) -> complex:
+    def way(self, begin: Floats, end: Floats) -> Complexes:
         """c(end) - c(begin) [mm], which keeps its digits however small the loop between: there by integration of c'."""
         there, here = self.point(end, self.piece(end)), self.point(begin, self.piece(begin))
-        if end - begin > SMALL_LOOP:
-            return complex(there - here)
-        inner = self.edges[(begin < self.edges) & (self.edges < end)]
-        ends = np.concatenate([[begin], inner, [end]])
-        width = np.diff(ends)[:, None]
-        phi = (ends[:-1] + ends[1:])[:, None] / 2 + width * GAUSS_NODES
-        piece = self.piece(begin) + np.arange(width.size)
+        way = there - here
+        small = np.flatnonzero(end - begin <= SMALL_LOOP)
+        if small.size:
+            inner = self._integrated(begin[small], end[small])
+            # Where the difference finds another way, the nodes were too few for what the curve does between them.
+            rounding = ROUNDING * (np.abs(there[small]) + np.abs(here[small]))
+            way[small] = np.where(np.abs(inner - way[small]) <= rounding, inner, way[small])
+        return way
+
+    def _integrated(self, begin: Floats, end: Floats) -> Complexes:
+        """The integrals of c', piece by piece; at least one."""
+        first, last = self.piece(begin), self.piece(end, "left")
+        count = np.maximum(last - first, 0) + 1
+        starts = np.cumsum(count) - count
+        loop = np.repeat(np.arange(count.size), count)
+        piece = first[loop] + np.arange(loop.size) - starts[loop]
+        low, high = np.maximum(self.edges[piece], begin[loop]), np.minimum(self.edges[piece + 1], end[loop])
+        width = (high - low)[:, None]
+        phi = (low + high)[:, None] / 2 + width * GAUSS_NODES
         velocity = self.velocity(phi, np.repeat(piece[:, None], GAUSS_NODES.size, axis=1))
-        way = complex(np.sum(velocity * GAUSS_WEIGHTS * width))
-        # Where the difference finds another way, the nodes were too few for what the curve does between them.
-        return way if abs(way - (there - here)) <= ROUNDING * (abs(there) + abs(here)) else complex(there - here)
+        return np.add.reduceat(np.sum(velocity * GAUSS_WEIGHTS * width, axis=1), starts)
 
     @property
     def prime_radius(self) -> float:

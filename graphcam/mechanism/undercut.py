@@ -14,9 +14,7 @@ by those of a polygon through points of the profile.
 """
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +22,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
-from graphcam.mechanism.envelope import Backward, Envelope, Indices
+from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.plane import cross
 
@@ -143,16 +141,18 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
     phi, piece, arc = _samples(envelope)
     if not envelope.backward and np.all(envelope.support(phi, piece) > 0):
         return []  # seen from the centre the profile never turns back, so it cannot meet itself
-    # The two arcs that each backward stretch leads from and to may meet.
-    ways = zip(envelope.backward, pairwise(_forward(envelope)), strict=True)
-    beside = (_crossing(envelope, _seed(envelope, part), before, after) for part, (before, after) in ways)
-    crossings = [*filter(None, beside), *_far_apart(envelope, phi, piece, arc)]
+    arcs = _forward(envelope)
+    i, j = _sides_that_cross(envelope.point(phi, piece), arc)
+    middles = (phi[:-1] + phi[1:]) / 2
+    # The two arcs that each backward stretch leads from and to may meet, and those that cross as polygons.
+    seeds = np.vstack([_seeds(envelope), np.stack([middles[i], middles[j]], axis=1)])
+    first, second = np.append(np.arange(len(arcs) - 1), arc[i]), np.append(np.arange(1, len(arcs)), arc[j])
+    begin, end, at = _crossings(envelope, seeds, arcs[first], arcs[second])
+    found = np.flatnonzero(end - begin > np.where(first == second, SHORTEST_LOOP, 0))  # not the NaN of those missed
     lost: list[Lost] = []
-    here = envelope.edges[0]
-    for crossing in sorted(crossings, key=lambda crossing: crossing.begin):
-        if crossing.begin >= here:
-            lost.append(crossing)
-            here = crossing.end
+    for k in found[np.argsort(begin[found], kind="stable")].tolist():
+        if begin[k] >= (lost[-1].end if lost else envelope.edges[0]):
+            lost.append(Lost(float(begin[k]), float(end[k]), complex(at[k])))
     if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward):
         smaller = f"take a roller well below {envelope.least_radius:g} mm"
         remedy = smaller if envelope.kinematics.takes_roller else "enlarge the prime radius"
@@ -163,71 +163,63 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
 # --- crossings -------------------------------------------------------------------------------------------------------
 
 
-def _forward(envelope: Envelope) -> list[tuple[float, float]]:
-    """Where the arcs that run forwards begin and end."""
+def _forward(envelope: Envelope) -> Floats:
+    """(m, 2) where the arcs that run forwards begin and end."""
     turns = [phi for part in envelope.backward for phi in (part.begin, part.end)]
-    ends = [float(envelope.edges[0]), *turns, float(envelope.edges[-1])]
-    return list(zip(ends[::2], ends[1::2], strict=True))
+    return np.array([envelope.edges[0], *turns, envelope.edges[-1]]).reshape(-1, 2)
 
 
-def _seed(envelope: Envelope, part: Backward) -> tuple[float, float]:
-    """Where the two branches make up for the way back, by the first terms of the speed about the cusps."""
-    begin, end, length = part.begin, part.end, part.end - part.begin
-    back = abs(envelope.way(begin, end))
-    speed_before = float(envelope.speed(begin, envelope.piece(begin, "left")))
-    speed_after = float(envelope.speed(end, envelope.piece(end, "right")))
-    if part.begin_jumps and part.end_jumps:
-        return begin - back / 2 / speed_before, end + back / 2 / speed_after
-    if part.begin_jumps:
-        return begin - 0.75 * back / speed_before, end + length / 2
-    if part.end_jumps:
-        return begin - length / 2, end + 0.75 * back / speed_after
-    reach = (math.sqrt(3) - 1) / 2 * length
-    return begin - reach, end + reach
+def _seeds(envelope: Envelope) -> Floats:
+    """(m, 2) where the branches beside each backward stretch make up for the way back.
+
+    By the first terms of the speed about the cusps.
+    """
+    cusps = np.array([(part.begin, part.end) for part in envelope.backward]).reshape(-1, 2)
+    jumps = np.array([(part.begin_jumps, part.end_jumps) for part in envelope.backward]).reshape(-1, 2) != 0
+    begin, end = cusps.T
+    before, after = envelope.piece(begin, "left"), envelope.piece(end, "right")
+    speed = np.stack([envelope.speed(begin, before), envelope.speed(end, after)], axis=1)
+    way = np.where(jumps.all(axis=1), 0.5, 0.75) * np.abs(envelope.way(begin, end))
+    reach = np.where(jumps.any(axis=1), 0.5, (math.sqrt(3) - 1) / 2) * (end - begin)
+    from_cusp = np.repeat(reach[:, None], 2, axis=1)
+    np.divide(way[:, None], speed, out=from_cusp, where=jumps)
+    return cusps + from_cusp * [-1, 1]
 
 
-def _far_apart(envelope: Envelope, phi: Floats, piece: Indices, arc: Indices) -> Iterator[Lost]:
-    """The crossings of forward arcs that the polygon through their samples shows."""
-    arcs = _forward(envelope)
-    for i, j in _polygon_crossings(envelope.point(phi, piece), arc):
-        first, second = arcs[arc[i]], arcs[arc[j]]
-        middles = float(phi[i] + phi[i + 1]) / 2, float(phi[j] + phi[j + 1]) / 2
-        found = _crossing(envelope, middles, first, second)
-        if found and found.end - found.begin > (SHORTEST_LOOP if arc[i] == arc[j] else 0):
-            yield found
+def _crossings(envelope: Envelope, seeds: Floats, first: Floats, second: Floats) -> tuple[Floats, Floats, Complexes]:
+    """Where arcs ``first`` and ``second`` cross, (n, 2) each: cam angles of both and point; NaN where there is none.
 
-
-def _crossing(
-    envelope: Envelope, seed: tuple[float, float], first: tuple[float, float], second: tuple[float, float]
-) -> Lost | None:
-    """Where the arcs ``first`` and ``second`` (their cam angles) cross, by Newton's method; None if it finds none."""
-    phi1, phi2 = (min(max(phi, low), high) for phi, (low, high) in zip(seed, (first, second), strict=True))
-    last, settled = math.inf, False
+    By Newton's method, of all at once.
+    """
+    phi1, phi2 = (np.clip(phi, *arc.T) for phi, arc in zip(seeds.T, (first, second), strict=True))
+    last, settled = np.full(phi1.shape, np.inf), np.zeros(phi1.shape, dtype=bool)
+    going = np.arange(phi1.size)
     for _ in range(NEWTON_STEPS):
-        gap = envelope.way(phi1, phi2)
-        v1 = complex(envelope.velocity(phi1, envelope.piece(phi1, "left")))
-        v2 = complex(envelope.velocity(phi2, envelope.piece(phi2, "right")))
-        across = float(cross(v1, v2))
-        if across == 0:
-            return None
-        new1 = _within(phi1, phi1 + float(cross(gap, v2)) / across, first)
-        new2 = _within(phi2, phi2 + float(cross(gap, v1)) / across, second)
-        moved = abs(new1 - phi1) + abs(new2 - phi2)
-        phi1, phi2 = new1, new2
-        settled = moved <= SETTLED * (phi2 - phi1)
-        if settled and moved >= last / 2:
-            break  # what is left is rounding
-        last = moved
-    if not settled or abs(envelope.way(phi1, phi2)) > CLOSED * envelope.prime_radius:
-        return None
+        if not going.size:
+            break
+        old1, old2 = phi1[going], phi2[going]
+        gap = envelope.way(old1, old2)
+        v1 = envelope.velocity(old1, envelope.piece(old1, "left"))
+        v2 = envelope.velocity(old2, envelope.piece(old2, "right"))
+        across = cross(v1, v2)
+        across[across == 0] = np.nan  # parallel branches have no next place
+        new1 = _within(old1, old1 + cross(gap, v2) / across, first[going])
+        new2 = _within(old2, old2 + cross(gap, v1) / across, second[going])
+        moved = np.abs(new1 - old1) + np.abs(new2 - old2)
+        phi1[going], phi2[going] = new1, new2
+        settled[going] = moved <= SETTLED * (new2 - new1)
+        rounding = settled[going] & (moved >= last[going] / 2)  # what is left is rounding
+        last[going] = moved
+        going = going[~rounding & np.isfinite(moved)]
     at = (envelope.point(phi1, envelope.piece(phi1, "left")) + envelope.point(phi2, envelope.piece(phi2))) / 2
-    return Lost(phi1, phi2, complex(at))
+    met = settled & (np.abs(envelope.way(phi1, phi2)) <= CLOSED * envelope.prime_radius)
+    return np.where(met, phi1, np.nan), np.where(met, phi2, np.nan), at
 
 
-def _within(old: float, new: float, bounds: tuple[float, float]) -> float:
-    """The new angle, or, where it lies beyond a bound, the middle between the old one and the bound."""
-    low, high = bounds
-    return (old + low) / 2 if new < low else (old + high) / 2 if new > high else new
+def _within(old: Floats, new: Floats, bounds: Floats) -> Floats:
+    """The new angles, or, where they lie beyond a bound, the middle between the old one and the bound."""
+    low, high = bounds.T
+    return np.where(new < low, (old + low) / 2, np.where(new > high, (old + high) / 2, new))
 
 
 def _samples(envelope: Envelope) -> tuple[Floats, Indices, Indices]:
@@ -236,7 +228,7 @@ def _samples(envelope: Envelope) -> tuple[Floats, Indices, Indices]:
     # Densely at the ends, which may be cusps.
     share = np.sin(np.linspace(0, np.pi / 2, count)) ** 2
     parts: list[tuple[Floats, int]] = []
-    for k, (begin, end) in enumerate(_forward(envelope)):
+    for k, (begin, end) in enumerate(_forward(envelope).tolist()):
         inner = envelope.edges[(begin < envelope.edges) & (envelope.edges < end)]
         ends = np.concatenate([[begin], inner, [end]])
         phi = (ends[:-1, None] * (1 - share) + ends[1:, None] * share).ravel()
@@ -245,14 +237,31 @@ def _samples(envelope: Envelope) -> tuple[Floats, Indices, Indices]:
     return phi, envelope.piece(phi), np.repeat([k for _, k in parts], [part.size for part, _ in parts])
 
 
-def _polygon_crossings(points: Complexes, arc: Indices) -> list[tuple[int, int]]:
-    """Which sides i < j of polygons cross each other; side i leads from point i to the next of the same arc."""
-    sides = points[1:] - points[:-1]
-    left = (np.conj(sides)[:, None] * (points - points[:-1, None])).imag >= 0
-    parted = left[:, :-1] != left[:, 1:]  # whether the ends of the second side lie on both sides of the first
-    same = arc[1:] == arc[:-1]
-    i, j = np.nonzero(np.triu(parted & parted.T & same & same[:, None], k=2))
-    return list(zip(i.tolist(), j.tolist(), strict=True))
+def _sides_that_cross(points: Complexes, arc: Indices) -> tuple[Indices, Indices]:
+    """Which sides i < j of polygons cross each other; side i leads from point i to the next of the same arc.
+
+    Only sides whose boxes overlap are looked at.  In the order of their left edges the sides that begin before one ends
+    follow it, and on a cam they are few.
+    """
+    side = np.flatnonzero(arc[1:] == arc[:-1])
+    side = side[np.argsort(np.minimum(points.real[side], points.real[side + 1]), kind="stable")]
+    (left, bottom), (right, top) = (
+        (extreme(points.real[side], points.real[side + 1]), extreme(points.imag[side], points.imag[side + 1]))
+        for extreme in (np.minimum, np.maximum)
+    )
+    count = np.searchsorted(left, right, side="right") - np.arange(1, side.size + 1)
+    one = np.repeat(np.arange(side.size), count)
+    other = one + 1 + np.arange(one.size) - np.repeat(np.cumsum(count) - count, count)
+    over = (bottom[one] <= top[other]) & (bottom[other] <= top[one])
+    i, j = np.sort([side[one[over]], side[other[over]]], axis=0)
+    crossing = (j - i >= 2) & _parted(points, i, j) & _parted(points, j, i)
+    return i[crossing], j[crossing]
+
+
+def _parted(points: Complexes, i: Indices, j: Indices) -> NDArray[np.bool_]:
+    """Whether the ends of the sides j lie on both sides of the sides i."""
+    side = points[i + 1] - points[i]
+    return (cross(side, points[j] - points[i]) >= 0) != (cross(side, points[j + 1] - points[i]) >= 0)
 
 
 def _wrapped(phi: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam, largest_roller
-from graphcam.mechanism.undercut import Undercut, trimmed_profile
+from graphcam.mechanism.undercut import Undercut, _sides_that_cross, trimmed_profile
 
 DEG = math.pi / 180
 ROTATIONS = ("ccw", "cw")
@@ -260,3 +261,79 @@ def test_a_mirror_mirrors_the_loops(seed):
     for here, there in zip(cam.undercuts(), mirrored.undercuts(), strict=True):
         np.testing.assert_allclose(there.cusps, here.cusps, atol=1e-12)
         np.testing.assert_allclose(there.crossing, np.array(here.crossing) * [1, 1, -1, 1], atol=1e-11)
+
+
+# --- many loops ------------------------------------------------------------------------------------------------------
+
+
+def scribble(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points of polygons that cross all over, also on equal and on upright sides, and the polygon of each."""
+    rng = np.random.default_rng(seed)
+    points = rng.uniform(0, 1, 120) + 1j * rng.uniform(0, 1, 120)
+    if seed % 2:
+        points = np.round(4 * points.real) + 1j * np.round(4 * points.imag)
+    return points, np.sort(rng.integers(0, 5, 120))
+
+
+def sides_of_a_cam(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a random cam's forward arcs, and the arc of each; its loops cross."""
+    cam = random_cam(seed)
+    phi = np.linspace(0, FULL_TURN, 700)
+    ahead = cam.envelope.speed(phi, cam.envelope.piece(phi)) > 0
+    points = cam.profile(phi)[ahead] @ [1, 1j]
+    return points, np.cumsum(np.diff(phi[ahead], prepend=0) > 0.02)
+
+
+@pytest.mark.parametrize("drawn", [scribble, sides_of_a_cam])
+@pytest.mark.parametrize("seed", range(12))
+def test_the_sides_that_cross_are_those_that_part_each_other_s_ends(drawn, seed):
+    """Against every side beside every other one."""
+    points, polygon = drawn(seed)
+    side = points[1:] - points[:-1]
+    between = points - points[:-1, None]
+    left = side.real[:, None] * between.imag - side.imag[:, None] * between.real >= 0
+    parted, same = left[:, :-1] != left[:, 1:], polygon[1:] == polygon[:-1]
+    brute = np.argwhere(np.triu(parted & parted.T & same & same[:, None], k=2))
+    assert sorted(zip(*_sides_that_cross(points, polygon), strict=True)) == [tuple(pair) for pair in brute.tolist()]
+
+
+def lobes(angles: np.ndarray, share: float) -> Cam:
+    """A cam that lifts by 0.5 mm in one angle and lowers in the next, all around."""
+    phases = [(Rise, Return)[k % 2](0.5, float(angle), "cosine") for k, angle in enumerate(angles)]
+    return with_roller(Cam(Motion(phases), Translating(0.0), 100.0), share)
+
+
+def test_equal_lobes_lose_equal_parts_in_little_memory():
+    """A hundred of them, where comparing all sides of the profile with each other would take hundreds of MB."""
+    n = 100
+    cam = lobes(np.full(2 * n, FULL_TURN / (2 * n)), 1.5)
+    tracemalloc.start()
+    lost = cam.undercuts()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak <= 20e6
+    crossings = np.array([loop.crossing for loop in lost])
+    np.testing.assert_allclose(np.diff(crossings[:, :2], axis=0), FULL_TURN / n, atol=1e-12)
+    np.testing.assert_allclose(np.hypot(*crossings[:, 2:].T), math.hypot(*lost[0].crossing[2:]), atol=1e-12)
+    assert [len(loop.cusps) for loop in lost] == [2] * n
+
+
+def test_what_is_lost_of_one_lobe_does_not_depend_on_the_others():
+    """The crossings are sought all at once; each ends where it would alone."""
+    rng = np.random.default_rng(5)
+    first = rng.uniform(0.02, 0.05, 60)
+    rest = FULL_TURN - first.sum()
+    others = [np.append(first, np.full(n, rest / n)) for n in (2, 120)]
+    few, many = (lobes(angles, 1.0) for angles in others)
+    roller = 2 * largest_roller(many)
+    half = first[:-1].sum()
+    corners = [
+        [
+            loop.crossing
+            for loop in Cam(cam.motion, Translating(0.0, roller), 100.0).undercuts()
+            if loop.crossing[1] < half
+        ]
+        for cam in (few, many)
+    ]
+    assert len(corners[0]) > 10
+    np.testing.assert_allclose(*corners, rtol=0, atol=1e-11)
