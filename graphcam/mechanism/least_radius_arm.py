@@ -17,12 +17,12 @@ Source: the shaded region of the textbooks on the theory of machines, written as
 
 import cmath
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating
@@ -30,14 +30,16 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, nearest
-from graphcam.mechanism.kinematics import Complexes, Values
-from graphcam.mechanism.stationary import SAMPLES, smooth_pieces
-from graphcam.plane import cross, dot
+from graphcam.mechanism.legs import Leg, Legs, sampled_legs
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
 KEPT = 1e-12
 """How far the least point may lie beyond a line, relative to the same, if the limits can be kept at all."""
+SQUARED = 1e-5
+"""A step of so small a part of the place leaves an error of its square, which changes a greatest value by no bit."""
+PATIENCE = 12
+"""Steps after which the search begins anew."""
 SAME_PLACE = 1e-9
 """Fraction of a phase; at a greatest value a step this small no longer changes the value in double precision."""
 
@@ -76,15 +78,15 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     (11.2226, 88.2929, ('rise', 'rest'))
     """
     _check_lift(motion, limits)
-    region = _Region(motion, follower.arm, sigma, limits)
+    region, arm = _region(motion, follower.arm, sigma, limits), follower.arm
     if follower.distance is None:
-        point, lines = _exchange(region, 0j, nearest)
-        distance = abs(follower.arm + point)
+        point, lines, _ = _least(region, 0j, lambda lines: nearest((*lines, *region.fixed)))
+        distance = abs(arm + point)
     else:
         distance = follower.distance
-        arc = _Arc(follower.arm, distance)
-        point, lines = _exchange(region, arc.point(0.0), arc.first)
-        if region.worst(point, refined=True)[0] > KEPT * (follower.arm + abs(point)):
+        arc = _Arc(arm, distance)
+        point, lines, beyond = _least(region, arc.point(0.0), arc.first)
+        if beyond > KEPT * (arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
             limit = "one at which the pressure angle can keep its limits over the whole swing"
             remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
@@ -106,132 +108,200 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
 # --- the lines -------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, eq=False)
-class _Lines:
-    """Lines through ends of l v at limits to the arm's normals: arrays, or one value for all, that go with the places.
+class _Touch(NamedTuple):
+    """Where a line touches: a side, a place w of a leg, the ends of its smooth piece, and three derivatives of f there."""
 
-    tau : +1 or -1, the side of the limit;  limit : the angle [rad];  sigma, arm : the cam's sense and l [mm]
+    side: "_Side"
+    leg: Leg
+    w: float
+    low: float
+    high: float
+    derivatives: list[float]
+
+
+class _Side(NamedTuple):
+    """The lines on the side to which the velocity drives the angle, of all rises or of all returns.
+
+    tau : +1 or -1, the side of the limit [rad];  legs : with their places;  outer : l cos(A) (|v| + tau) at each
     """
 
-    tau: Floats
-    limit: Floats
-    sigma: int
+    name: Line
+    tau: int
+    limit: float
     arm: float
+    legs: Legs
+    outer: Floats
 
-    def normals(self, values: Values) -> Complexes:
-        angle = self.tau * self.limit - values[0]
-        return self.tau * (np.cos(angle) + 1j * np.sin(angle))
+    def excess(self, point: complex) -> Floats:
+        """How far the point lies beyond the line of each place [mm]: l cos(A) (|v| + tau) - tau c cos(psi - tau A)."""
+        from_pivot = self.arm + point
+        beyond = self.legs.s + (cmath.phase(from_pivot) - self.tau * self.limit)
+        np.cos(beyond, beyond)
+        beyond *= -self.tau * abs(from_pivot)
+        beyond += self.outer
+        return beyond
 
-    def heights(self, values: Values) -> Floats:
-        s, v, _, _ = values
-        turned = 2 * np.sin(s / 2) * np.sin(self.tau * self.limit - s / 2)
-        return self.tau * self.arm * (self.sigma * v * np.cos(self.limit) - turned)
+    def number(self, k: int, point: complex) -> HalfPlane:
+        """The line of the k-th place; at a break it belongs to the piece into which the excess grows."""
+        legs = self.legs
+        leg, w = legs.legs[bisect_right(legs.first, k) - 1], legs.w.item(k)
+        ends = (0.0, *leg.law.breaks, 1.0)
+        piece = min(bisect_right(ends, w), len(ends) - 1)
+        line = self.line(leg, w, ends[piece - 1], ends[piece])
+        if w == ends[piece - 1] and piece > 1 and _slopes(line, point)[0] <= 0:
+            return self.line(leg, w, ends[piece - 2], w)
+        return line
 
-    def excess(self, values: Values, point: complex) -> Floats:
-        """How far the point lies outside of each line [mm]."""
-        return self.heights(values) - dot(self.normals(values), np.asarray(point))
-
-    def slopes(self, values: Values, point: complex) -> tuple[Floats, Floats]:
-        """The first and the second derivative of the excess by phi."""
-        s, v, a, j = values
-        n, p = self.normals(values), np.asarray(point)
-        force, angle = self.sigma * np.cos(self.limit), s - self.tau * self.limit
-        arm = self.tau * self.arm
-        first = arm * (force * a + v * np.sin(angle)) + v * cross(n, p)
-        second = arm * (force * j + a * np.sin(angle) + v * v * np.cos(angle)) + a * cross(n, p) + v * v * dot(n, p)
-        return first, second
-
-    def half_planes(self, names: Sequence[Line], values: Values) -> list[HalfPlane]:
-        """The lines of some places one by one."""
-        parts = zip(names, self.normals(values), self.heights(values), strict=True)
-        return [HalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
+    def line(self, leg: Leg, w: float, low: float, high: float) -> HalfPlane:
+        """The line of a place of a smooth piece between two others."""
+        f, f1, f2, f3 = leg.law.at(w, "left" if w == high else "right")
+        s, turned = leg.low + leg.lift * f, self.tau * self.limit
+        direct, half = turned - s, s / 2
+        lowered = 2 * self.tau * math.sin(half) * math.sin(turned - half)
+        height = self.arm * (math.cos(self.limit) * leg.rate * f1 - lowered)
+        normal = complex(self.tau * math.cos(direct), self.tau * math.sin(direct))
+        return HalfPlane(self.name, normal, height, _Touch(self, leg, w, low, high, [f1, f2, f3]))
 
 
-class _Region:
-    """All lines of a motion: those on the driven sides at every place, those at rest or the reach of the arm."""
+def _slopes(line: HalfPlane, point: complex) -> tuple[float, float]:
+    """The first and the second derivative of the excess by w."""
+    side, (_, lift, rate, _), _, _, _, (f1, f2, f3) = line.touch
+    seen = line.normal.conjugate() * (side.arm + point)
+    pushed = side.arm * math.cos(side.limit) * rate
+    return pushed * f2 + lift * f1 * seen.imag, pushed * f3 + lift * (f2 * seen.imag + lift * f1 * f1 * seen.real)
 
-    def __init__(self, motion: Motion, arm: float, sigma: int, limits: Limits) -> None:
-        self.motion, self.arm, self.sigma = motion, arm, sigma
-        # Of every smooth piece of a limited phase: phase, direction, limit, and samples (pieces, n) of u and values.
-        limit_of = {+1: limits.rise, 0: None, -1: limits.return_}
-        phase, start, end = smooth_pieces(motion)
-        limited = np.array([limit_of[motion.phases[k].direction] is not None for k in phase])
-        self.phase, start, end = phase[limited], start[limited], end[limited]
-        self.direction = np.array([motion.phases[k].direction for k in self.phase])
-        self.limit = np.where(self.direction > 0, limits.rise, limits.return_ or 0.0)
-        self.u = start[:, None] + (end - start)[:, None] * np.concatenate([[0.0], SAMPLES, [1.0]])
-        self.values = motion.at(self.phase[:, None], self.u)
-        self.fixed = self._at_rest(limits) if limits.rest else self._reach()
 
-    def _at_rest(self, limits: Limits) -> list[HalfPlane]:
-        """On the sides that are not driven, in the lowest and the highest position."""
-        s, rest = np.array([0.0, self.motion.lift]), np.zeros(2)
-        sides = [(-self.sigma, limits.rise), (self.sigma, limits.return_)]
-        lines = [_Lines(np.full(2, tau), np.full(2, limit), self.sigma, self.arm) for tau, limit in sides if limit]
-        return [half for some in lines for half in some.half_planes(("rest", "rest"), (s, rest, rest, rest))]
+def _higher(line: HalfPlane, point: complex, low: float, high: float) -> float:
+    """By Newton's method the place between two others where the excess is greatest, from that of the line."""
+    first, second = _slopes(line, point)
+    w = line.touch.w
+    if not first:
+        return w
+    if second < 0:
+        return min(max(w - first / second, low), high)
+    return (w + (high if first > 0 else low)) / 2
 
-    def _reach(self) -> list[HalfPlane]:
-        """The arm stays above the line of centres in its lowest and its highest position."""
-        return [HalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
 
-    def _driven(self, piece: NDArray[np.intp]) -> _Lines:
-        return _Lines(self.sigma * self.direction[piece], self.limit[piece], self.sigma, self.arm)
+class _Region(NamedTuple):
+    """All lines of a motion: those on the driven sides, and those at rest or the reach of the arm."""
 
-    def worst(self, point: complex, *, refined: bool) -> tuple[float, HalfPlane]:
-        """The line that the point lies farthest beyond, and by how much [mm]; of the samples, or of all places."""
-        excess = self._driven(np.arange(self.phase.size)[:, None]).excess(self.values, point)
-        piece, k = (np.array([index]) for index in np.unravel_index(np.argmax(excess), excess.shape))
-        s, v, a, j = (value[piece, k] for value in self.values)
-        places = [(piece, (s, v, a, j))]
-        if refined:
-            places.append(self._peaks(excess, point))
-        lines = list(self.fixed)
-        for pieces, values in places:
-            names: list[Line] = ["rise" if direction > 0 else "return" for direction in self.direction[pieces]]
-            lines += self._driven(pieces).half_planes(names, values)
-        return max(((line.excess(point), line) for line in lines), key=lambda found: found[0])
+    arm: float
+    sides: list[_Side]
+    fixed: list[HalfPlane]
 
-    def _peaks(self, excess: Floats, point: complex) -> tuple[NDArray[np.intp], Values]:
-        """The places where the excess may be worst inside the pieces, by Newton's method kept between samples."""
-        before, here, after = excess[:, :-2], excess[:, 1:-1], excess[:, 2:]
-        # A peak rises above its sample by an eighth of the second difference, if its neighbours are as far.
-        may_be_worst = 3 * here - before - after >= max(0.0, excess.max())
-        piece, k = np.nonzero((here > before) & (here >= after) & may_be_worst)
-        phase, low, high = self.phase[piece], self.u[piece, k], self.u[piece, k + 2]
-        angle = np.array([self.motion.phases[k].angle for k in phase])
-        lines, u = self._driven(piece), self.u[piece, k + 1]
-        while True:
-            values = self.motion.at(phase, u)
-            first, second = lines.slopes(values, point)
-            low, high = np.where(first > 0, u, low), np.where(first > 0, high, u)
-            newton = u - np.divide(first, second * angle, out=np.full_like(u, np.inf), where=second < 0)
-            step = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2) - u
-            if np.abs(step).max(initial=0.0) <= SAME_PLACE:
-                return piece, values
-            u = u + step
+
+def _region(motion: Motion, arm: float, sigma: int, limits: Limits) -> _Region:
+    sides: list[_Side] = []
+    fixed: list[HalfPlane] = []
+    for name, direction, limit in (("rise", +1, limits.rise), ("return", -1, limits.return_)):
+        if limit is not None:
+            tau, legs, steep = sigma * direction, sampled_legs(motion, direction), arm * math.cos(limit)
+            sides.append(_Side(name, tau, limit, arm, legs, steep * legs.v + tau * steep))
+            if limits.rest:
+                fixed += [_rest_line(-tau, limit, s, arm) for s in (0.0, motion.lift)]
+    if not limits.rest:  # the arm stays above the line of centres in its lowest and its highest position
+        fixed = [HalfPlane(None, 1j * cmath.exp(-1j * s), -arm * math.sin(s)) for s in (0.0, motion.lift)]
+    return _Region(arm, sides, fixed)
+
+
+def _rest_line(tau: int, limit: float, s: float, arm: float) -> HalfPlane:
+    """The limit on the side that is not driven, in a position of rest."""
+    lowered = 2 * tau * math.sin(s / 2) * math.sin(tau * limit - s / 2)
+    return HalfPlane("rest", cmath.rect(tau, tau * limit - s), -arm * lowered)
 
 
 # --- the least point -------------------------------------------------------------------------------------------------
 
+Meet = Callable[[Sequence[HalfPlane]], Kept]
 
-def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]) -> Kept:
-    """The least point that keeps all lines: meet the lines that bind and the worst one, until none is worse.
 
-    A place where the excess is greatest enters with the square of its error, so the exchange converges like Newton's
-    method.
+def _least(region: _Region, point: complex, meet: Meet) -> tuple[complex, tuple[HalfPlane, ...], float]:
+    """The least point that keeps all lines, those that hold it off, and how far it still lies beyond one [mm].
+
+    The lines that bind and the worst one meet, and touch anew where they meet, until no other is worse.
     """
     kept: tuple[HalfPlane, ...] = ()
-    refined = True  # at first, because the one line that may bind alone must be the right one
     while True:
-        beyond, line = region.worst(point, refined=refined)
-        if beyond > ROUNDING * (region.arm + abs(point)):
-            next_point, next_kept = meet((*kept, line))
-            if abs(next_point) > abs(point):  # it grows until nothing but rounding is left
-                point, kept, refined = next_point, next_kept, False
-                continue
-        if refined:
-            return point, kept
-        refined = True  # the samples keep, but what is between them?
+        worst = _worst(region, point, kept)
+        if worst is None:
+            return point, kept, 0.0
+        beyond, line = worst
+        next_point, next_kept = _touching(meet, *meet((*kept, line)))
+        if abs(next_point) <= abs(point):  # it grows until nothing but rounding is left
+            return point, kept, beyond
+        point, kept = next_point, next_kept
+
+
+def _touching(meet: Meet, point: complex, kept: tuple[HalfPlane, ...]) -> Kept:
+    """The same lines where they touch best, and where they meet then.
+
+    A place where the excess is greatest enters with the square of its error, so this converges like Newton's method;
+    wherever it stops, no permitted point is nearer.
+    """
+    for _ in range(PATIENCE if kept else 0):
+        moved, far = [], 0.0
+        for line in kept:
+            if line.touch:
+                side, leg, w, low, high, _ = line.touch
+                place = _higher(line, point, low, high)
+                far = max(far, abs(place - w) - SQUARED * place)
+                line = side.line(leg, place, low, high)
+            moved.append(line)
+        point, kept = meet(moved)
+        if far <= 0:
+            break
+    return point, kept
+
+
+def _worst(region: _Region, point: complex, kept: Sequence[HalfPlane]) -> tuple[float, HalfPlane] | None:
+    """A line that the point lies beyond, and by how far [mm]; None if it keeps all but what rounding leaves."""
+    rounding, found = ROUNDING * (region.arm + abs(point)), list(region.fixed)
+    excesses = [side.excess(point) for side in region.sides]
+    for side, excess in zip(region.sides, excesses, strict=True):
+        k = int(excess.argmax())
+        if excess[k] > rounding:
+            found.append(side.number(k, point))
+    if (worst := _farthest(found, point))[0] > rounding:
+        return worst
+    peaks = [
+        _refined(side.number(k, point), point, side.legs.w.item(k - 1), side.legs.w.item(k + 1))
+        for side, excess in zip(region.sides, excesses, strict=True)
+        for k in _peaks(side, excess, kept)
+    ]
+    return worst if peaks and (worst := _farthest(peaks, point))[0] > rounding else None
+
+
+def _farthest(lines: Sequence[HalfPlane], point: complex) -> tuple[float, HalfPlane]:
+    return max([(line.excess(point), line) for line in lines], key=lambda found: found[0])
+
+
+def _peaks(side: _Side, excess: Floats, kept: Sequence[HalfPlane]) -> list[int]:
+    """The numbers of places beside which the excess may exceed 0, but for those where a line touches already."""
+    rising = excess[1:] > excess[:-1]
+    found: list[int] = []
+    for k in ((rising[:-1] > rising[1:]).nonzero()[0] + 1).tolist():
+        before, here, after = excess[k - 1 : k + 2].tolist()
+        # A peak rises above its sample by an eighth of the second difference, if its neighbours are as far.
+        if 3 * here - before - after >= 0:
+            leg, w = side.legs.legs[bisect_right(side.legs.first, k) - 1], side.legs.w
+            touched = [line.touch for line in kept if line.touch and line.touch.side is side]
+            if not any(touch.leg is leg and w[k - 1] <= touch.w <= w[k + 1] for touch in touched):
+                found.append(k)
+    return found
+
+
+def _refined(line: HalfPlane, point: complex, low: float, high: float) -> HalfPlane:
+    """The line between two places that the point lies farthest beyond."""
+    side, leg, _, begin, end, _ = line.touch
+    low, high = max(low, begin), min(high, end)
+    while True:
+        w = line.touch.w
+        slope = _slopes(line, point)[0]
+        low, high = (w, high) if slope > 0 else (low, w)
+        place = _higher(line, point, low, high)
+        if abs(place - w) <= SAME_PLACE:
+            return line
+        line = side.line(leg, place, begin, end)
 
 
 @dataclass(frozen=True)
