@@ -1,6 +1,7 @@
 """The rises and the returns of a motion, each seen from its lower end, and places on them."""
 
 import math
+from bisect import bisect_right
 from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -11,7 +12,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.motion_law import Law
 
-INSIDE = 256
+INSIDE = 96
 """Places on a whole phase, denser at the ends of its smooth pieces ..."""
 FEWEST = 16
 """... and on a piece, however short."""
@@ -43,6 +44,10 @@ class Legs(NamedTuple):
     w: Floats
     s: Floats
     v: Floats
+
+    def leg_of(self, k: int) -> Leg:
+        """The leg that the k-th place belongs to."""
+        return self.legs[bisect_right(self.first, k) - 1]
 
 
 def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
