@@ -113,15 +113,20 @@ _SINE_SERIES = tuple(1 / math.factorial(n) for n in range(17, 1, -2))
 def _less_sine(t: Floats, sine: Floats) -> Floats:
     """t - sin(t).  Below 1 by its series, because the difference of two nearly equal numbers keeps no digits."""
     difference = t - sine
+    if isinstance(t, float):
+        return _of_series(t) if t < 1 else difference
     small = t < 1
     if small.any():
-        below = t[small]
-        square = below * below
-        series = np.zeros_like(below)
-        for coefficient in _SINE_SERIES:
-            series = coefficient - square * series
-        difference[small] = below * square * series
+        difference[small] = _of_series(t[small])
     return difference
+
+
+def _of_series(t: Floats) -> Floats:
+    square = t * t
+    series = 0 * t
+    for coefficient in _SINE_SERIES:
+        series = coefficient - square * series
+    return t * square * series
 
 
 # --- the tangents ----------------------------------------------------------------------------------------------------

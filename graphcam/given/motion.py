@@ -191,7 +191,7 @@ class Motion(Shown):
         object.__setattr__(self, "first_piece", np.cumsum([0, *map(len, parts)]))
         object.__setattr__(self, "_piecewise", Piecewise([piece for part in parts for piece in part]))
 
-    @property
+    @cached_property
     def lift(self) -> float:
         """The greatest displacement [mm]."""
         return float(self.levels.max())

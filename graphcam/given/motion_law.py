@@ -7,10 +7,12 @@ just begun, the lift still missing, the velocity) keeps all its digits there, wh
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +22,7 @@ from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunk
 
 Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is greatest, and how great, as a function of k: a closed form."""
+_OfNumber = Callable[[float], Sequence[Any]]
 SHARP = 1e-6
 """Where the acceleration, or its slope, jumps by more than this part of the greatest acceleration, it is told."""
 CLOSE = 1e-9
@@ -112,6 +115,26 @@ class Law:
             inside = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
             self._piecewise.fill(inside, side, out[:, here])
         return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
+
+    def at(self, u: float, side: Side = "right") -> list[float]:
+        """f, f', f'' and the third derivative at one place in [0, 1], sooner than from an array of one.
+
+        >>> import graphcam as gc
+        >>> gc.law("3-4-5").at(0.5)
+        [0.5, 1.875, 0.0, -30.0]
+        """
+        k = (bisect_right if side == "right" else bisect_left)(self.edges, u)
+        _, _, origin, length, base, (c0, c1, c2, c3) = self.pieces[k]
+        f, f1, f2, f3 = self._of_number[k]((u - origin) / length)
+        return [base + c0 * float(f), c1 * float(f1), c2 * float(f2), c3 * float(f3)]
+
+    @cached_property
+    def _of_number(self) -> list[_OfNumber]:
+        ends = pairwise((*(piece.start for piece in self.pieces), 1.0))
+        return [
+            _of_number(piece.formula, abs((low + high) / 2 - piece.origin))
+            for piece, (low, high) in zip(self.pieces, ends, strict=True)
+        ]
 
     @cached_property
     def _piecewise(self) -> Piecewise:
@@ -260,3 +283,21 @@ class Law:
                 if not (abs(height - there) <= CLOSE * (1 + 1 / k) and height >= best - CLOSE * (1 + 1 / k)):
                     limit = f"at least {best:.6g}, and f' - f/k at the place"
                     raise self._wrong(f"tangent for k = {k}", height, limit)
+
+
+def _of_number(formula: Formula, x: float) -> _OfNumber:
+    """A formula of numbers: most take them as they are, the others are given arrays of one.
+
+    x : a place at which both are tried
+    """
+
+    def of_array(x: float) -> Sequence[Any]:
+        """By an array of one."""
+        return [np.ravel(value)[0] for value in formula(np.array([x]))]
+
+    untyped: Any = formula
+    try:
+        takes_numbers = np.allclose([float(value) for value in untyped(x)], of_array(x), rtol=CLOSE, atol=CLOSE)
+    except (AttributeError, IndexError, TypeError, ValueError):
+        takes_numbers = False
+    return untyped if takes_numbers else of_array

@@ -1,18 +1,22 @@
 """The region for the cam centre, cut out by lines, and its point nearest to the start of the lift."""
 
+import math
 from collections.abc import Sequence
-from itertools import combinations
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 Line = Literal["rise", "return", "rest"]
 
 
 class HalfPlane(NamedTuple):
-    """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name."""
+    """The points R with normal . R >= height; the reach of the arm, which no limit sets, has no name.
+
+    touch : where on the motion the line touches, if it goes along with a place of it
+    """
 
     name: Line | None
     normal: complex
     height: float
+    touch: Any = None
 
     def excess(self, point: complex) -> float:
         """How far the point lies outside [mm]."""
@@ -24,17 +28,38 @@ Kept = tuple[complex, tuple[HalfPlane, ...]]
 
 
 def nearest(lines: Sequence[HalfPlane]) -> Kept:
-    """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off."""
-    if len(lines) < 3:
-        return _nearest_of_two(lines[0], lines[-1])
-    # Two half-planes at most fix the nearest point of a plane region (Helly).
-    return max([_nearest_of_two(a, b) for a, b in combinations(lines, 2)], key=lambda kept: abs(kept[0]))
+    """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off.
+
+    One line after another is taken in.  The point stays if it keeps the next one too, else it moves onto that one.
+
+    Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete & Computational
+    Geometry 6 (1991), 423-434.
+
+    >>> point, kept = nearest([HalfPlane("rise", 1j, 3.0), HalfPlane("return", 1 + 0j, 4.0)])
+    >>> abs(point), [line.name for line in kept]
+    (5.0, ['return', 'rise'])
+    """
+    point, kept = 0j, ()
+    for k, line in enumerate(lines):
+        _, normal, height, _ = line
+        if normal.real * point.real + normal.imag * point.imag < height:
+            point, kept = _nearest_on(line, lines[:k])
+    return point, kept
 
 
-def _nearest_of_two(a: HalfPlane, b: HalfPlane) -> Kept:
-    between = a.normal.conjugate() * b.normal  # cosine and sine of the angle between the normals
-    for line, other in ((a, b), (b, a)):
-        distance = line.height if line.height > 0 else 0.0
-        if line is other or other.height <= distance * between.real:
-            return distance * line.normal, (line,)
-    return 1j * (b.height * a.normal - a.height * b.normal) / between.imag, (a, b)
+def _nearest_on(line: HalfPlane, others: Sequence[HalfPlane]) -> Kept:
+    """The same of the points on one of the lines, which are (height + i t) normal."""
+    _, normal, height, _ = line
+    along, at, low, high = normal.conjugate(), None, -math.inf, math.inf
+    for other in others:
+        between = along * other.normal  # cosine and sine of the angle between the normals
+        if not between.imag:
+            continue
+        t = (other.height - height * between.real) / between.imag
+        if between.imag > 0 and t > low:
+            low, at = t, other if t > 0 else at
+        elif between.imag < 0 and t < high:
+            high, at = t, other if t < 0 else at
+    if at is None:
+        return height * normal, (line,)
+    return 1j * (at.height * normal - height * at.normal) / (along * at.normal).imag, (line, at)

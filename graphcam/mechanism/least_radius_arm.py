@@ -19,27 +19,25 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import get_args
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import NamedTuple, get_args
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating
-from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
+from graphcam.mechanism.arm_lines import Side, higher
 from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, nearest
-from graphcam.mechanism.kinematics import Complexes, Values
-from graphcam.mechanism.stationary import SAMPLES, smooth_pieces
-from graphcam.plane import cross, dot
+from graphcam.mechanism.legs import sampled_legs
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
 KEPT = 1e-12
 """How far the least point may lie beyond a line, relative to the same, if the limits can be kept at all."""
-SAME_PLACE = 1e-9
-"""Fraction of a phase; at a greatest value a step this small no longer changes the value in double precision."""
+SQUARED = 1e-6
+"""A step of so small a part of the place leaves an error of its square, which changes a greatest value by no bit."""
+PATIENCE = 12
+"""Steps after which the search begins anew."""
+LINES: tuple[Line, ...] = get_args(Line)
 
 
 @dataclass(frozen=True)
@@ -76,21 +74,21 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     (11.2226, 88.2929, ('rise', 'rest'))
     """
     _check_lift(motion, limits)
-    region = _Region(motion, follower.arm, sigma, limits)
+    region, arm = _region(motion, follower.arm, sigma, limits), follower.arm
     if follower.distance is None:
-        point, lines = _exchange(region, 0j, nearest)
-        distance = abs(follower.arm + point)
+        point, lines, _ = _least(region, 0j, nearest)
+        distance = abs(arm + point)
     else:
         distance = follower.distance
-        arc = _Arc(follower.arm, distance)
-        point, lines = _exchange(region, arc.point(0.0), arc.first)
-        if region.worst(point, refined=True)[0] > KEPT * (follower.arm + abs(point)):
+        arc = _Arc(arm, distance)
+        point, lines, beyond = _least(region, arc.point(0.0), arc.first)
+        if beyond > KEPT * (arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
             limit = "one at which the pressure angle can keep its limits over the whole swing"
             remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
             raise DesignError("centre distance", distance, limit, remedy)
-    active = tuple(name for name in get_args(Line) if any(line.name == name for line in lines))
-    return ArmMinimumRadius(abs(point), distance, active)
+    names = [line.name for line in lines]
+    return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINES if name in names]))
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:
@@ -106,132 +104,91 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
 # --- the lines -------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, eq=False)
-class _Lines:
-    """Lines through ends of l v at limits to the arm's normals: arrays, or one value for all, that go with the places.
+class _Region(NamedTuple):
+    """All lines of a motion: those on the driven sides, and those at rest or the reach of the arm."""
 
-    tau : +1 or -1, the side of the limit;  limit : the angle [rad];  sigma, arm : the cam's sense and l [mm]
-    """
-
-    tau: Floats
-    limit: Floats
-    sigma: int
     arm: float
+    sides: list[Side]
+    fixed: list[HalfPlane]
 
-    def normals(self, values: Values) -> Complexes:
-        angle = self.tau * self.limit - values[0]
-        return self.tau * (np.cos(angle) + 1j * np.sin(angle))
-
-    def heights(self, values: Values) -> Floats:
-        s, v, _, _ = values
-        turned = 2 * np.sin(s / 2) * np.sin(self.tau * self.limit - s / 2)
-        return self.tau * self.arm * (self.sigma * v * np.cos(self.limit) - turned)
-
-    def excess(self, values: Values, point: complex) -> Floats:
-        """How far the point lies outside of each line [mm]."""
-        return self.heights(values) - dot(self.normals(values), np.asarray(point))
-
-    def slopes(self, values: Values, point: complex) -> tuple[Floats, Floats]:
-        """The first and the second derivative of the excess by phi."""
-        s, v, a, j = values
-        n, p = self.normals(values), np.asarray(point)
-        force, angle = self.sigma * np.cos(self.limit), s - self.tau * self.limit
-        arm = self.tau * self.arm
-        first = arm * (force * a + v * np.sin(angle)) + v * cross(n, p)
-        second = arm * (force * j + a * np.sin(angle) + v * v * np.cos(angle)) + a * cross(n, p) + v * v * dot(n, p)
-        return first, second
-
-    def half_planes(self, names: Sequence[Line], values: Values) -> list[HalfPlane]:
-        """The lines of some places one by one."""
-        parts = zip(names, self.normals(values), self.heights(values), strict=True)
-        return [HalfPlane(name, complex(normal), float(height)) for name, normal, height in parts]
+    def beyond(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
+        """The lines that the point lies beyond by more than rounding leaves: of each side the worst, the farthest last."""
+        rounding, lines = ROUNDING * (self.arm + abs(point)), self.fixed
+        excesses = [(side, side.excess(point)) for side in self.sides]
+        for side, excess in excesses:
+            k = int(excess.argmax())
+            if (excess.item(k) + side.tau) * side.force > rounding:
+                lines = [*lines, side.number(k, point)]
+        if found := _beyond(lines, point, rounding):
+            return found
+        return _beyond([side.greatest(k, point) for side, x in excesses for k in side.peaks(x, kept)], point, rounding)
 
 
-class _Region:
-    """All lines of a motion: those on the driven sides at every place, those at rest or the reach of the arm."""
+def _beyond(lines: Sequence[HalfPlane], point: complex, rounding: float) -> list[HalfPlane]:
+    found = [line for line in lines if line.excess(point) > rounding]
+    return sorted(found, key=lambda line: line.excess(point)) if len(found) > 1 else found
 
-    def __init__(self, motion: Motion, arm: float, sigma: int, limits: Limits) -> None:
-        self.motion, self.arm, self.sigma = motion, arm, sigma
-        # Of every smooth piece of a limited phase: phase, direction, limit, and samples (pieces, n) of u and values.
-        limit_of = {+1: limits.rise, 0: None, -1: limits.return_}
-        phase, start, end = smooth_pieces(motion)
-        limited = np.array([limit_of[motion.phases[k].direction] is not None for k in phase])
-        self.phase, start, end = phase[limited], start[limited], end[limited]
-        self.direction = np.array([motion.phases[k].direction for k in self.phase])
-        self.limit = np.where(self.direction > 0, limits.rise, limits.return_ or 0.0)
-        self.u = start[:, None] + (end - start)[:, None] * np.concatenate([[0.0], SAMPLES, [1.0]])
-        self.values = motion.at(self.phase[:, None], self.u)
-        self.fixed = self._at_rest(limits) if limits.rest else self._reach()
 
-    def _at_rest(self, limits: Limits) -> list[HalfPlane]:
-        """On the sides that are not driven, in the lowest and the highest position."""
-        s, rest = np.array([0.0, self.motion.lift]), np.zeros(2)
-        sides = [(-self.sigma, limits.rise), (self.sigma, limits.return_)]
-        lines = [_Lines(np.full(2, tau), np.full(2, limit), self.sigma, self.arm) for tau, limit in sides if limit]
-        return [half for some in lines for half in some.half_planes(("rest", "rest"), (s, rest, rest, rest))]
+def _region(motion: Motion, arm: float, sigma: int, limits: Limits) -> _Region:
+    sides: list[Side] = []
+    fixed: list[HalfPlane] = []
+    for name, direction, limit in (("rise", +1, limits.rise), ("return", -1, limits.return_)):
+        if limit is not None:
+            tau, legs = sigma * direction, sampled_legs(motion, direction)
+            sides.append(Side(name, tau, limit, arm, arm * math.cos(limit), legs))
+            if limits.rest:
+                fixed += [_rest_line(-tau * limit, -tau, s, arm) for s in (0.0, motion.lift)]
+    if not limits.rest:  # the arm stays above the line of centres in its lowest and its highest position
+        fixed = [HalfPlane(None, 1j * cmath.exp(-1j * s), -arm * math.sin(s)) for s in (0.0, motion.lift)]
+    return _Region(arm, sides, fixed)
 
-    def _reach(self) -> list[HalfPlane]:
-        """The arm stays above the line of centres in its lowest and its highest position."""
-        return [HalfPlane(None, 1j * cmath.exp(-1j * s), -self.arm * math.sin(s)) for s in (0.0, self.motion.lift)]
 
-    def _driven(self, piece: NDArray[np.intp]) -> _Lines:
-        return _Lines(self.sigma * self.direction[piece], self.limit[piece], self.sigma, self.arm)
-
-    def worst(self, point: complex, *, refined: bool) -> tuple[float, HalfPlane]:
-        """The line that the point lies farthest beyond, and by how much [mm]; of the samples, or of all places."""
-        excess = self._driven(np.arange(self.phase.size)[:, None]).excess(self.values, point)
-        piece, k = (np.array([index]) for index in np.unravel_index(np.argmax(excess), excess.shape))
-        s, v, a, j = (value[piece, k] for value in self.values)
-        places = [(piece, (s, v, a, j))]
-        if refined:
-            places.append(self._peaks(excess, point))
-        lines = list(self.fixed)
-        for pieces, values in places:
-            names: list[Line] = ["rise" if direction > 0 else "return" for direction in self.direction[pieces]]
-            lines += self._driven(pieces).half_planes(names, values)
-        return max(((line.excess(point), line) for line in lines), key=lambda found: found[0])
-
-    def _peaks(self, excess: Floats, point: complex) -> tuple[NDArray[np.intp], Values]:
-        """The places where the excess may be worst inside the pieces, by Newton's method kept between samples."""
-        before, here, after = excess[:, :-2], excess[:, 1:-1], excess[:, 2:]
-        # A peak rises above its sample by an eighth of the second difference, if its neighbours are as far.
-        may_be_worst = 3 * here - before - after >= max(0.0, excess.max())
-        piece, k = np.nonzero((here > before) & (here >= after) & may_be_worst)
-        phase, low, high = self.phase[piece], self.u[piece, k], self.u[piece, k + 2]
-        angle = np.array([self.motion.phases[k].angle for k in phase])
-        lines, u = self._driven(piece), self.u[piece, k + 1]
-        while True:
-            values = self.motion.at(phase, u)
-            first, second = lines.slopes(values, point)
-            low, high = np.where(first > 0, u, low), np.where(first > 0, high, u)
-            newton = u - np.divide(first, second * angle, out=np.full_like(u, np.inf), where=second < 0)
-            step = np.where((newton >= low) & (newton <= high), newton, (low + high) / 2) - u
-            if np.abs(step).max(initial=0.0) <= SAME_PLACE:
-                return piece, values
-            u = u + step
+def _rest_line(turned: float, tau: int, s: float, arm: float) -> HalfPlane:
+    """The limit on the side that is not driven, in a position of rest."""
+    height = -2 * tau * arm * math.sin(s / 2) * math.sin(turned - s / 2)
+    return HalfPlane("rest", cmath.rect(tau, turned - s), height)
 
 
 # --- the least point -------------------------------------------------------------------------------------------------
 
 
-def _exchange(region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]) -> Kept:
-    """The least point that keeps all lines: meet the lines that bind and the worst one, until none is worse.
+def _least(
+    region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]
+) -> tuple[complex, tuple[HalfPlane, ...], float]:
+    """The least point that keeps all lines, those that hold it off, and how far it still lies beyond one [mm].
 
-    A place where the excess is greatest enters with the square of its error, so the exchange converges like Newton's
-    method.
+    The lines that bind and the worst one meet, and touch anew where they meet, until no other is worse.  A place where
+    the excess is greatest enters with the square of its error, so this converges like Newton's method; wherever it
+    stops, no permitted point is nearer.
     """
     kept: tuple[HalfPlane, ...] = ()
-    refined = True  # at first, because the one line that may bind alone must be the right one
     while True:
-        beyond, line = region.worst(point, refined=refined)
-        if beyond > ROUNDING * (region.arm + abs(point)):
-            next_point, next_kept = meet((*kept, line))
-            if abs(next_point) > abs(point):  # it grows until nothing but rounding is left
-                point, kept, refined = next_point, next_kept, False
-                continue
-        if refined:
-            return point, kept
-        refined = True  # the samples keep, but what is between them?
+        beyond = region.beyond(point, kept)
+        if not beyond:
+            return point, kept, 0.0
+        next_point, next_kept = meet((*region.fixed, *kept, *beyond))
+        for _ in range(PATIENCE):
+            next_kept, far = _touching(next_kept, next_point)
+            next_point, next_kept = meet(next_kept)
+            if not far:
+                break
+        if abs(next_point) <= abs(point):  # it grows until nothing but rounding is left
+            return point, kept, beyond[-1].excess(point)
+        point, kept = next_point, next_kept
+
+
+def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[tuple[HalfPlane, ...], bool]:
+    """The same lines where they touch nearer to the point, and whether they were still far from there."""
+    moved: list[HalfPlane] = []
+    far = False
+    for line in lines:
+        if line.touch:
+            side, leg, w, low, high, *_ = line.touch
+            place = higher(line, point, low, high)
+            far = far or abs(place - w) > SQUARED * place
+            line = side.line(leg, place, low, high)
+        moved.append(line)
+    return tuple(moved), far
 
 
 @dataclass(frozen=True)
@@ -247,6 +204,8 @@ class _Arc:
 
     def first(self, lines: Sequence[HalfPlane]) -> Kept:
         """The point of the arc where psi0, as it grows, comes to keep the last line; R = 0 if the arc nowhere does."""
+        if not lines:
+            return 0j, ()
         line = lines[-1]
         cosine = (line.height + self.arm * line.normal.real) / self.distance
         if cosine > 1:

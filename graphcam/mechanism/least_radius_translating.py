@@ -61,7 +61,7 @@ def translating_minimum_radius(
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
     place = sigma * offset
-    heights = [(height - normal.real * place) / normal.imag for _, normal, height in lines]
+    heights = [(height - normal.real * place) / normal.imag for _, normal, height, _ in lines]
     s0 = max(0.0, *heights)
     lowest = zip(heights, lines, strict=True)
     active: list[Line] = [line.name for height, line in lowest if height == s0 > 0 and line.name]

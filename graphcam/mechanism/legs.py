@@ -1,0 +1,96 @@
+"""The rises and the returns of a motion, each seen from its lower end, and places on them."""
+
+import math
+from bisect import bisect_right
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion_law import Law
+
+INSIDE = 96
+"""Places on a whole phase, denser at the ends of its smooth pieces ..."""
+FEWEST = 16
+"""... and on a piece, however short."""
+CLOSEST = np.logspace(-12, -4, 25)
+"""Places nearer the phase's ends, where a steep limit moves the extremes to."""
+
+
+class Leg(NamedTuple):
+    """A rise, or a return as if time ran backwards: s = low + lift f(w), |v| = rate f'(w).
+
+    law : as seen from the lower end;  rate : lift over angle;  low : s of the lower end
+    """
+
+    law: Law
+    lift: float
+    rate: float
+    low: float
+
+
+class Legs(NamedTuple):
+    """The rises or the returns of a motion, with their places in one row.
+
+    first : where each leg's places begin, and the count of all;  w : fractions of the leg, from its lower end
+    s, v : s and |v|
+    """
+
+    legs: tuple[Leg, ...]
+    first: tuple[int, ...]
+    w: Floats
+    s: Floats
+    v: Floats
+
+    def leg_of(self, k: int) -> Leg:
+        """The leg that the k-th place belongs to."""
+        return self.legs[bisect_right(self.first, k) - 1]
+
+
+def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
+    """The rises (direction +1) or the returns (-1) of a motion.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
+    >>> [(leg.law.name, leg.lift, leg.low) for leg in legs(motion, -1)]
+    [('2-3', 30, 0.0)]
+    """
+    found: list[Leg] = []
+    for k, phase in enumerate(motion.phases):
+        if phase.direction == direction and not isinstance(phase, Dwell):
+            law, low = (phase.normalised, k) if direction > 0 else (phase.normalised.reversed, k + 1)
+            found.append(Leg(law, phase.lift, phase.lift / phase.angle, motion.levels.item(low)))
+    return tuple(found)
+
+
+@lru_cache(maxsize=64)
+def sampled_legs(motion: Motion, direction: int) -> Legs:
+    """The same with their places.  They are kept: a motion is sized again and again, for other limits and lengths.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
+    >>> sampled_legs(motion, +1).v.max().round(9).item()
+    47.123889804
+    """
+    found = legs(motion, direction)
+    places = [_places(leg.law) for leg in found]
+    first = np.cumsum([0, *(part.shape[1] for part in places)]).tolist()
+    w, s, v = np.hstack([
+        (part[0], leg.low + leg.lift * part[1], leg.rate * part[2]) for leg, part in zip(found, places, strict=True)
+    ])  # fmt: skip
+    return Legs(found, tuple(first), w, s, v)
+
+
+@lru_cache(maxsize=64)
+def _places(law: Law) -> Floats:
+    """(3, n) places w, and f and f' there."""
+    pieces = pairwise((0.0, *law.breaks, 1.0))
+    inside = [
+        begin + (end - begin) * np.sin(np.linspace(0, np.pi / 2, max(FEWEST, round(INSIDE * (end - begin))))) ** 2
+        for begin, end in pieces
+    ]
+    w = np.unique(np.concatenate([CLOSEST, *inside, 1 - CLOSEST]))
+    return np.array([w, *law(w, derivatives=1)])
