@@ -11,6 +11,7 @@ three standard deviations.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
@@ -80,50 +81,49 @@ class Bounds:
             return None
         return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HANDS))
 
-    def of(self, construction: str, reading: str) -> float:
+    def of(self, construction: str, reading: str) -> Floats:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
-        return float(self._of(construction, reading)) / self._per_mm(construction, reading)
+        return self._of(construction, reading) / self._per_mm(construction, reading) + ARITHMETIC
 
-    def of_choice(self, construction: str, reading: str, candidates: str, rank: Rank) -> float:
-        """The same for a reading that is the candidate of highest rank among several, read as ``candidates`` (..., k).
+    def of_choice(self, construction: str, candidates: str, ranks: Sequence[Rank]) -> float:
+        """The same for the candidate of highest rank among several that are read as ``candidates`` (..., k).
 
-        Where two candidates are closer than they may be off, the exact one may be the other.  A candidate that is
-        infinite is none.  NaN where a candidate cannot be read, or shows up in a finer redrawing only: how far it would
-        be off is unknown, and so is whether it is the one.
+        The exact one ranks between the highest rank that any candidate surely has and the highest that any may have.
+        NaN where a candidate cannot be read, or shows up in a finer redrawing only: how far it would be off is unknown,
+        and so is whether it is the one.
         """
-        chosen = float(self.perfect[construction].value(reading))
-        values: Floats = np.atleast_1d(self.perfect[construction].value(candidates))
-        off = self._of(construction, candidates)
-        there = ~(np.isinf(values) & (off == 0))
-        values, off = values[there], off[there]
-        if not values.size or not np.isfinite([values, off]).all():
-            return float("nan")
-        possible = rank(values) + off >= np.max(rank(values) - off)
-        return float(np.max((np.abs(values - chosen) + off)[possible])) / self._per_mm(construction, reading)
+        values = np.asarray(self.perfect[construction].value(candidates))
+        far: list[Floats] = []
+        for rank in ranks:
+            off = self._of(construction, candidates, rank)
+            with np.errstate(invalid="ignore"):  # of what is infinite here and not in a finer redrawing
+                highest = np.array([np.max(rank(values) + sign * off) for sign in (-1, 0, 1)])
+            least, chosen, most = rank(highest)
+            far.append(np.abs([least - chosen, most - chosen]))
+        bound = float(np.max(np.fmin.reduce(far))) / self._per_mm(construction, candidates)
+        return bound + ARITHMETIC if np.isfinite(bound) else float("nan")
 
     def at_stations(self, construction: str, reading: str) -> Floats:
         """How far a reading at each station may be off, (m,) in machine units."""
-        return self._of(construction, reading, stations=True)
+        rounding = ARITHMETIC * self._per_mm(construction, reading)
+        return self._of(construction, reading, stations=True) + rounding
 
     def _per_mm(self, construction: str, reading: str) -> float:
         return self.drawn[construction].readings[reading].per_mm
 
-    def _of(self, construction: str, reading: str, *, stations: bool = False) -> Floats:
-        """The bound in machine units, shaped like one drawing's reading; NaN where nothing finer is readable."""
-        here: Floats = np.asarray(self.perfect[construction].value(reading))
+    def _of(self, construction: str, reading: str, rank: Rank = np.positive, *, stations: bool = False) -> Floats:
+        """The bound of the ranks in machine units, shaped like one drawing's reading; NaN where nothing is readable."""
+        here: Floats = rank(np.asarray(self.perfect[construction].value(reading)))
         changes: list[Floats] = []
         for k, drawing in zip(FINER, self.finer, strict=True):
-            finer = drawing[construction].value(reading)
+            finer = rank(np.asarray(drawing[construction].value(reading)))
             if stations:  # a phase's stations stand k apart among its finer ones
                 finer = np.concatenate([finer[span][::k] for span in drawing.spans])
             # Infinite in both is no change.
             changes.append(np.abs(np.subtract(finer, here, out=np.zeros_like(here), where=finer != here)))
         # fmax, because too fine parts may leave a reading unreadable: then the other redrawings speak.
         change = CHANGE_TO_ERROR * np.fmax.reduce(changes)
-        bound = change + np.where(np.isinf(here), 0.0, ARITHMETIC * self._per_mm(construction, reading))
-        return bound if self.hands is None else bound + self._by_hand(self.hands, construction, reading, here)
-
-    @staticmethod
-    def _by_hand(hands: Redrawable, construction: str, reading: str, here: Floats) -> Floats:
-        values = np.ma.masked_invalid(hands[construction].readings[reading].value)  # unreadable for that hand
-        return np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATIONS * values.std(axis=0), np.nan)
+        if self.hands is None:
+            return change
+        values = np.ma.masked_invalid(rank(self.hands[construction].readings[reading].value))  # unreadable for a hand
+        return change + np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATIONS * values.std(axis=0), np.nan)

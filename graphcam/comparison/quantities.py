@@ -151,16 +151,25 @@ def _quantity(
     construction: Construction, reading: str, said: Compared, bounds: Bounds, exact: Mapping[str, float]
 ) -> Quantity:
     """The drawn value beside the exact one."""
-    counterpart, where = said.exact or said.name, (construction.name, reading)
+    counterpart = said.exact or said.name
     if counterpart not in exact:
         raise DesignError("exact counterpart", counterpart, f"one of {', '.join(exact)}")
-    read = construction.readings[reading]
+    read = construction.readings[said.sides or reading]
     factor, unit = (DEGREES, "deg") if read.unit == "rad" else (1.0, read.unit)
     factor *= said.sign
-    bound = bounds.of_choice(*where, said.candidates, said.rank) if said.candidates else bounds.of(*where)
-    drawn = factor * float(construction.value(reading))
+    side = (side_of(exact[counterpart]),) if said.sides else ()
+    if said.candidates:
+        bound = bounds.of_choice(construction.name, said.candidates, said.ranks)
+    else:
+        bound = float(bounds.of(construction.name, said.sides or reading)[side])
+    drawn = factor * float(construction.value(said.sides or reading)[side])
     title = said.title or construction.meaning.reading(reading).title
     return Quantity(said.name, title, drawn, exact[counterpart], unit, factor * read.per_mm, bound)
+
+
+def side_of(extreme: float) -> int:
+    """Where a signed value's extreme of greatest magnitude stands beside the one of the other side: highest first."""
+    return 0 if extreme >= 0 else 1
 
 
 DEGREES = math.degrees(1.0)

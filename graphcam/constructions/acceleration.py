@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.constructions.axes import numbers, phase_ends, phase_title, phi_axes
 from graphcam.constructions.law_names import law_name
@@ -77,12 +78,12 @@ def acceleration_diagram(
     turn = hand.lay_off("turn", origin, RIGHT, FULL_TURN / mu_phi.per_mm)
     axis, begins = _divided(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
-    def ordinates(u: Floats, spans: tuple[slice, ...], side: Side = "right") -> Floats:
-        """The given ordinates of all phases, one phase after another."""
-        return np.concatenate([y * _shape(p, u[s], side) for p, y, s in zip(phases, greatest, spans, strict=True)])
+    def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
+        """The given ordinates at fractions of phases."""
+        return ordinate / steepness[first_rise] * motion.at(phase, u, side)[2]
 
     tops = hand.lay_off("greatest", axis[begins], UP, greatest)
-    after, before = ordinates(u, stations.phases), ordinates(u, stations.phases, "left")
+    after, before = ordinates(u, stations.phase), ordinates(u, stations.phase, "left")
     plotted = hand.lay_off("stations", axis, UP, after)
     # Where the acceleration jumps a second ordinate stands on the near side.
     jumps = np.flatnonzero(np.abs(after - before) > LEVEL * ordinate)
@@ -90,7 +91,7 @@ def acceleration_diagram(
     which = np.arange(u.size)
     which[jumps] = u.size + np.arange(jumps.size)
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
-    middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.parts))
+    middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.phase[left]))
     hand.read("greatest", between(axis[begins], tops, UP), 1.0, rounded=False)
     nearer = hand.take("before", plotted, near, which=which)
     for name, ends in (("stations", plotted), ("before", nearer)):

@@ -47,19 +47,23 @@ MEANING = Meaning(
     {
         "lift": ReadingMeaning(say("lift h"), "h", "mm"),
         "max_v": ReadingMeaning(
-            say("greatest v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", rank=np.abs),)
+            say("greatest v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", ranks=(np.positive,)),)
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", rank=np.abs),)
+            say("greatest a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", ranks=(np.positive,)),)
         ),
         "max_alpha": ReadingMeaning(
             say("greatest α"),
             "max α",
             "rad",
             (
-                Compared("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", np.abs),
+                Compared("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", (np.positive,)),
                 Compared(
-                    "max_pressure_angle_return_deg", say("greatest α, return"), "alpha_candidates", np.abs, sign=-1
+                    "max_pressure_angle_return_deg",
+                    say("greatest α, return"),
+                    "alpha_candidates",
+                    (np.positive,),
+                    sign=-1,
                 ),
             ),
         ),

@@ -20,7 +20,7 @@ from graphcam.drafting.euclid import RIGHT, UP, centre_of_circle, crossing, perp
 from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning, sharpness
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
@@ -47,7 +47,14 @@ LEAST_CURVATURE = {
         say("least radius of curvature ρ"),
         "ρ",
         "mm",
-        (Compared("min_pitch_curvature_radius", say("least curvature radius ρ"), "rho_candidates"),),
+        (
+            Compared(
+                "min_pitch_curvature_radius",
+                say("least curvature radius ρ"),
+                "rho_candidates",
+                (np.negative, sharpness),
+            ),
+        ),
         Converges("least curvature radius", "min_moving_curvature_radius", of="rho_candidates"),
     )
 }

@@ -6,7 +6,7 @@ meets the axis of s where the greatest of -(s + a) is read.  With unequal scales
 arctan(mu_a/mu_s) in place of 45 degrees.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from operator import itemgetter
 
@@ -22,7 +22,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
@@ -69,7 +69,12 @@ CURVATURE_MEANING = Meaning(
         "The prime radius is adopted, and s + a is drawn already: their sum is the radius of curvature of the profile. "
         "The least of it tells how sharp the cam is."
     ),
-    LEAST_CURVATURE,
+    # It may be negative here, and has no rival.
+    {
+        "rho": replace(
+            LEAST_CURVATURE["rho"], compared=(Compared("min_pitch_curvature_radius", say("least curvature radius ρ")),)
+        )
+    },
 )
 
 

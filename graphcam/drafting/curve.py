@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
 from graphcam.plane import dot
@@ -23,20 +24,7 @@ def farthest(points: Points, direction: Points | complex) -> Points:
     3j
     """
     points = np.asarray(points)
-    direction = direction / np.abs(direction)
-    height = dot(np.asarray(direction)[..., None], points)
-    best = np.argmax(np.where(np.isnan(height), -np.inf, height), axis=-1)[..., None]
-    plotted = np.take_along_axis(points, best, -1)[..., 0]
-    if points.shape[-1] < 3:
-        return plotted
-    middle = np.clip(best, 1, points.shape[-1] - 2)
-    a, b, c = (np.take_along_axis(points, middle + k, -1)[..., 0] for k in (-1, 0, 1))
-    slope, bend = (c - a) / 2, a - 2 * b + c  # the parabola b + slope t + bend t^2/2, at t = -1, 0, 1 on the points
-    with np.errstate(divide="ignore", invalid="ignore"):
-        top = -dot(direction, slope) / dot(direction, bend)
-        between = (dot(direction, bend) < 0) & (np.abs(top) <= 1)
-    top = np.where(between, top, 0.0)
-    return np.where(between, b + top * (slope + top * bend / 2), plotted)
+    return farthest_of(points, [slice(0, points.shape[-1])], direction)
 
 
 def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
@@ -49,10 +37,35 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     >>> complex(farthest_of(corner, [slice(0, 3), slice(2, 5)], 1j))
     (2+2j)
     """
-    tops = np.stack([farthest(points[..., piece], direction) for piece in pieces], axis=-1)
+    direction = np.asarray(direction / np.abs(direction))[..., None]
+    first, last = np.array([piece.indices(points.shape[-1])[:2] for piece in pieces]).T - [[0], [1]]
+    best = _highest(dot(direction, points), first, last)
+    plotted = np.take_along_axis(points, best, -1)
+    # The three points about it; of a piece of fewer the first ones, which count for nothing.
+    middle = np.clip(best, first + 1, np.maximum(last - 1, first + 1))
+    a, b, c = (np.take_along_axis(points, np.minimum(middle + k, points.shape[-1] - 1), -1) for k in (-1, 0, 1))
+    slope, bend = (c - a) / 2, a - 2 * b + c  # the parabola b + slope t + bend t^2/2, at t = -1, 0, 1 on the points
+    with np.errstate(divide="ignore", invalid="ignore"):
+        top = -dot(direction, slope) / dot(direction, bend)
+        between = (dot(direction, bend) < 0) & (np.abs(top) <= 1) & (last - first > 1)
+    top = np.where(between, top, 0.0)
+    tops = np.where(between, b + top * (slope + top * bend / 2), plotted)
     # Of pieces that reach equally far it is the first, not the one that rounding favours.
-    best = np.argmax(np.round(dot(np.asarray(direction)[..., None], tops), NANOMETRES), axis=-1)[..., None]
-    return np.take_along_axis(tops, best, -1)[..., 0]
+    farthest = np.argmax(np.round(dot(direction, tops), NANOMETRES), axis=-1)[..., None]
+    return np.take_along_axis(tops, farthest, -1)[..., 0]
+
+
+def _highest(heights: NDArray[np.float64], first: NDArray[np.intp], last: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(..., k) the place of the greatest of heights (..., n) in each of k runs, from the first place to the last.
+
+    All runs are gone through in one pass; they may share places.
+    """
+    counts = last - first + 1
+    begins = np.cumsum(counts) - counts
+    places = np.arange(counts.sum()) + np.repeat(first - begins, counts)
+    in_order = np.where(np.isnan(heights), -np.inf, heights)[..., places]
+    greatest = np.repeat(np.maximum.reduceat(in_order, begins, axis=-1), counts, axis=-1)
+    return np.minimum.reduceat(np.where(in_order == greatest, places, heights.shape[-1]), begins, axis=-1)
 
 
 def faired(points: Points, between: int = 8) -> Points:

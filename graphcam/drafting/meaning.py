@@ -15,9 +15,18 @@ from graphcam.errors import DesignError
 from graphcam.words import Caption
 
 Rank = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
-"""Which of several candidates is taken: the one of highest rank."""
+"""Which of several candidates is taken: the one of highest rank.  A rank undoes itself: of a rank it is the value."""
 Measured = Literal["value", "at stations", "from the pitch curve", "from the profile"]
 """How far a reading is off: itself, the greatest at the stations, or the greatest distance of points from a curve."""
+
+
+def sharpness(radii: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
+    """The curvatures of convex radii, by which the least is taken: what hardly bends changes by little there.
+
+    >>> sharpness(np.array([4.0, np.inf, 0.0])).tolist()
+    [0.25, 0.0, inf]
+    """
+    return np.divide(1.0, radii, out=np.full_like(radii, np.inf), where=~(radii <= 0))
 
 
 @dataclass(frozen=True)
@@ -25,7 +34,10 @@ class Compared:
     """A reading as a quantity of the results, where it stands beside its exact counterpart.
 
     name, title : of the quantity, whose title is the reading's if it has none; an angle is told in degrees
-    candidates, rank : the reading that holds what it was chosen from, and how; by default the least is taken
+    candidates, ranks : the reading that holds what it was chosen from, and how; by default the least is taken.  Of
+        several ranks, which name the same candidate, that one tells how far it may be off which leaves less
+    sides : of a signed greatest, the reading that holds the highest and the lowest: the one is compared that lies on
+        the side of the exact one, for of two that are nearly equal the drawing may name the other
     sign : of the quantity where the reading is 1
     exact : the exact counterpart's name, where it is not that of the quantity
     """
@@ -33,7 +45,8 @@ class Compared:
     name: str
     title: Caption | None = None
     candidates: str = ""
-    rank: Rank = np.negative
+    ranks: tuple[Rank, ...] = (np.negative,)
+    sides: str = ""
     sign: int = 1
     exact: str = ""
 

@@ -93,7 +93,8 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
         for (start, end), share in zip(pairwise(ends), _shares(ends, divisions), strict=True):
             n = share * refine
             stretches.append(slice(len(u) - 1, len(u) + n))
-            u.extend(start + (end - start) * np.arange(1, n + 1) / n)
+            # The end itself, since a rounding beyond it the acceleration has jumped.
+            u.extend([*(start + (end - start) * np.arange(1, n) / n), end])
             if end in (*law.jumps, 1.0):
                 pieces.append(slice(begun, len(u)))
                 begun = len(u) - 1
