@@ -13,7 +13,7 @@ import numpy as np
 from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
 from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
-from graphcam.drafting.acts import Drawn, Setting
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
@@ -82,16 +82,16 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
-    middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
+    middles, uprights = hand.found(diagram, "middles"), hand.erect("uprights", axis)
 
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
-    a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
+    a_heights, polygons = _integrated(hand, givens, 1, middles, uprights, origin)
     v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
     # The middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
-    v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
+    v_heights, polygons = _integrated(hand, givens, 2, halves, uprights, origin)
     heights = between(axis, polygons, UP)
     raised, shared_out, closing = (reckoned(partial(_stacked, givens, part), heights) for part in range(3))
     s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
@@ -111,16 +111,16 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     ends = (between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP), between(down, origin, UP))
     hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
     hand.read("max_a", reckoned(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
-    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
-    hand.read("closing_s", closing, mu_s, rounded=False)
+    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v)
+    hand.read("closing_s", closing, mu_s)
     projected = {"a_projected": middles.points.real + a_heights.points}
-    projected["v_projected"] = middles.points.real + v_heights.points
+    projected["v_projected"] = halves.points.real + v_heights.points
     curves = {"v_chords": v_chords, "v_curve": v, "s_chords": s_chords, "s_curve": s}
     return hand.finished(givens, _draw, projected | curves)
 
 
 def _integrated(
-    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, axis: Drawn, origin: Drawn
+    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn, uprights: Drawn, origin: Drawn
 ) -> tuple[Drawn, Drawn]:
     """The middle ordinates carried to the vertical axis, and the chords parallel to the rays to them from the pole."""
     stations, target = givens.stations, "vs"[index - 1]
@@ -128,7 +128,7 @@ def _integrated(
     heights = hand.project(f"heights for {target}", ordinates, origin)
     rays = hand.join(f"rays of {target}", pole, heights)
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
-    return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
+    return heights, hand.end_to_end(f"chords of {target}", rays, uprights, chains)
 
 
 def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
