@@ -66,7 +66,7 @@ def acceleration_diagram(
     mu_phi : scale of the cam angle [rad/mm];  unit : of the lift
 
     Readings besides those of the meaning: ordinates at the ``stations``, and ``before``, on the near side of a jump.
-    Points: the stations on the ``axis``, and the ends of the ``middles``.
+    Points: the stations on the ``axis``.
     """
     hand, phases = Hand(pencil, MEANING), moving_phases(motion, stations)
     steepness = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
@@ -91,14 +91,14 @@ def acceleration_diagram(
     which[jumps] = u.size + np.arange(jumps.size)
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
     middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.parts))
-    hand.read("greatest", between(axis[begins], tops, UP), 1.0)
+    hand.read("greatest", between(axis[begins], tops, UP), 1.0, rounded=False)
     nearer = hand.take("before", plotted, near, which=which)
     for name, ends in (("stations", plotted), ("before", nearer)):
-        hand.read(name, between(axis, ends, UP), 1.0, "mm of paper")
-    hand.read("middles", between(middles, middle, UP), 1.0)
-    hand.read("base", between(origin, turn), mu_phi.per_mm)
+        hand.read(name, between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
+    hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
+    hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
     givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
-    return hand.finished(givens, _draw, {"axis": axis, "middles": middle})
+    return hand.finished(givens, _draw, {"axis": axis})
 
 
 def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:

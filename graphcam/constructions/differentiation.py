@@ -133,7 +133,7 @@ def differentiation(
     mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
     mu_a = mu_v / (mu_phi.per_mm * poles[1])
     hand.read("rise", between(start, end, UP), mu_s.per_mm, mu_s.unit)
-    hand.read("run", between(start, end, RIGHT), mu_phi.per_mm, "rad")
+    hand.read("run", between(start, end, RIGHT), mu_phi.per_mm, "rad", rounded=False)
     for name, derived, scale in (("v", v, mu_v), ("a", a, mu_a)):
         hand.read(name, between(origin, derived, UP), scale)
         hand.read(f"{name}_at", between(origin, derived, RIGHT), mu_phi.per_mm, "rad", rounded=False)

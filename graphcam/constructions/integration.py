@@ -13,7 +13,7 @@ import numpy as np
 from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
 from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
-from graphcam.drafting.acts import Drawn
+from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
@@ -82,10 +82,11 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
-    middles, uprights = hand.found(diagram, "middles"), hand.erect("uprights", axis)
+    middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
+    uprights = hand.erect("uprights", axis)
 
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
-    a_heights, polygons = _integrated(hand, givens, 1, middles, uprights, origin)
+    a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
     v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
@@ -111,8 +112,8 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     ends = (between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP), between(down, origin, UP))
     hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
     hand.read("max_a", reckoned(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
-    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v)
-    hand.read("closing_s", closing, mu_s)
+    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
+    hand.read("closing_s", closing, mu_s, rounded=False)
     projected = {"a_projected": middles.points.real + a_heights.points}
     projected["v_projected"] = halves.points.real + v_heights.points
     curves = {"v_chords": v_chords, "v_curve": v, "s_chords": s_chords, "s_curve": s}
@@ -120,7 +121,7 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
 
 
 def _integrated(
-    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn, uprights: Drawn, origin: Drawn
+    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, uprights: Drawn, origin: Drawn
 ) -> tuple[Drawn, Drawn]:
     """The middle ordinates carried to the vertical axis, and the chords parallel to the rays to them from the pole."""
     stations, target = givens.stations, "vs"[index - 1]
