@@ -106,7 +106,9 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     chosen = np.where(unread[..., None], places.points.shape[-1] - 1, chosen)
     triple = hand.take("triple", places, which=chosen)
     o = hand.take("centre", centres, nowhere, which=np.where(unread, 2, best)[..., None])[0]
-    phi = between(hand.given("start of the turn"), hand.take("cam angles", angles, nowhere, which=chosen), RIGHT)
+    # On the axis the place has its station's mark; it is carried down to the scale of degrees, where it is read.
+    marks, degrees_axis = hand.take("cam angles", angles, nowhere, which=chosen), hand.given("degrees", along=RIGHT)
+    phi = between(hand.given("start of the turn"), hand.project("on the degrees", marks, degrees_axis), RIGHT)
     hand.read("rho", between(triple[1], o), mu_l)
     hand.read("rho_candidates", between(b, centres), mu_l, "mm")
     in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)

@@ -83,15 +83,16 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
+    uprights = hand.erect("uprights", axis)
 
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
-    a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), axis, origin)
+    a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
     v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
 
     # The middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
-    v_heights, polygons = _integrated(hand, givens, 2, halves, axis, origin)
+    v_heights, polygons = _integrated(hand, givens, 2, halves, uprights, origin)
     heights = between(axis, polygons, UP)
     raised, shared_out, closing = (reckoned(partial(_stacked, givens, part), heights) for part in range(3))
     s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
@@ -114,13 +115,13 @@ def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil
     hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
     hand.read("closing_s", closing, mu_s, rounded=False)
     projected = {"a_projected": middles.points.real + a_heights.points}
-    projected["v_projected"] = middles.points.real + v_heights.points
+    projected["v_projected"] = halves.points.real + v_heights.points
     curves = {"v_chords": v_chords, "v_curve": v, "s_chords": s_chords, "s_curve": s}
     return hand.finished(givens, _draw, projected | curves)
 
 
 def _integrated(
-    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, axis: Drawn, origin: Drawn
+    hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, uprights: Drawn, origin: Drawn
 ) -> tuple[Drawn, Drawn]:
     """The middle ordinates carried to the vertical axis, and the chords parallel to the rays to them from the pole."""
     stations, target = givens.stations, "vs"[index - 1]
@@ -128,7 +129,7 @@ def _integrated(
     heights = hand.project(f"heights for {target}", ordinates, origin)
     rays = hand.join(f"rays of {target}", pole, heights)
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
-    return heights, hand.end_to_end(f"chords of {target}", rays, axis, chains)
+    return heights, hand.end_to_end(f"chords of {target}", rays, uprights, chains)
 
 
 def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:

@@ -84,9 +84,14 @@ def roller_radius(
     mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
     if given is None:
         prime_radius = between(centre, hand.found(inverted, "starts")[0])
-        candidates = reckoned(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
+        proposed = reckoned(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
-        candidates = between(centre, hand.lay_off("roller", centre, RIGHT, np.array([given / mu_l])))
+        proposed = reckoned(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
+    # The compass is set to each; where nothing is convex there is nothing to set it to.
+    set_to, own = hand.lay_off("roller", centre, RIGHT, reckoned(_finite, proposed)), proposed.amount.shape[-1]
+    which = np.where(np.isinf(proposed.amount), own, np.arange(own))
+    laid_off = hand.take("proposals", set_to, hand.given("far away", [np.inf]), which=which)
+    candidates = between(centre, laid_off, RIGHT)
     hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
     hand.read("roller_radius", reckoned(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
@@ -96,6 +101,11 @@ def roller_radius(
 def _proposed(rule: tuple[Candidate, ...], mu_l: float, rho: Floats, prime_radius: Floats) -> Floats:
     """What each term of the rule makes of the two radii, all on paper: (..., k)."""
     return np.stack([t.factor * (rho if t.of == "rho" else prime_radius) - t.margin / mu_l for t in rule], axis=-1)
+
+
+def _finite(radii: Floats) -> Floats:
+    """Nothing in place of what is infinite."""
+    return np.where(np.isinf(radii), 0.0, radii)
 
 
 def working_profile(inverted: Inverted, roller: float, pencil: Pencil) -> Profile:

@@ -1,7 +1,7 @@
 """The hand that draws one construction, with ruler, compass, set squares, dividers, protractor: none without error.
 
-Every act errs as CONSTRUCTIONS in textbooks say it does, is recorded, and returns what it leaves on the paper.  Points
-and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
+Every act errs as :mod:`~graphcam.drafting.slips` says, is recorded, and returns what it leaves on the paper.  Points and
+lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -16,10 +16,9 @@ from graphcam.drafting.ink import Construction, G, Reading, Step
 from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil, Stream
+from graphcam.drafting.slips import SLIPS
 from graphcam.plane import dot
 
-SQUARE = 150.0
-"""Length of a set square [mm]: a line drawn along it is turned by its offset over this."""
 COMPASS = 0.8
 """To bisect a chord the compass is set to this part of it."""
 
@@ -156,7 +155,7 @@ class Hand:
         points = a + (b - a) * part
         if self.pencil.dividers:
             new = (part > 0) & (part < 1)
-            points = points + euclid.unit(b - a) * new * self._dividers(points)
+            points = points + euclid.unit(b - a) * new * self._off(Kind.DIVIDE, "along", points)
         return self._left(Kind.DIVIDE, name, {"start": start, "end": end, "share": part}, points)
 
     def lay_off(self, name: str, start: Drawn, along: Direction, length: Length) -> Drawn:
@@ -166,22 +165,23 @@ class Hand:
             d = euclid.unit(d)
         points = a + d * mm
         if self.pencil.dividers:
-            points = points + d * (mm != 0) * self._dividers(points)  # nothing is set where there is nothing to lay off
+            # Nothing is set where there is nothing to lay off.
+            points = points + d * (mm != 0) * self._off(Kind.LAY_OFF, "along", points)
         return self._left(Kind.LAY_OFF, name, {"start": start, "along": along, "length": length}, points)
 
     # --- ruler, T-square and set squares -----------------------------------------------------------------------------
 
     def erect(self, name: str, feet: Drawn, along: Direction = euclid.UP) -> Drawn:
         """Lines of a known direction through places, drawn beside them by a line's offset."""
-        return self._through(Kind.ERECT, name, {"feet": feet, "along": along}, feet, along, 1, 0.0)
+        return self._through(Kind.ERECT, name, {"feet": feet, "along": along}, feet, along, 1)
 
     def parallel(self, name: str, to: Drawn, through: Drawn) -> Drawn:
         """Lines through places, carried by set squares: with an offset, and a small turn."""
-        return self._through(Kind.PARALLEL, name, {"to": to, "through": through}, through, to, 1, SQUARE)
+        return self._through(Kind.PARALLEL, name, {"to": to, "through": through}, through, to, 1)
 
     def perpendicular(self, name: str, to: Drawn, through: Drawn) -> Drawn:
         """Lines through places square to others, to the left of their directions."""
-        return self._through(Kind.PERPENDICULAR, name, {"to": to, "through": through}, through, to, euclid.UP, SQUARE)
+        return self._through(Kind.PERPENDICULAR, name, {"to": to, "through": through}, through, to, euclid.UP)
 
     def _through(
         self,
@@ -191,13 +191,12 @@ class Hand:
         places: Drawn,
         to: Direction,
         turn: complex,
-        square: float,
     ) -> Drawn:
         points, along = np.broadcast_arrays(*_aligned(_places(places), _way(to)))
         along = along * turn
-        points = self._moved(points, along * euclid.UP)
-        if self.pencil.line and square:
-            along = euclid.turned(along, self._line(points) / square)
+        points = self._moved(kind, "across", points, along * euclid.UP)
+        if self.pencil.line and "turn" in SLIPS[kind]:
+            along = euclid.turned(along, self._off(kind, "turn", points))
         return self._left(kind, name, takes, points, along)
 
     def join(self, name: str, start: Drawn, end: Drawn) -> Drawn:
@@ -213,7 +212,8 @@ class Hand:
         else:
             p, q, d = _aligned(_places(points), _places(onto), _way(onto))
             feet = euclid.foot(p, q, d)
-        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, self._moved(feet, d))
+        feet = self._moved(Kind.PROJECT, "along", feet, d)
+        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
 
     def end_to_end(self, name: str, lines: Drawn, cuts: Drawn, chains: Sequence[tuple[slice, slice]]) -> Drawn:
         """Chords set end to end, each parallel to its line, from one upright to the next.
@@ -221,15 +221,16 @@ class Hand:
         cuts : feet of the uprights, where the first chord of each chain starts
         chains : for each the slice of its cuts and that of its lines
 
-        Every chord is off by its set square's offset and its small turn, and the next one starts from its end.
+        Every chord is turned by its set square and its end is off on the upright; the next one starts from there.
         """
         heights = np.zeros(cuts.points.shape)
         for at, parts in chains:
             direction, x = lines.directions[..., parts], cuts.points[..., at].real
-            width = np.diff(x)
-            rises = euclid.climb_along(direction, width)
             if self.pencil.line:
-                rises = rises + self._line(rises) + self._line(rises) / SQUARE * width
+                direction = euclid.turned(direction, self._off(Kind.PARALLEL, "turn", direction))
+            rises = euclid.climb_along(direction, np.diff(x))
+            if self.pencil.line:
+                rises = rises + self._off(Kind.PARALLEL, "across", rises)
             heights[..., at][..., 1:] = np.cumsum(rises, axis=-1)
         takes = {"lines": lines, "cuts": cuts, "chains": tuple(chains)}
         return self._left(Kind.PARALLEL, name, takes, cuts.points + euclid.UP * heights)
@@ -257,9 +258,10 @@ class Hand:
         """Circles: the centre is pricked off by half a line, the radius is off by a divider setting."""
         points, r = np.broadcast_arrays(*_aligned(_places(centre), _amount(radius)))
         if self.pencil.line:
-            points = points + (self._line(points) + euclid.UP * self._line(points)) / 2
+            across, up = (self._off(Kind.CIRCLE, way, points) for way in ("across", "up"))
+            points = points + across + euclid.UP * up
         if self.pencil.dividers:
-            r = r + self._dividers(points)
+            r = r + self._off(Kind.CIRCLE, "radius", points)
         return self._left(Kind.CIRCLE, name, {"centre": centre, "radius": radius}, points, None, r)
 
     def bisect(self, name: str, start: Drawn, end: Drawn) -> Drawn:
@@ -268,7 +270,7 @@ class Hand:
         middle, along = euclid.perpendicular_bisector(a, b)
         if self.pencil.line:
             apart = 2 * np.sqrt(COMPASS**2 - 0.25) * np.abs(b - a)  # of the two crossings
-            one, other = (self._line(middle) / np.sqrt(2) for _ in range(2))
+            one, other = (self._off(Kind.BISECT, crossing, middle) for crossing in ("one", "other"))
             middle = middle + euclid.unit(b - a) * (one + other) / 2
             along = euclid.turned(along, (other - one) / apart)
         return self._left(Kind.BISECT, name, {"start": start, "end": end}, middle, along)
@@ -276,29 +278,32 @@ class Hand:
     def protractor(self, name: str, vertex: Drawn, base: Direction, angle: Length) -> Drawn:
         """Lines through places at angles [rad], counter-clockwise from a direction: off by the setting and a line."""
         points, d, turn = np.broadcast_arrays(*_aligned(_places(vertex), _way(base), _amount(angle)))
-        along, takes = euclid.turned(d, self._protracted(turn)), {"vertex": vertex, "base": base, "angle": angle}
-        return self._left(Kind.PROTRACTOR, name, takes, self._moved(points, along * euclid.UP), along)
+        along = euclid.turned(d, self._turned(Kind.PROTRACTOR, turn))
+        points = self._moved(Kind.PROTRACTOR, "across", points, along * euclid.UP)
+        return self._left(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
 
     # --- curves ------------------------------------------------------------------------------------------------------
 
     def tangent(self, name: str, points: Drawn, pieces: Sequence[slice], inward: Direction) -> Drawn:
         """The line square to ``inward`` that touches a curve, faired piece by piece, from its far side.
 
-        The line is moved along until it touches: its place is off by a line's offset.
+        The line is moved along until it touches: it is off across itself, and where it touches along it.
         """
         direction = _way(inward)[0]
-        touch = self._moved(curve.farthest_of(points.points, pieces, direction), direction)
+        touch = self._moved(Kind.TANGENT, "across", curve.farthest_of(points.points, pieces, direction), direction)
+        touch = self._moved(Kind.TANGENT, "along", touch, direction * euclid.UP)
         takes = {"points": points, "pieces": tuple(pieces), "inward": inward}
         return self._left(Kind.TANGENT, name, takes, touch, direction * euclid.UP)
 
     def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points]) -> Drawn:
-        """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle.
+        """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle and a line.
 
         rule : the directions that the eye sees, from the points and their neighbours
         """
         along = rule(points.points)
-        along = euclid.turned(along, self._protracted(np.zeros(along.shape)))
-        return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, points.points, along)
+        along = euclid.turned(along, self._turned(Kind.TANGENT, np.zeros(along.shape)))
+        beside = self._moved(Kind.TANGENT, "across", points.points, along * euclid.UP)
+        return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, beside, along)
 
     def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
         """A smooth curve through plotted points, piece by piece, in so many short chords a part.
@@ -334,14 +339,14 @@ class Hand:
         self, name: str, length: Setting, scale: Floats | float, unit: str = "", *, rounded: bool = True
     ) -> Reading:
         """A length on paper, read off a rule, or reckoned from others; its unit by what the construction says of it."""
-        division = self.pencil.division if rounded else 0.0
+        division = self.pencil.division if rounded and self.pencil.deviation(Kind.READ, "length") else 0.0
         paper = np.round(length.amount / division) * division if division else length.amount
         return self._read(name, {"length": length}, paper, scale, unit)
 
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
-        paper = self._protracted(sense * np.angle(e * np.conj(d)))
+        paper = self._turned(Kind.READ, sense * np.angle(e * np.conj(d)))
         return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
 
     def finished(
@@ -359,24 +364,19 @@ class Hand:
 
     # --- errors ------------------------------------------------------------------------------------------------------
 
-    def _moved(self, points: Points, along: Points) -> Points:
-        """Places that a line's offset moves along a direction of any length."""
-        return points + euclid.unit(along) * self._line(points) if self.pencil.line else points
+    def _moved(self, kind: Kind, what: str, points: Points, along: Points) -> Points:
+        """Places that an act of a kind leaves off along a direction of any length."""
+        return points + euclid.unit(along) * self._off(kind, what, points) if self.pencil.line else points
 
-    def _line(self, like: Any) -> Floats:
-        return self._errors(self.pencil.line, like)
+    def _turned(self, kind: Kind, angles: Floats) -> Floats:
+        """Angles as they are set or read."""
+        return angles + self._off(kind, "turn", angles) if self.pencil.protractor else angles
 
-    def _dividers(self, like: Any) -> Floats:
-        return self._errors(self.pencil.dividers, like)
-
-    def _protracted(self, angles: Floats) -> Floats:
-        """Angles as they are set or read with a protractor."""
-        return angles + self._errors(self.pencil.protractor, angles) if self.pencil.protractor else angles
-
-    def _errors(self, deviation: float, like: Any) -> Floats:
+    def _off(self, kind: Kind, what: str, like: Any) -> Floats:
+        """By how much it is off, shaped like an array; what errs not at all is drawn too, so that the rest stays."""
         if self._stream is None:
             self._stream = self.pencil.stream(self.meaning.name)
-        return deviation * self._stream.standard_normal(like.shape)
+        return self.pencil.deviation(kind, what) * self._stream.standard_normal(like.shape)
 
     def _left(
         self,

@@ -6,11 +6,13 @@ has a leading axis of that length, and one run of the arithmetic gives the scatt
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from graphcam.drafting.acts import Kind
+from graphcam.drafting.slips import PROTRACTOR, SLIPS
 from graphcam.errors import DesignError
 
 Stream = np.random.Generator | np.random.RandomState
@@ -19,7 +21,7 @@ Stream = np.random.Generator | np.random.RandomState
 
 @dataclass(frozen=True)
 class Pencil:
-    """Standard deviations of a hand's errors.
+    """Standard deviations of a hand's errors; by what each act errs with them says :mod:`graphcam.drafting.slips`.
 
     line : of a drawn line's or point's position [mm]
     dividers : of a length that dividers carry from one place to another [mm]
@@ -27,6 +29,8 @@ class Pencil:
     protractor : of a measured or laid off angle [rad]
     samples : how many hands draw at once; None for one, without a sample axis
     seed : of the random numbers; each construction has its own stream of them
+    only : the kinds of acts that err, for an error budget; None for all.  The others' random numbers are drawn and left
+        out, so hands that differ in this alone make the same errors where both err
 
     >>> import graphcam as gc
     >>> gc.Pencil(line=0.2, samples=3).perfect
@@ -39,6 +43,18 @@ class Pencil:
     protractor: float = 0.0
     samples: int | None = None
     seed: int = 0
+    only: frozenset[Kind] | None = None
+
+    @classmethod
+    def of(cls, sigma: float, samples: int | None = None, seed: int = 0) -> Self:
+        """A hand of one number [mm]: it errs by that in lines and settings, and by it at the edge of a protractor.
+
+        >>> import graphcam as gc
+        >>> hand = gc.Pencil.of(0.2)
+        >>> hand.line, hand.dividers, hand.protractor
+        (0.2, 0.2, 0.004)
+        """
+        return cls(sigma, sigma, protractor=sigma / PROTRACTOR, samples=samples, seed=seed)
 
     def __post_init__(self) -> None:
         for name in ("line", "dividers", "division", "protractor"):
@@ -53,7 +69,18 @@ class Pencil:
     @property
     def perfect(self) -> bool:
         """Whether this pencil adds no error at all."""
-        return not (self.line or self.dividers or self.division or self.protractor)
+        return not any(self.deviation(kind, what) for kind, slips in SLIPS.items() for what in slips)
+
+    def deviation(self, kind: Kind, what: str) -> float:
+        """Standard deviation of one thing that is off in an act [mm, or rad].
+
+        >>> import graphcam as gc
+        >>> from graphcam.drafting.acts import Kind
+        >>> gc.Pencil(line=0.2).deviation(Kind.CIRCLE, "across")
+        0.1
+        """
+        slip = SLIPS[kind][what]
+        return slip.times * getattr(self, slip.of) if self.only is None or kind in self.only else 0.0
 
     def sheets(self, paper: ArrayLike) -> NDArray[Any]:
         """The same lengths or points on every sample's sheet: shaped ([samples,] ...).

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import differentiation
-from graphcam.drafting.hand import SQUARE
+from graphcam.drafting.slips import SQUARE
 from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale

@@ -10,10 +10,11 @@ from numpy.testing import assert_allclose
 
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import SQUARE, Hand, between, reckoned
+from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.slips import SQUARE
 
 MEANING = Meaning("example", say("Example"), say("To try."), {"length": ReadingMeaning(say("length"), "l", "lift")})
 SAMPLES, LINE, DIVIDERS, ANGLE = 5_000, 0.2, 0.3, 0.01

@@ -74,13 +74,15 @@ def alike(exercise: Exercise, wrong: dict[str, tuple[Expected, ...]]) -> list[tu
 def passing(
     exercise: Exercise, keys: list[Expected], wrong: dict[str, tuple[Expected, ...]], bound: float
 ) -> list[tuple[str, str]]:
-    """The mistakes that pass as careful work, paired with that."""
+    """The mistakes that pass as careful work, or that no answer names, paired with that."""
     return [(name, CAREFUL) for name, values in wrong.items() if not _noticed(exercise, keys, values, bound)]
 
 
 def _noticed(exercise: Exercise, keys: Sequence[Expected], wrong: Sequence[Expected], bound: float) -> bool:
+    # What may be nought by its scatter names no mistake: whoever answers nought need not have made it.
     return any(
         bool(np.any(_gap(asked, key, value) > bound * key.scatter + BEYOND * value.scatter))
+        and (asked.kind != "number" or abs(complex(value.value)) > (bound + BEYOND) * float(value.scatter))
         for asked, key, value in zip(exercise.answers, keys, wrong, strict=True)
     )
 
