@@ -19,6 +19,9 @@ from graphcam.given.pieces import Floats, Side, sine_cosine
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
+MOST_UNEQUAL = 1e12
+"""Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
+
 # --- the pieces ------------------------------------------------------------------------------------------------------
 # Each takes x, the distance from its end of the phase, and returns f, f', f'', f''' (from the end: the missing lift).
 
@@ -129,9 +132,9 @@ def _less_sine(t: Floats, sine: Floats) -> Floats:
 # k = cot(A)/F it is where the line at the permitted pressure angle A touches the s - v diagram, and its height there.
 
 
-def _rectangular_tangent(k: float, *, ratio: float, middle: float) -> tuple[float, float]:
+def _rectangular_tangent(k: float, *, middle: float) -> tuple[float, float]:
     u = min(k, middle)
-    return u, 2 * (1 + ratio) * u * (1 - u / k / 2)
+    return u, 2 / middle * u * (1 - u / k / 2)
 
 
 def _cosine_tangent(k: float) -> tuple[float, float]:
@@ -219,11 +222,12 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     Parameters
     ----------
     name : one of :data:`LAWS`, or a :class:`~graphcam.given.motion_law.Law`
-    ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one
+    ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one.  It is kept
+        as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
     Raises
     ------
-    DesignError : the name is unknown, the ratio is not positive, or the law has no ratio
+    DesignError : the name is unknown, the ratio is not positive or out of range, or the law has no ratio
 
     >>> import graphcam as gc
     >>> gc.law("cycloidal").peak_velocity
@@ -238,8 +242,9 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     if not own and name not in LAWS:
         remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", LAWS)
         raise DesignError("law", name, "a motion law that graphcam knows", remedy)
-    if not (math.isfinite(ratio) and ratio > 0):
-        raise DesignError("ratio", ratio, "a finite number greater than 0", "leave it out for equal parts")
+    if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
+        limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"
+        raise DesignError("ratio", ratio, limit, "leave it out for equal parts")
     if name != "rectangular" and ratio != 1:
         called = name.name if own else name
         raise DesignError("ratio", ratio, f"1 for the {called} law", "only the rectangular law has unequal parts")
@@ -252,12 +257,12 @@ def _built(name: str, ratio: float) -> Law:
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
         return Law(name, formulas, edges, True, peaks=peaks, tangents=(tangent, tangent), trusted=True)
-    middle, back = 1 / (1 + ratio), 1 / ratio
-    first = partial(_constant, height=2 * (1 + ratio))
-    second = first if ratio == 1 else partial(_constant, height=2 * (1 + back))
-    tangents = (
-        partial(_rectangular_tangent, ratio=ratio, middle=middle),
-        partial(_rectangular_tangent, ratio=back, middle=1 - middle),
-    )
-    peaks = 2.0, 2 * (1 + max(ratio, back))
-    return Law(name, (first, second), (middle,), False, middle, ratio, peaks, tangents, trusted=True)
+    # The accelerations follow from the break as the machine has it: else the velocities, both 2 there, would miss each
+    # other by what the break is rounded by over the shorter part.
+    middle = 1 / (1 + ratio)
+    parts = middle, 1 - middle
+    first = partial(_constant, height=2 / middle)
+    second = first if middle == 0.5 else partial(_constant, height=2 / (1 - middle))
+    ahead, back = (partial(_rectangular_tangent, middle=part) for part in parts)
+    peaks = 2.0, 2 / min(parts)
+    return Law(name, (first, second), (middle,), False, middle, ratio, peaks, (ahead, back), trusted=True)
