@@ -232,9 +232,9 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     >>> import graphcam as gc
     >>> gc.law("cycloidal").peak_velocity
     2.0
-    >>> f, df, ddf, dddf = gc.law("rectangular", ratio=2.0)(1 / 3)
-    >>> round(float(f), 12), float(df), float(ddf)
-    (0.333333333333, 2.0, -3.0)
+    >>> f, df, ddf, dddf = gc.law("rectangular", ratio=3.0)(1 / 4)
+    >>> float(f), float(df), round(float(ddf), 12)
+    (0.25, 2.0, -2.666666666667)
     >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """

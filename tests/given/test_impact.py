@@ -39,7 +39,8 @@ def test_kind_of_impact_between_dwells(name):
 
 @pytest.mark.parametrize("ratio", [1e-12, 1e-9, 1e-6, 1e6, 1e12])
 def test_unequal_parts_of_a_rectangular_law_meet_without_a_rigid_impact(ratio):
-    motion = Motion([Dwell(2.0), Rise(30, 1.4, "rectangular", ratio), Return(30, FULL_TURN - 3.4, "rectangular", ratio)])
+    rise, back = Rise(30, 1.4, "rectangular", ratio), Return(30, FULL_TURN - 3.4, "rectangular", ratio)
+    motion = Motion([Dwell(2.0), rise, back])
     assert velocity_jumps(motion) == []
     assert len(acceleration_jumps(motion)) == 5
 
