@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
+from graphcam.given.motion import Dwell, Motion
 
 ROUNDING = 1e-9
 """A jump of less, as a fraction of lift over angle (squared for the acceleration), is rounding."""
@@ -53,9 +52,13 @@ def acceleration_jumps(motion: Motion) -> list[Jump]:
 
 
 def _jumps(motion: Motion, derivative: int) -> list[Jump]:
-    phi = motion.breaks
-    before: Floats = motion(phi, side="left")[derivative]
-    after: Floats = motion(phi, side="right")[derivative]
+    """Where that derivative jumps, seen from inside the phases: as a cam angle a break is rounded."""
+    inner = [() if isinstance(phase, Dwell) else phase.normalised.breaks for phase in motion.phases]
+    phase = np.repeat(np.arange(len(inner)), [1 + len(breaks) for breaks in inner])
+    u = np.concatenate([(0.0, *breaks) for breaks in inner])
+    starts = u == 0
+    before = motion.at(np.where(starts, phase - 1, phase) % len(inner), np.where(starts, 1.0, u), "left")[derivative]
+    after, phi = motion.at(phase, u)[derivative], motion.angle_at(phase, u)
     scale = max(phase.lift / phase.angle**derivative for phase in motion.phases)
     jumped = np.abs(after - before) > ROUNDING * scale
     columns = (column[jumped].tolist() for column in (phi, before, after))

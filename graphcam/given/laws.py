@@ -14,10 +14,13 @@ from functools import lru_cache, partial
 import numpy as np
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.motion_law import Law
-from graphcam.given.pieces import Floats, Side, sine_cosine
+from graphcam.given.motion_law import Fourth, Law
+from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
+
+MOST_UNEQUAL = 1e12
+"""Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
 
 # --- the pieces ------------------------------------------------------------------------------------------------------
 # Each takes x, the distance from its end of the phase, and returns f, f', f'', f''' (from the end: the missing lift).
@@ -129,14 +132,35 @@ def _of_series(t: Floats) -> Floats:
     return t * square * series
 
 
+# --- the fourth derivatives ------------------------------------------------------------------------------------------
+# Each takes x and returns f there, and a bound on |f'| over the piece.
+
+
+def _no_fourth(x: Floats) -> tuple[Floats, float]:
+    return np.zeros_like(x), 0.0
+
+
+def _fourth_of_sine(x: Floats, *, formula: Formula, height: float, k: float) -> tuple[Floats, float]:
+    """Of an acceleration height * sin(k x + c)."""
+    return -(k**2) * np.asarray(formula(x)[2]), height * k**3
+
+
+def _fourth_3_4_5(x: Floats) -> tuple[Floats, float]:
+    return 720 * x - 360, 720.0
+
+
+def _fourth_4_5_6_7(x: Floats) -> tuple[Floats, float]:
+    return 840 * (1 - 2 * x) * (1 - 10 * x * (1 - x)), 10080.0
+
+
 # --- the tangents ----------------------------------------------------------------------------------------------------
 # Each takes k and returns the place u where f' - f/k is greatest, the root of k f'' = f', and that value; with
 # k = cot(A)/F it is where the line at the permitted pressure angle A touches the s - v diagram, and its height there.
 
 
-def _rectangular_tangent(k: float, *, ratio: float, middle: float) -> tuple[float, float]:
+def _rectangular_tangent(k: float, *, middle: float) -> tuple[float, float]:
     u = min(k, middle)
-    return u, 2 * (1 + ratio) * u * (1 - u / k / 2)
+    return u, 2 / middle * u * (1 - u / k / 2)
 
 
 def _cosine_tangent(k: float) -> tuple[float, float]:
@@ -182,6 +206,10 @@ _PI = math.pi
 _MODIFIED_TRAPEZOIDAL = 8 * _PI / (2 + _PI)
 _MODIFIED_SINE = 4 * _PI / (4 + _PI)
 
+_SINES_OF_TRAPEZOID = {"height": _MODIFIED_TRAPEZOIDAL, "k": 4 * _PI}
+_SINES_UP = {"height": _PI * _MODIFIED_SINE, "k": 4 * _PI}
+_SINES_DOWN = {"height": _PI * _MODIFIED_SINE, "k": 4 * _PI / 3}
+
 _TRIANGULAR = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
 _CYCLOIDAL = partial(_sine_up, height=2 * _PI, k=2 * _PI)
 _TRAPEZOIDAL_PIECES = (
@@ -190,17 +218,36 @@ _TRAPEZOIDAL_PIECES = (
     partial(_linear_down, slope=128 / 3),
 )
 _MODIFIED_TRAPEZOIDAL_PIECES = (
-    partial(_sine_up, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI),
+    partial(_sine_up, **_SINES_OF_TRAPEZOID),
     partial(_sine_top, height=_MODIFIED_TRAPEZOIDAL),
-    partial(_sine_down, height=_MODIFIED_TRAPEZOIDAL, k=4 * _PI, peak=2.0),
+    partial(_sine_down, **_SINES_OF_TRAPEZOID, peak=2.0),
 )
-_MODIFIED_SINE_PIECES = (
-    partial(_sine_up, height=_PI * _MODIFIED_SINE, k=4 * _PI),
-    partial(_sine_down, height=_PI * _MODIFIED_SINE, k=4 * _PI / 3, peak=_MODIFIED_SINE),
-)
+_MODIFIED_SINE_PIECES = partial(_sine_up, **_SINES_UP), partial(_sine_down, **_SINES_DOWN, peak=_MODIFIED_SINE)
 _TANGENT_2_3 = partial(_polynomial_tangent, n=1, rest=(3, -4, 2))
 _TANGENT_3_4_5 = partial(_polynomial_tangent, n=2, rest=(10, -20, 18, -6))
 _TANGENT_4_5_6_7 = partial(_polynomial_tangent, n=3, rest=(35, -98, 126, -80, 20))
+
+
+def _sines(*pieces: tuple[Formula, dict[str, float]]) -> tuple[Fourth, ...]:
+    """The fourth derivatives of pieces whose accelerations are sines."""
+    return tuple(partial(_fourth_of_sine, formula=formula, **sizes) for formula, sizes in pieces)
+
+
+_FOURTHS = {
+    "triangular": (_no_fourth, _no_fourth),
+    "cosine": _sines((_cosine, {"height": _PI**2 / 2, "k": _PI})),
+    "cycloidal": _sines((_CYCLOIDAL, {"height": 2 * _PI, "k": 2 * _PI})),
+    "trapezoidal": (_no_fourth, _no_fourth, _no_fourth),
+    "modified-trapezoidal": (
+        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[0], _SINES_OF_TRAPEZOID)),
+        _no_fourth,
+        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[2], _SINES_OF_TRAPEZOID)),
+    ),
+    "modified-sine": _sines(*zip(_MODIFIED_SINE_PIECES, (_SINES_UP, _SINES_DOWN), strict=True)),
+    "2-3": (_no_fourth,),
+    "3-4-5": (_fourth_3_4_5,),
+    "4-5-6-7": (_fourth_4_5_6_7,),
+}
 
 # The formulas of the first half and where one takes over from another, the peaks, the tangent in closed form.
 _MIRRORED = {
@@ -224,18 +271,19 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     Parameters
     ----------
     name : one of :data:`LAWS`, or a :class:`~graphcam.given.motion_law.Law`
-    ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one
+    ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one.  It is kept
+        as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
     Raises
     ------
-    DesignError : the name is unknown, the ratio is not positive, or the law has no ratio
+    DesignError : the name is unknown, the ratio is not positive or out of range, or the law has no ratio
 
     >>> import graphcam as gc
     >>> gc.law("cycloidal").peak_velocity
     2.0
-    >>> f, df, ddf, dddf = gc.law("rectangular", ratio=2.0)(1 / 3)
-    >>> round(float(f), 12), float(df), float(ddf)
-    (0.333333333333, 2.0, -3.0)
+    >>> f, df, ddf, dddf = gc.law("rectangular", ratio=3.0)(1 / 4)
+    >>> float(f), float(df), round(float(ddf), 12)
+    (0.25, 2.0, -2.666666666667)
     >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """
@@ -243,8 +291,9 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     if not own and name not in LAWS:
         remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", LAWS)
         raise DesignError("law", name, "a motion law that graphcam knows", remedy)
-    if not (math.isfinite(ratio) and ratio > 0):
-        raise DesignError("ratio", ratio, "a finite number greater than 0", "leave it out for equal parts")
+    if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
+        limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"
+        raise DesignError("ratio", ratio, limit, "leave it out for equal parts")
     if name != "rectangular" and ratio != 1:
         called = name.name if own else name
         raise DesignError("ratio", ratio, f"1 for the {called} law", "only the rectangular law has unequal parts")
@@ -256,13 +305,15 @@ def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
-        return Law(name, formulas, edges, True, peaks=peaks, tangents=(tangent, tangent), trusted=True)
-    middle, back = 1 / (1 + ratio), 1 / ratio
-    first = partial(_constant, height=2 * (1 + ratio))
-    second = first if ratio == 1 else partial(_constant, height=2 * (1 + back))
-    tangents = (
-        partial(_rectangular_tangent, ratio=ratio, middle=middle),
-        partial(_rectangular_tangent, ratio=back, middle=1 - middle),
-    )
-    peaks = 2.0, 2 * (1 + max(ratio, back))
-    return Law(name, (first, second), (middle,), False, middle, ratio, peaks, tangents, trusted=True)
+        tangents = tangent, tangent
+        return Law(name, formulas, edges, True, 1.0, 1.0, peaks, tangents, _FOURTHS[name], trusted=True)
+    # The accelerations follow from the break as the machine has it: else the velocities, both 2 there, would miss each
+    # other by what the break is rounded by over the shorter part.
+    middle = 1 / (1 + ratio)
+    parts = middle, 1 - middle
+    first = partial(_constant, height=2 / middle)
+    second = first if middle == 0.5 else partial(_constant, height=2 / (1 - middle))
+    ahead, back = (partial(_rectangular_tangent, middle=part) for part in parts)
+    peaks = 2.0, 2 / min(parts)
+    fourths = _no_fourth, _no_fourth
+    return Law(name, (first, second), (middle,), False, middle, ratio, peaks, (ahead, back), fourths, trusted=True)

@@ -20,6 +20,8 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError
 from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks
 
+Fourth = Callable[[Floats], tuple[Floats, float]]
+"""f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
 Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is greatest, and how great, as a function of k: a closed form."""
 _OfNumber = Callable[[float], Sequence[Any]]
@@ -32,6 +34,8 @@ SMOOTH = 1e-7
 PARTS = 17
 """So many parts of a piece are looked at: a prime, so that no usual fraction, where a formula may bend, ends one."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
+DOUBTED = 2.0
+"""Where f'''' is estimated, it may be off by so many times what two neighbouring estimates differ by."""
 DERIVATIVES = "f", "f'", "f''", "f'''"
 
 
@@ -50,6 +54,8 @@ class Law:
     peaks : max f' and max |f''|; None has them found
     tangents : closed forms of the place u where f' - f/k is greatest, and of that value, for any k > 0; the second one
         is that of the law seen from its end.  None has the place found
+    fourths : for each formula a function that returns f'''' at an array, and a bound on |f'''''| over the piece; with
+        them it is proved where a quantity is greatest.  Left out, f'''' is estimated, and nothing is proved
     trusted : it is known to be a law, so it is not checked, which takes some milliseconds
 
     Raises
@@ -75,15 +81,16 @@ class Law:
     ratio: float = 1.0
     peaks: tuple[float, float] | None = field(default=None, repr=False)
     tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
+    fourths: Sequence[Fourth] = field(default=(), repr=False)
     trusted: InitVar[bool] = False
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
     """the pieces between 0, the edges and 1"""
 
     def __post_init__(self, mirrored: bool, trusted: bool) -> None:
         formulas = (self.formulas,) if callable(self.formulas) else tuple(self.formulas)
-        starts, middle = (0.0, *map(float, self.edges)), self.middle
+        starts, middle, fourths = (0.0, *map(float, self.edges)), self.middle, tuple(self.fourths)
         if mirrored:
-            formulas, middle = (*formulas, *formulas[::-1]), 0.5
+            formulas, fourths, middle = (*formulas, *formulas[::-1]), (*fourths, *fourths[::-1]), 0.5
             starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
         if not all(a < b for a, b in pairwise((*starts, 1.0))):
             raise self._wrong("edges", list(starts[1:]), "between 0 and 1, in order")
@@ -97,7 +104,13 @@ class Law:
             else Piece(formula, u, 1.0, -1.0, 1.0, (-1, 1, -1, 1))
             for formula, u in zip(formulas, starts, strict=True)
         )
-        made = {"formulas": formulas, "edges": starts[1:], "middle": middle, "pieces": tuple(pieces)}
+        made = {
+            "formulas": formulas,
+            "edges": starts[1:],
+            "middle": middle,
+            "pieces": tuple(pieces),
+            "fourths": fourths,
+        }
         for name, value in made.items():
             object.__setattr__(self, name, value)
         if not trusted:
@@ -139,6 +152,25 @@ class Law:
     @cached_property
     def _piecewise(self) -> Piecewise:
         return Piecewise(self.pieces)
+
+    def fourth(self, u: Floats, half: Floats) -> tuple[Floats, Floats]:
+        """f'''' in the middles u of intervals that no edge lies in, (n,), and how far it may be from that inside them.
+
+        half : (n,) half the intervals' widths
+
+        >>> import graphcam as gc
+        >>> [x.tolist() for x in gc.law("3-4-5").fourth(np.array([0.25]), np.array([0.125]))]
+        [[-180.0], [90.0]]
+        """
+        if not self.fourths:
+            first, there, last = self(u - half)[3], self(u)[3], self(u + half, side="left")[3]
+            return (last - first) / (2 * half), DOUBTED * np.abs(first - 2 * there + last) / half
+        number, values, off = np.searchsorted(self.edges, u, side="right"), np.empty_like(u), np.empty_like(u)
+        for k, (fourth, piece) in enumerate(zip(self.fourths, self.pieces, strict=True)):
+            here = number == k
+            value, bound = fourth(np.abs(u[here] - piece.origin))
+            values[here], off[here] = piece.length * value, bound * half[here]
+        return values, off
 
     @cached_property
     def peak_velocity(self) -> float:
@@ -186,7 +218,7 @@ class Law:
             return self
         ahead, back = self.tangents
         turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
-        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), trusted=True)
+        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), self.fourths[::-1], trusted=True)
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
@@ -253,6 +285,10 @@ class Law:
                 raise self._wrong("formula", f"one that returns {count} values", limit)
         if self.peaks is not None and len(self.peaks) != 2:
             raise self._wrong("peaks", self.peaks, "two numbers, max f' and max |f''|", "leave them out to be found")
+        if len(self.fourths) not in (0, len(self.pieces)):
+            raise self._wrong(
+                "number of fourths", len(self.fourths), f"{len(self.pieces)}, one for each formula, or none"
+            )
         if not self.ratio > 0:
             raise self._wrong("ratio", self.ratio, "greater than 0")
 

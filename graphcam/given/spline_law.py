@@ -60,8 +60,13 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
         partial(_polynomial, start=float(x), coefficients=tuple(piece.coef.tolist()))
         for x, piece in zip(begins, pieces, strict=True)
     ]
+    fourths = [
+        partial(_straight_fourth, start=float(x), value=float(piece.deriv(4)(0.0)), slope=float(piece.deriv(5)(0.0)))
+        for x, piece in zip(begins, pieces, strict=True)
+    ]
     velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), middle=float(u[half]), peaks=(velocity, acceleration))
+    inner, peaks = u[1:-1].tolist(), (velocity, acceleration)
+    return lift, Law(MEASURED, formulas, inner, middle=float(u[half]), peaks=peaks, fourths=fourths)
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
@@ -101,12 +106,24 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
     spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
     knots = np.unique(spline.t)
-    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist())
+    fifths = np.abs(spline((knots[:-1] + knots[1:]) / 2, nu=DEGREE)).tolist()
+    fourths = [partial(_fourth_of_spline, spline=spline, fifth=fifth) for fifth in fifths]
+    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist(), fourths=fourths)
 
 
 def _spline(u: Floats, *, spline: BSpline):
     """A spline and its first three derivatives."""
     return [spline(u, nu=order) for order in range(4)]
+
+
+def _fourth_of_spline(u: Floats, *, spline: BSpline, fifth: float) -> tuple[Floats, float]:
+    """A quintic spline's fourth derivative, and the magnitude of its fifth between two knots."""
+    return spline(u, nu=4), fifth
+
+
+def _straight_fourth(x: Floats, *, start: float, value: float, slope: float) -> tuple[Floats, float]:
+    """The same of a quintic polynomial of x - start, whose fourth derivative is a straight line."""
+    return value + slope * (x - start), abs(slope)
 
 
 def _polynomial(x: Floats, *, start: float, coefficients: tuple[float, ...]):

@@ -20,8 +20,9 @@ from graphcam.given.motion import Motion, wrap
 from graphcam.given.pieces import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
+from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.stationary import Places, stationary_places
+from graphcam.mechanism.stationary import Places
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import WIDTH, Shown, in_lines
 
@@ -181,8 +182,9 @@ class Cam(Shown):
 
     def extremes(self) -> Extremes:
         """Greatest pressure angles and least convex radii of curvature, found as roots of their derivatives."""
-        steep = stationary_places(self.motion, self.kinematics.pressure_slope)
-        sharp = stationary_places(self.motion, self.kinematics.curvature_slope)
+        search, kin = Search(self.motion), self.kinematics
+        steep = search.highest(kin.steepness, kin.pressure_slope, signed=True)
+        sharp = search.highest(kin.sharpness, kin.curvature_slope)
         direction = self.motion.directions
         return Extremes(
             self._steepest(steep.where(direction[steep.phase] > 0)),

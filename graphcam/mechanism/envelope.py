@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
@@ -167,7 +168,9 @@ class Envelope:
     @property
     def least_radius(self) -> float:
         """The least convex radius of the pitch curve [mm], or the prime radius where that is less."""
-        return min(float(self.kinematics.convex_radius(self._places.values).min()), self.prime_radius)
+        kin = self.kinematics
+        sharpest = Search(self.motion).highest(kin.sharpness, kin.curvature_slope)
+        return min(float(kin.convex_radius(sharpest.values).min()), self.prime_radius)
 
     # --- cusps -------------------------------------------------------------------------------------------------------
 

@@ -89,6 +89,11 @@ class Kinematics(ABC):
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
 
+    def steepness(self, values: Values) -> Floats:
+        """The tangent of the pressure angle."""
+        (along, across), _ = self.pressure(values)
+        return np.divide(across, along)
+
     def pressure_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
         return pair_cross(*self.pressure(values))
@@ -206,8 +211,8 @@ class RollerKinematics(Kinematics):
 
 def pair_cross(a: Pair, b: Pair) -> Floats:
     """The vector product of vectors in two parts, x and y."""
-    return np.asarray(a[0] * b[1] - a[1] * b[0])
+    return np.subtract(a[0] * b[1], a[1] * b[0])
 
 
 def _dot(a: Pair, b: Pair) -> Floats:
-    return np.asarray(a[0] * b[0] + a[1] * b[1])
+    return np.add(a[0] * b[0], a[1] * b[1])

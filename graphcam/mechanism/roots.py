@@ -26,15 +26,16 @@ def roots(function: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike)
     Parameters
     ----------
     function : values at places, both shaped like low and high; the k-th value depends on the k-th place alone
-    low, high : (n,), or numbers for one function; the signs at both are opposite, or one value is 0
+    low, high : (n,), or numbers for one function; where the signs at both are the same, that of the smaller value is
+        returned
 
     >>> roots(lambda x: x**2 - [2, 9], [0, 0], [4, 4]).round(12).tolist()
     [1.414213562373, 3.0]
     """
     last, other = np.asarray(high, dtype=np.float64), np.asarray(low, dtype=np.float64)
     at_last, at_other = function(last), function(other)
-    share, found = np.full(last.shape, 0.5), np.full(last.shape, np.nan)
-    going = np.ones(last.shape, dtype=bool)
+    share, found = np.full(last.shape, 0.5), np.where(np.abs(at_last) < np.abs(at_other), last, other)
+    going = np.sign(at_last) * np.sign(at_other) <= 0
     with np.errstate(all="ignore"):
         while True:
             nearer = np.abs(at_last) < np.abs(at_other)

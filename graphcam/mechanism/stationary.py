@@ -57,9 +57,15 @@ def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Plac
     phase, u0, u1 = smooth_pieces(motion)
     phase_r, u_r = _roots(motion, slope, phase, u0, u1)
     begin, end, inner = motion.at(phase, u0, "right"), motion.at(phase, u1, "left"), motion.at(phase_r, u_r)
-    s, v, a, j = (np.concatenate(parts) for parts in zip(begin, end, inner, strict=True))
-    all_phases, all_u = np.concatenate([phase, phase, phase_r]), np.concatenate([u0, u1, u_r])
-    return Places(all_phases, all_u, motion.angle_at(all_phases, all_u), (s, v, a, j))
+    return at_places(motion, (phase, u0, begin), (phase, u1, end), (phase_r, u_r, inner))
+
+
+def at_places(motion: Motion, *parts: tuple[NDArray[np.intp], Floats, Values]) -> Places:
+    """Several runs of places as one, each with its phases, fractions and values."""
+    phases, fractions, values = zip(*parts, strict=True)
+    s, v, a, j = (np.concatenate(part) for part in zip(*values, strict=True))
+    phase, u = np.concatenate(phases), np.concatenate(fractions)
+    return Places(phase, u, motion.angle_at(phase, u), (s, v, a, j))
 
 
 def smooth_pieces(motion: Motion) -> tuple[NDArray[np.intp], Floats, Floats]:

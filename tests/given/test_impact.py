@@ -37,6 +37,14 @@ def test_kind_of_impact_between_dwells(name):
         assert at_ends == [pytest.approx(pair, abs=1e-9) for pair in expected]
 
 
+@pytest.mark.parametrize("ratio", [1e-12, 1e-9, 1e-6, 1e6, 1e12])
+def test_unequal_parts_of_a_rectangular_law_meet_without_a_rigid_impact(ratio):
+    rise, back = Rise(30, 1.4, "rectangular", ratio), Return(30, FULL_TURN - 3.4, "rectangular", ratio)
+    motion = Motion([Dwell(2.0), rise, back])
+    assert velocity_jumps(motion) == []
+    assert len(acceleration_jumps(motion)) == 5
+
+
 def test_harmonic_rise_and_return_without_dwells_have_no_impact():
     """The eccentric: equal phases of the cosine law make one harmonic over the whole turn."""
     assert acceleration_jumps(Motion([Rise(30, pi, "cosine"), Return(30, pi, "cosine")])) == []

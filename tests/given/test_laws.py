@@ -45,6 +45,27 @@ def test_rectangular_law_with_unequal_parts(ratio):
     assert ddf[0] / -ddf[1] == pytest.approx(ratio, rel=4 * EPS)
 
 
+RATIOS = [10.0**k for k in range(-12, 13)] + (10 ** np.random.default_rng(12).uniform(-12, 12, 500)).tolist()
+
+
+def test_the_parts_of_the_rectangular_law_meet_in_lift_and_velocity_at_every_ratio():
+    """At the break, and a place of the machine to either side, it is the law whose parts meet there, to 1e-14."""
+    for ratio in RATIOS:
+        unequal = law("rectangular", ratio)
+        (at,) = unequal.breaks
+        middle = mpf(at)
+        for u, side in ((np.nextafter(at, 0), "right"), (at, "left"), (at, "right"), (np.nextafter(at, 1), "right")):
+            f, df, ddf, _ = (mpf(float(x)) for x in unequal(u, side=side))
+            x = mpf(float(u))
+            first = x < middle or (x == middle and side == "left")
+            lift_there = x**2 / middle if first else 1 - (1 - x) ** 2 / (1 - middle)
+            velocity = 2 * x / middle if first else 2 * (1 - x) / (1 - middle)
+            assert max(abs(f - lift_there), abs(df - velocity)) <= 1e-14, ratio
+            assert abs(ddf * (middle if first else middle - 1) / 2 - 1) <= 1e-15, ratio
+        # The break is where the ratio asks for it, as nearly as there is a number of the machine.
+        assert abs(middle - 1 / (1 + mpf(ratio))) <= EPS
+
+
 @pytest.mark.parametrize("name", POLYNOMIAL)
 def test_polynomial_laws_keep_their_digits_to_the_very_end(name):
     """The lift and the missing lift, each of its own size: what 1 - f(u) would lose."""
@@ -155,6 +176,7 @@ def test_shapes_follow_u_and_derivatives_are_as_many_as_asked():
         ("rectangular", 0.0, "ratio is 0.0, but must be a finite number greater than 0"),
         ("rectangular", float("nan"), "ratio is nan"),
         ("rectangular", -1.0, "ratio is -1.0"),
+        ("rectangular", 1e-13, "ratio is 1e-13, but must be .* from 1e-12 to 1e\\+12; leave it out for equal parts"),
     ],
 )
 def test_wrong_laws_are_named(name, ratio, message):
