@@ -24,7 +24,8 @@ from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
 from graphcam.workers import WorkerPool, results
 
-MANIFEST = "manifest.json"
+MANIFEST = "_manifest.json"
+"""Readers of data sets pass over what begins with an underscore or a dot."""
 BLOCK = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
 """Designs that a worker has in memory at a time."""
 PART = 32 * BLOCK
