@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
 
 
 class GraphcamError(Exception):
@@ -59,6 +60,25 @@ class TaskError(GraphcamError):
 def _sentence(what: str, value: object, allowed: str, remedy: str) -> str:
     shown = repr(value) if isinstance(value, str) else f"{value}"
     return f"{what} is {shown}, but must be {allowed}" + (f"; {remedy}" if remedy else "")
+
+
+@contextmanager
+def installed(option: str, library: str, extra: str) -> Generator[None]:
+    """An import of what an option needs and an extra brings.
+
+    Raises
+    ------
+    TaskError : it is not there
+
+    >>> with installed("--cluster", "dask", "cluster"):  # doctest: +ELLIPSIS
+    ...     import no_such_module
+    Traceback (most recent call last):
+    graphcam.errors.TaskError: --cluster: dask is 'not installed', but must be installed; pip install ...
+    """
+    try:
+        yield
+    except ImportError:
+        raise TaskError(option, library, "not installed", "installed", f"pip install 'graphcam[{extra}]'") from None
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

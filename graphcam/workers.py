@@ -17,6 +17,8 @@ from functools import partial
 from itertools import chain, islice
 from typing import Any, TypeVar
 
+from graphcam.errors import installed
+
 J = TypeVar("J")
 R = TypeVar("R")
 
@@ -26,6 +28,8 @@ BATCHES_AHEAD = 3
 """Batches a worker that are on their way: none waits, and not all jobs are in memory."""
 JOBS_AHEAD = 32
 """Jobs that wait for an executor at a time where they come in order: they bound the memory."""
+ANSWERED_WITHIN = 5.0
+"""Seconds in which a scheduler must answer."""
 LAST_MOMENTS = 2.0
 """Seconds that a worker has to clear away when the run has been killed."""
 _working = threading.Event()
@@ -61,12 +65,21 @@ def cluster(address: str) -> WorkerPool:
 
     Raises
     ------
-    OSError : there is no scheduler at the address
+    OSError : no scheduler answers at the address
+    TaskError : there is no dask
     """
-    from distributed import Client
-
-    client: Any = Client(address)
+    with installed("--cluster", "dask's distributed", "cluster"):
+        from distributed import Client
+    try:
+        client: Any = Client(address, timeout=ANSWERED_WITHIN)
+    except (OSError, ValueError) as error:
+        raise OSError(f"no dask scheduler answers at {address!r} ({error})") from None
     return WorkerPool(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
+
+
+def worker_pool(workers: int, address: str, *preloaded: str) -> WorkerPool:
+    """Processes on this machine, or the workers of the dask scheduler at an address that is not empty."""
+    return cluster(address) if address else processes(workers, *preloaded)
 
 
 def executor_of(workers: int) -> AbstractContextManager[Executor | None]:

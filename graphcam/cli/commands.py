@@ -1,6 +1,7 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
 import shlex
+from contextlib import closing
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
@@ -11,7 +12,7 @@ from typer import Argument, Option
 
 import graphcam
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_bar, progress_lines
-from graphcam.files import write_new
+from graphcam.files import OutputError, write_new
 
 
 def notebook(
@@ -74,26 +75,40 @@ def bench(
 
 def sweep(
     space: Annotated[Path, Argument(metavar="SPACE.toml", help="File with the values of every size.")],
-    out: Annotated[Path, Option(metavar="FILE", help="Results, a row a design: .csv or .parquet.")],
+    out: Annotated[str, Option(metavar="PLACE", help="Results, a row a design: a .csv or .parquet file, or a folder.")],
     workers: Annotated[int, Option(min=1, help="Processes that compute.")] = 1,
+    cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
 ) -> None:
     """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
+
+    Into a folder the workers write Parquet parts themselves, and a run that was stopped goes on when started again.
 
     [bold]Examples[/bold]
 
     graphcam sweep space.toml --out results.csv
 
-    graphcam sweep space.toml --out results.parquet --workers 8
+    graphcam sweep space.toml --out results --workers 8
+
+    graphcam sweep space.toml --out s3://bucket/results --cluster tcp://scheduler:8786
     """
+    from graphcam.sweeps import dataset
     from graphcam.sweeps.space import load_space
-    from graphcam.sweeps.sweep_file import sweep_to_file
-    from graphcam.workers import executor_of
+    from graphcam.sweeps.sweep_file import is_file, sweep_to_file
+    from graphcam.workers import executor_of, worker_pool
 
     with one_message(), progress_bar("designs") as step:
         designs = load_space(space)
-        with executor_of(workers) as executor:
-            sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
-    typer.echo(f"{out}: {len(designs)} designs")
+        if is_file(out):
+            if cluster:
+                raise OutputError(out, "a cluster writes a folder of parts", "leave out the ending")
+            with executor_of(workers) as executor:
+                sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
+            typer.echo(f"{out}: {len(designs)} designs")
+            return
+        with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
+            found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
+    print_table(("quantity", "least", "greatest"), found.rows())
+    typer.echo(f"{out}: {found}")
 
 
 def init(

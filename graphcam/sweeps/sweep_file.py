@@ -16,6 +16,15 @@ from graphcam.workers import in_order
 Write = Callable[[Columns], None]
 
 
+def is_file(place: str) -> bool:
+    """Whether results go into one file: the place has an ending, and is neither a folder nor an address.
+
+    >>> is_file("results.csv"), is_file("results"), is_file("s3://bucket/results.d")
+    (True, False, False)
+    """
+    return bool(Path(place).suffix) and "://" not in place and not Path(place).is_dir()
+
+
 def sweep_to_file(
     space: Space, path: Path | str, executor: Executor | None = None, progress: Callable[[int], None] | None = None
 ) -> None:
@@ -32,7 +41,7 @@ def sweep_to_file(
     """
     path = Path(path)
     if path.suffix not in _WRITERS:
-        raise OutputError(path, "the ending is neither .csv nor .parquet", "give it one of these")
+        raise OutputError(path, "the ending is neither .csv nor .parquet", "give it one of these, or name a folder")
     with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
@@ -64,7 +73,13 @@ def _cell(value: Any) -> Any:
 
 
 @contextmanager
-def _parquet(path: Path, draft: Path) -> Generator[Write]:
+def parquet_rows(path: Path | str, draft: Any) -> Generator[Write]:
+    """What writes rows into a Parquet file, ``draft``: a path, or a file that is open.
+
+    Raises
+    ------
+    OutputError : there is no pyarrow
+    """
     try:
         import pyarrow as arrow
         from pyarrow import parquet
@@ -87,4 +102,4 @@ def _parquet(path: Path, draft: Path) -> Generator[Write]:
             writer.close()
 
 
-_WRITERS = {".csv": _csv, ".parquet": _parquet}
+_WRITERS = {".csv": _csv, ".parquet": parquet_rows}

@@ -15,7 +15,7 @@ from typing import Any
 
 import graphcam
 from graphcam.drafting.ink import say
-from graphcam.errors import GraphcamError, TaskError
+from graphcam.errors import GraphcamError, TaskError, installed
 from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -26,7 +26,7 @@ from graphcam.exercises.reports.report_files import write_feedback, write_report
 from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import require
 from graphcam.files import OutputError
-from graphcam.workers import BATCH, WorkerPool, cluster, processes, results
+from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
@@ -143,11 +143,11 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     kept.check_secret(secret, course.secret_file)
     assignment = Assignment(exercise, secret, course.level, ResourceLimits(seconds=course.seconds))
     if course.gradebook:
-        with _installed("--gradebook", "nbgrader", "nbgrader"):
+        with installed("--gradebook", "nbgrader", "nbgrader"):
             check_gradebook(course.gradebook)
     store = Store.beside(course.out, assignment)
     with store.held():
-        with closing(_worker_pool(course)) as pool:
+        with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
             records = grade_folder(folder, assignment, pool, store, kept, step)
         answer_keys = _answer_keys(kept, records)
         names = write_reports(course.out, exercise, records, answer_keys)
@@ -180,22 +180,6 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
         made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
         raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")
     return exercise
-
-
-def _worker_pool(course: Course) -> WorkerPool:
-    if not course.cluster:
-        return processes(course.workers, grade.__module__)
-    with _installed("--cluster", "dask's distributed", "cluster"):
-        return cluster(course.cluster)
-
-
-@contextmanager
-def _installed(option: str, library: str, extra: str) -> Generator[None]:
-    try:
-        yield
-    except ImportError:
-        remedy = f"pip install 'graphcam[{extra}]'"
-        raise TaskError(option, library, "not installed", "installed", remedy) from None
 
 
 def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:

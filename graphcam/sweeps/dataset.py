@@ -1,0 +1,230 @@
+"""A sweep into a folder of Parquet parts: the workers write them, and a manifest says which of them are whole.
+
+A part is so many designs in a row, whatever worker computes it: what is read back is the same for any number of workers
+and after any interruption.  A run that is started again computes the parts that are missing.
+"""
+
+import json
+import math
+import socket
+import time
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from dataclasses import asdict, dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from graphcam import __version__
+from graphcam.files import OutputError
+from graphcam.sweeps.shared_folder import Sealed, SharedFolder
+from graphcam.sweeps.space import Space
+from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
+from graphcam.sweeps.sweep_file import parquet_rows
+from graphcam.workers import WorkerPool, results
+
+MANIFEST = "_manifest.json"
+"""Readers of data sets pass over what begins with an underscore or a dot."""
+BLOCK = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
+"""Designs that a worker has in memory at a time."""
+PART = 32 * BLOCK
+"""Designs of a part, seconds of work: what a dead worker loses."""
+MOST_PARTS = 10_000
+"""Of a large space: its parts are larger, and the manifest stays small."""
+SAVED_EVERY = 1.0
+"""Seconds between two states of the manifest; what a killed run has not recorded is computed again."""
+SHARE_OF_SAVING = 20
+"""Saving takes at most one part in so many of the time."""
+Record = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What is known of a sweep without its rows.
+
+    bytes : of all parts
+    seconds : that processors spent on them
+    feasible : designs within the limits, None where this was not asked
+    ranges : least and greatest finite value of every quantity, None where there is none
+    """
+
+    designs: int
+    parts: int
+    bytes: int
+    seconds: float
+    feasible: int | None
+    ranges: dict[str, tuple[float, float] | None]
+
+    def __str__(self) -> str:
+        kept = "" if self.feasible is None else f", {self.feasible} feasible"
+        spent = f"{self.parts} parts, {self.bytes} bytes, {self.seconds:.1f} s of processor time"
+        return f"{self.designs} designs{kept}; {spent}"
+
+    def rows(self) -> list[list[str]]:
+        """The ranges as texts."""
+        shown = {name: ("", "") if ends is None else map("{:.6g}".format, ends) for name, ends in self.ranges.items()}
+        return [[name, *ends] for name, ends in shown.items()]
+
+
+def sweep_to_folder(
+    space: Space, folder: str, pool: WorkerPool, progress: Callable[[int], None] | None = None
+) -> Summary:
+    """Compute every design of a space into Parquet parts, or those that an earlier run has left.
+
+    folder : on this machine, or an address that fsspec knows (s3://..., gs://...); all workers must reach it
+    progress : is told how many designs are done
+
+    Raises
+    ------
+    OutputError : the folder cannot be reached or holds something else, or workers failed; parts that are whole stay
+    """
+    place = SharedFolder.reached(folder)
+    manifest = _manifest(place, space)
+    parts: list[Record] = manifest["parts"]
+    done = sum(part["stop"] - part["first"] for part in parts if part["whole"])
+    missing = [k for k, part in enumerate(parts) if not part["whole"]]
+    jobs = ((k, parts[k]["file"], parts[k]["first"], parts[k]["stop"]) for k in missing)
+    save = partial(_save, place, manifest)
+    save()
+    due = 0.0
+    try:
+        with closing(results(pool, partial(write_part, space, place, __version__), jobs, batch=1)) as found:
+            for (k, _, first, stop), record in found:
+                if record is None:
+                    continue
+                if isinstance(record, str):
+                    raise OutputError(folder, record, "mend that and start again: what is whole stays")
+                parts[k] |= record | {"whole": True}
+                done += stop - first
+                if progress:
+                    progress(done)
+                if time.monotonic() >= due:
+                    due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
+    finally:
+        save()
+    if lost := sum(not part["whole"] for part in parts):
+        why = f"{lost} of {len(parts)} parts are missing: their workers died or have no graphcam"
+        raise OutputError(folder, why, "start again to go on")
+    place.clear_drafts()
+    summary = summed(parts)
+    manifest |= {"whole": True, "summary": asdict(summary)}
+    save()
+    return summary
+
+
+def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | str:
+    """On a worker: compute the designs of one part and write them; what the part holds, or what went wrong."""
+    _, file, first, stop = job
+    if version != __version__:
+        return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
+    start = time.thread_time()
+    held: dict[str, list[float]] = {}
+    feasible: int | None = None
+    try:
+        if MANIFEST not in place.sizes():
+            return f"the worker on {socket.gethostname()} does not see it; all workers must share it"
+        with place.whole(file) as opened:
+            sealed = Sealed(opened)
+            with parquet_rows(place.url, sealed) as write:
+                for k in range(first, stop, BLOCK):
+                    columns = space.results((k, min(k + BLOCK, stop)))
+                    write(columns)
+                    feasible = _tally(columns, space.varied, held, feasible)
+    except OutputError as error:
+        return f"{error.why}; {error.remedy}"
+    except (OSError, ImportError) as error:
+        return f"{socket.gethostname()}: {error}"
+    ranges = {name: None if least > greatest else [least, greatest] for name, (least, greatest) in held.items()}
+    seconds = time.thread_time() - start
+    return sealed.record() | {"seconds": seconds, "feasible": feasible, "ranges": ranges}
+
+
+def _tally(columns: Columns, varied: Sequence[str], held: dict[str, list[float]], feasible: int | None) -> int | None:
+    """Widen the ranges by a block, and count its feasible designs too."""
+    # The sizes that vary stand first.
+    for name in list(columns)[len(varied) :]:
+        column = columns[name]
+        if name == "feasible":
+            feasible = (feasible or 0) + int(np.count_nonzero(column))
+            continue
+        finite = column[np.isfinite(column)]
+        least, greatest = held.get(name, (math.inf, -math.inf))
+        held[name] = [float(finite.min(initial=least)), float(finite.max(initial=greatest))]
+    return feasible
+
+
+def summed(parts: Sequence[Record]) -> Summary:
+    """The summary of parts that are whole.
+
+    >>> part = {"first": 0, "stop": 8, "bytes": 900, "seconds": 0.5, "feasible": 3, "ranges": {"max_v": [1.0, 2.0]}}
+    >>> summed([part, part | {"first": 8, "stop": 16, "ranges": {"max_v": None}}]).ranges
+    {'max_v': (1.0, 2.0)}
+    """
+    ranges: dict[str, tuple[float, float] | None] = {}
+    for name in parts[0]["ranges"]:
+        found = [part["ranges"][name] for part in parts if part["ranges"][name] is not None]
+        ranges[name] = (min(least for least, _ in found), max(most for _, most in found)) if found else None
+    asked = parts[0]["feasible"] is not None
+    feasible = sum(part["feasible"] for part in parts) if asked else None
+    size, seconds = sum(part["bytes"] for part in parts), sum(part["seconds"] for part in parts)
+    return Summary(parts[-1]["stop"], len(parts), size, seconds, feasible, ranges)
+
+
+# --- the manifest ----------------------------------------------------------------------------------------------------
+
+
+def _manifest(place: SharedFolder, space: Space) -> Record:
+    """That of an earlier run of the same space, with the parts that are still as recorded; else a new one."""
+    sizes = place.sizes()
+    # As it is read back: lists in place of tuples.
+    wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))
+    if MANIFEST not in sizes:
+        if others := sorted(name for name in sizes if not name.startswith(".")):
+            raise OutputError(place.url, f"it holds something else, {others[0]}", "choose an empty folder")
+        return wanted | {"designs": len(space), "whole": False, "parts": parts_of(len(space))}
+    try:
+        found = json.loads(place.read(MANIFEST))
+    except ValueError:
+        raise OutputError(place.url, f"its {MANIFEST} is no JSON", "choose an empty folder") from None
+    if different := _difference(found, wanted):
+        raise OutputError(place.url, f"it is of another sweep: {different} differs", "choose an empty folder")
+    # As they stand in the folder, each as long as it was recorded.
+    parts = [
+        part
+        if part["whole"] and sizes.get(part["file"]) == part["bytes"]
+        else _not_yet(part["file"], part["first"], part["stop"])
+        for part in found["parts"]
+    ]
+    return found | {"whole": False, "parts": parts}
+
+
+def parts_of(n: int) -> list[Record]:
+    """The parts of n designs, none of them written: each but the last of whole blocks.
+
+    >>> [part["stop"] for part in parts_of(3_000_000)], parts_of(10**12)[-1]["file"]
+    ([1048576, 2097152, 3000000], 'part-09999.parquet')
+    """
+    size = BLOCK * math.ceil(max(PART, n / MOST_PARTS) / BLOCK)
+    starts = range(0, n, size)
+    return [_not_yet(f"part-{k:05d}.parquet", first, min(first + size, n)) for k, first in enumerate(starts)]
+
+
+def _not_yet(file: str, first: int, stop: int) -> Record:
+    return {"file": file, "first": first, "stop": stop, "whole": False}
+
+
+def _difference(found: Any, wanted: Any, name: str = "") -> str:
+    """The name of the first value that is not as wanted; empty where all are."""
+    if isinstance(found, dict) and isinstance(wanted, dict):
+        inner = (_difference(found.get(key), value, f"{name}.{key}".lstrip(".")) for key, value in wanted.items())
+        return next(filter(None, inner), "")
+    return "" if found == wanted else name or "form"
+
+
+def _save(place: SharedFolder, manifest: Record) -> float:
+    """Write the manifest; how long this took [s]."""
+    start = time.monotonic()
+    with place.whole(MANIFEST) as file:
+        file.write((json.dumps(manifest, indent=1, allow_nan=False) + "\n").encode())
+    return time.monotonic() - start
