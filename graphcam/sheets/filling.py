@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import chain, count, product
 
 from graphcam.drafting.scale import STANDARD_RATIOS
-from graphcam.sheets.box import Box
+from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
 from graphcam.sheets.packing import (
@@ -90,8 +91,9 @@ class Leaf:
 
     def take(self, box: Box) -> None:
         """Take a box and a margin about it."""
+        box = box.grown(BETWEEN)
         for room in (self.room, *self.parts):
-            room.take(box.grown(BETWEEN))
+            room.take(box)
 
     @property
     def empty(self) -> float:
@@ -145,22 +147,21 @@ def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequ
     spreads = _spreads(sheet, runs)
 
     @cache
-    def viewed(way: Way) -> list[Leaf]:
-        return _with_views(sheet, runs, way)
+    def viewed(way: Way, most: float) -> list[Leaf] | None:
+        return _with_views(sheet, runs, way, most)
 
-    def tries(within: int, pages: int = 0) -> Iterator[list[Leaf]]:
-        for blocks, gaps in product(ways_of_blocks, spreads):
-            way = Way(gaps, pages, within)
-            yield _with_blocks(sheet, viewed(way), blocks, way)
+    def tried(blocks: Sequence[Block], way: Way, most: float) -> list[Leaf] | None:
+        leaves = viewed(way, most)
+        return None if leaves is None else _with_blocks(sheet, leaves, blocks, way, most)
 
     best: list[Leaf] = []
-    for leaves in (leaves for within in WITHIN for leaves in tries(within)):
-        if not best or len(leaves) < len(best):
-            best = leaves
+    for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
+        best = tried(blocks, Way(gaps, 0, within), len(best) - 1 if best else math.inf) or best
         if len(best) == 1:
             return best
-    for leaves in tries(0, pages=len(best)):
-        if len(leaves) <= len(best) and _emptiest(leaves) < _emptiest(best) - 1e-9:
+    for blocks, gaps in product(ways_of_blocks, spreads):
+        leaves = tried(blocks, Way(gaps, len(best)), len(best))
+        if leaves and _emptiest(leaves) < _emptiest(best) - 1e-9:
             best = leaves
     return best
 
@@ -180,8 +181,8 @@ def _emptiest(leaves: Sequence[Leaf]) -> float:
     return max(leaf.empty for leaf in leaves)
 
 
-def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way) -> list[Leaf]:
-    """Put runs of views on as many pages as it takes."""
+def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way, most: float) -> list[Leaf] | None:
+    """Put runs of views on as many pages as it takes; None if these are more than ``most``."""
     leaves = [_blank(sheet) for _ in range(way.pages)]
     largest = max((run[0] for run in runs if len(run) == 1), key=_area, default=None)
     within = way.within
@@ -200,15 +201,21 @@ def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way) -> lis
             turn = allowed if sheet.name in ONE_PAGE else _in_turn(allowed, way)
             found = _find(sheet, turn, run.footprint, preference)
         _taken(leaves, found[0]).put_views(run, found[1])
+        if len(leaves) > most:
+            return None
     return leaves
 
 
-def _with_blocks(sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way) -> list[Leaf]:
-    """Put blocks on the same pages, and on further ones if it takes them."""
+def _with_blocks(
+    sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way, most: float
+) -> list[Leaf] | None:
+    """Put blocks on the same pages, and on further ones if it takes them; None if these are more than ``most``."""
     leaves = [leaf.copy() for leaf in viewed]
     for block in blocks:
         leaf, by = _place_block(sheet, _in_turn(leaves, way), block, way)
         _taken(leaves, leaf).put_block(block, by)
+        if len(leaves) > most:
+            return None
     return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
 
 
@@ -253,7 +260,13 @@ def _find(sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preferenc
 
 
 def _blank(sheet: Format) -> Leaf:
-    return Leaf(Room(sheet.content.grown(-BORDER), taken(sheet, BORDER)))
+    return Leaf(_blank_room(sheet).copy())
+
+
+@cache
+def _blank_room(sheet: Format) -> Room:
+    """The room of an empty sheet; it is looked into, and copied to be taken."""
+    return Room(sheet.content.grown(-BORDER), taken(sheet, BORDER))
 
 
 def _preferred(sheet: Format, run: Sequence[Panel], largest: Panel | None) -> Preference:
@@ -307,4 +320,8 @@ def _fits(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
     run = Run(views, stand(views, gap))
     # The margins of neighbours may overlap where room is scarce.
     boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(views, run.origins, strict=True)]
-    return apart(boxes) and _blank(sheet).room.find(run.footprint, top_left) is not None
+    if not apart(boxes):
+        return False
+    # Where there is room for a box about the views there is room for them.
+    room, footprint = _blank_room(sheet), run.footprint
+    return any(room.find(tried, top_left) is not None for tried in ([around_all(footprint)], footprint))
