@@ -16,7 +16,7 @@ from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn
 from graphcam.sheets.model import Entity, Strokes, Text
-from graphcam.sheets.sampling import corners, linework, sampled, within
+from graphcam.sheets.sampling import around, box_of, corners, linework, sampled, within
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES
 from graphcam.sheets.writing import Floats, Writing
 
@@ -197,8 +197,11 @@ def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
     if not isinstance(entity, Strokes):
         return entity
     starts, ends = entity.starts, entity.ends
-    for text in texts:
-        low, high = within(starts, ends, corners(text), AROUND_TEXT)
+    drawn = box_of([entity])
+    for box in map(corners, texts):
+        if drawn is None or not around(box).grown(AROUND_TEXT).meets(drawn):
+            continue
+        low, high = within(starts, ends, box, AROUND_TEXT)
         cut = low < high
         steps = ends - starts
         before, after = cut & (low > 0), cut & (high < 1)

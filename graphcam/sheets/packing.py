@@ -16,6 +16,8 @@ Preference = Callable[[Grid, Grid], Grid]
 """Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
 MESH = 2.0
 """Of the grid on which room is sought, mm."""
+AT_ONCE = 20_000
+"""So many pairs of a place and a box are looked at together."""
 EDGE = 1e-6
 """A box that ends on a line of the grid does not touch the cells beyond it."""
 
@@ -97,8 +99,10 @@ class Room:
         places = self._free(cells - np.tile(least, 2), rows, columns)
         if not places.size:
             return None
-        y, x = (cell.astype(np.float64) for cell in np.divmod(places, self.full.shape[1] + 1))
-        best = int(np.argmin(preference(x, y)))
+        wide = self.full.shape[1] + 1
+        y = places // wide
+        x = (places - y * wide).astype(np.float64)
+        best = int(np.argmin(preference(x, y.astype(np.float64))))
         return MESH * complex(x[best] - least[0], y[best] - least[1])
 
     def _free(self, cells: NDArray[np.int_], rows: int, columns: int) -> NDArray[np.intp]:
@@ -106,18 +110,21 @@ class Room:
         sums, wide = self._counts, self.full.shape[1] + 1
         # The largest box first: it leaves the fewest places to look at for the others.
         sizes = (cells[:, 2:] - cells[:, :2]).prod(axis=1)
-        (left, bottom, right, top), *others = cells[np.argsort(-sizes, kind="stable")].tolist()
+        cells = cells[np.argsort(-sizes, kind="stable")]
+        left, bottom, right, top = cells[0].tolist()
         # The cells between two rows and left of each column: as many at the left as at the right, if a box is free.
         between = sums[top : top + rows] - sums[bottom : bottom + rows]
         free = between[:, right : right + columns] == between[:, left : left + columns]
-        y, x = np.divmod(np.flatnonzero(free), columns)
-        places, counts = y * wide + x, sums.reshape(-1)
-        for box in others:
-            at_left, at_right = places + box[0], places + box[2]
-            below, above = box[1] * wide, box[3] * wide
-            inside = counts.take(at_right + above) - counts.take(at_left + above)
-            inside -= counts.take(at_right + below) - counts.take(at_left + below)
-            places = places[inside == 0]
+        places = np.flatnonzero(free)
+        # Of the grid, whose rows are longer than those of the places.
+        places += places // columns * (wide - columns)
+        counts, done = sums.reshape(-1), 1
+        while done < len(cells) and places.size:
+            lefts, bottoms, rights, tops = cells[done : done + max(1, AT_ONCE // places.size), :, None].swapaxes(0, 1)
+            below, above = bottoms * wide + places, tops * wide + places
+            inside = counts.take(above + rights) - counts.take(above + lefts)
+            free = inside == counts.take(below + rights) - counts.take(below + lefts)
+            places, done = places[free.all(axis=0)], done + len(lefts)
         return places
 
 
