@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import json
+from collections.abc import Generator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -67,7 +70,7 @@ def solve(
     """
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    with one_message():
+    with one_message(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
@@ -91,6 +94,16 @@ def solve(
         typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
     for sentence in solution.warnings:
         typer.echo(f"warning: {sentence}", err=True)
+
+
+@contextmanager
+def _collecting_later() -> Generator[None]:
+    """No search for garbage among all that was loaded and drawn, of which nearly nothing becomes garbage on the way."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def _read(path: Path | None, divisions: int | None, language: str | None, *, small: bool) -> Task | ArcsTask:

@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.complete_spline import closed_spline_through, spline_through
 from graphcam.mechanism.envelope import GAUSS_NODES, GAUSS_WEIGHTS, Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.undercut import kept_arcs, lost_parts
@@ -226,23 +227,21 @@ def _graded(steps: Floats, at: Floats, periodic: bool) -> Floats:
 
 
 def _through(envelope: Envelope, stretch: list[Span], cuts: list[Floats], *, periodic: bool) -> _Fit:
-    from scipy.interpolate import BSpline, CubicSpline, make_interp_spline
-
     begin, end = (np.concatenate([cut[part] for cut in cuts]) for part in (slice(None, -1), slice(1, None)))
     piece = np.repeat([piece for *_, piece in stretch], [cut.size - 1 for cut in cuts])
     at = np.concatenate([[0.0], np.cumsum(_length(envelope, begin, end, piece))])
     points = np.append(envelope.point(begin, piece), envelope.point(end[-1], piece[-1]))
     if periodic:
         points[-1] = points[0]
-        first = last = complex(CubicSpline(at, points, bc_type="periodic")(0.0, 1))
+        spline = closed_spline_through(at, points)
     else:
         first, last = envelope.tangent(begin[0], piece[0]), envelope.tangent(end[-1], piece[-1])
-    spline: BSpline = make_interp_spline(at, points, 3, bc_type=([(1, first)], [(1, last)]))
+        spline = spline_through(at, points, complex(first), complex(last))
     probes = begin[:, None] + (end - begin)[:, None] * PROBES
     pieces = np.repeat(piece[:, None], PROBES.size, axis=1)
-    near = spline(at[:-1, None] + _length(envelope, np.repeat(begin[:, None], PROBES.size, axis=1), probes, pieces))
+    near = spline.beyond(_length(envelope, np.repeat(begin[:, None], PROBES.size, axis=1), probes, pieces))
     off = (near - envelope.point(probes, pieces)) / envelope.tangent(probes, pieces)
-    return _Fit(cuts, spline.t, spline.c, np.abs(off.imag).max(axis=1))
+    return _Fit(cuts, spline.knots, spline.control, np.abs(off.imag).max(axis=1))
 
 
 def _length(envelope: Envelope, begin: Floats, end: Floats, piece: Indices) -> Floats:

@@ -54,7 +54,7 @@ class StepBoard:
     @cached_property
     def factor(self) -> float:
         """What all views are shown reduced by."""
-        sizes = [panel.content for panel in self._panels(1.0)]
+        sizes = [panel.content for panel in self._full_size]
         return min(1.0, *(min(WIDEST / size.width, HIGHEST / size.height) for size in sizes))
 
     @property
@@ -62,14 +62,16 @@ class StepBoard:
         """Where the origin of the first view lies on the page [mm]."""
         return -self._box.corner
 
-    def _panels(self, factor: float) -> list[Panel]:
+    @cached_property
+    def _full_size(self) -> list[Panel]:
         shown = panels((step for step in (*self.former, *self.steps) if step.marks), LETTERS)
-        return [replace(panel, factor=factor, noted=False) for panel in shown]
+        return [replace(panel, noted=False) for panel in shown]
 
     @cached_property
     def _placed(self) -> dict[str, tuple[Panel, complex]]:
         """The views by name, each with its origin, that of the first one at 0."""
-        return _arranged(self._panels(self.factor))
+        shown, factor = self._full_size, self.factor
+        return _arranged(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
 
     @cached_property
     def _titled(self) -> bool:
@@ -113,6 +115,8 @@ def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
 
 def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
     """Views by name with their origins, the first one's 0: those that share an axis as it asks, others in columns."""
+    if len(views) == 1:
+        return {views[0].view.name: (views[0], 0j)}
     # In the order of their first views.
     groups = [(group, stand(group, GAP)) for group in sorted(clusters(views), key=lambda group: views.index(group[0]))]
     boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import chain, count, product
 
 from graphcam.drafting.scale import STANDARD_RATIOS
-from graphcam.sheets.box import Box
+from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
 from graphcam.sheets.packing import (
@@ -45,7 +46,7 @@ class Run:
     views: Sequence[Panel]
     origins: Sequence[complex]
 
-    @property
+    @cached_property
     def footprint(self) -> list[Box]:
         """The boxes that together cover the views."""
         standing = zip(self.views, self.origins, strict=True)
@@ -53,17 +54,41 @@ class Run:
 
 
 @dataclass(eq=False)
+class EmptyPart:
+    """The empty parts of a diagram, which are found when something is to stand in them.
+
+    seen : how many of the boxes on the page it knows, at first those that were there before it
+    """
+
+    panel: Panel
+    origin: complex
+    seen: int
+    found: Room | None = None
+
+    def room(self, taken: Sequence[Box]) -> Room:
+        """What the boxes on the page leave of it."""
+        if self.found is None:
+            self.found = self.panel.empty(self.origin)
+        for box in taken[self.seen :]:
+            self.found.take(box)
+        self.seen = len(taken)
+        return self.found
+
+
+@dataclass(eq=False)
 class Leaf:
     """A page while it is being filled: its free room, and the empty parts of diagrams, where tables may stand."""
 
     room: Room
-    parts: list[Room] = field(default_factory=list[Room])
+    parts: list[EmptyPart] = field(default_factory=list[EmptyPart])
+    taken: list[Box] = field(default_factory=list[Box])
     views: dict[str, tuple[Panel, complex]] = field(default_factory=dict[str, tuple[Panel, complex]])
     blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
 
     def copy(self) -> Leaf:
         """The same page, to be filled in another way."""
-        return Leaf(self.room.copy(), [part.copy() for part in self.parts], dict(self.views), list(self.blocks))
+        parts = [replace(part, found=part.room(self.taken).copy()) for part in self.parts]
+        return Leaf(self.room.copy(), parts, list(self.taken), dict(self.views), list(self.blocks))
 
     def put_views(self, run: Run, by: complex) -> None:
         """Put views that stand together, moved ``by`` x + iy."""
@@ -72,7 +97,7 @@ class Leaf:
         for panel, origin in zip(run.views, run.origins, strict=True):
             self.views[panel.view.name] = panel, origin + by
             if len(run.views) > 1:
-                self.parts.append(panel.empty(origin + by))
+                self.parts.append(EmptyPart(panel, origin + by, len(self.taken)))
 
     def put_block(self, block: Block, by: complex) -> None:
         """Put a table or notes."""
@@ -85,13 +110,13 @@ class Leaf:
 
     def inside(self, boxes: Sequence[Box]) -> complex | None:
         """By how much to move boxes into an empty part of a diagram; None if there is none."""
-        found = (part.find(boxes, high) for part in self.parts)
+        found = (part.room(self.taken).find(boxes, high) for part in self.parts)
         return next((by for by in found if by is not None), None)
 
     def take(self, box: Box) -> None:
         """Take a box and a margin about it."""
-        for room in (self.room, *self.parts):
-            room.take(box.grown(BETWEEN))
+        self.taken.append(box.grown(BETWEEN))
+        self.room.take(self.taken[-1])
 
     @property
     def empty(self) -> float:
@@ -145,22 +170,25 @@ def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequ
     spreads = _spreads(sheet, runs)
 
     @cache
-    def viewed(way: Way) -> list[Leaf]:
-        return _with_views(sheet, runs, way)
+    def standing(k: int, gap: float) -> Run:
+        return Run(runs[k], stand(runs[k], gap))
 
-    def tries(within: int, pages: int = 0) -> Iterator[list[Leaf]]:
-        for blocks, gaps in product(ways_of_blocks, spreads):
-            way = Way(gaps, pages, within)
-            yield _with_blocks(sheet, viewed(way), blocks, way)
+    @cache
+    def viewed(way: Way, most: float) -> list[Leaf] | None:
+        return _with_views(sheet, [standing(k, gap) for k, gap in enumerate(way.gaps)], way, most)
+
+    def tried(blocks: Sequence[Block], way: Way, most: float) -> list[Leaf] | None:
+        leaves = viewed(way, most)
+        return None if leaves is None else _with_blocks(sheet, leaves, blocks, way, most)
 
     best: list[Leaf] = []
-    for leaves in (leaves for within in WITHIN for leaves in tries(within)):
-        if not best or len(leaves) < len(best):
-            best = leaves
+    for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
+        best = tried(blocks, Way(gaps, 0, within), len(best) - 1 if best else math.inf) or best
         if len(best) == 1:
             return best
-    for leaves in tries(0, pages=len(best)):
-        if len(leaves) <= len(best) and _emptiest(leaves) < _emptiest(best) - 1e-9:
+    for blocks, gaps in product(ways_of_blocks, spreads):
+        leaves = tried(blocks, Way(gaps, len(best)), len(best))
+        if leaves and _emptiest(leaves) < _emptiest(best) - 1e-9:
             best = leaves
     return best
 
@@ -180,13 +208,13 @@ def _emptiest(leaves: Sequence[Leaf]) -> float:
     return max(leaf.empty for leaf in leaves)
 
 
-def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way) -> list[Leaf]:
-    """Put runs of views on as many pages as it takes."""
+def _with_views(sheet: Format, runs: Sequence[Run], way: Way, most: float) -> list[Leaf] | None:
+    """Put runs of views on as many pages as it takes; None if these are more than ``most``."""
     leaves = [_blank(sheet) for _ in range(way.pages)]
-    largest = max((run[0] for run in runs if len(run) == 1), key=_area, default=None)
+    largest = max((run.views[0] for run in runs if len(run.views) == 1), key=_area, default=None)
     within = way.within
-    for views, gap in zip(runs, way.gaps, strict=True):
-        run = Run(views, stand(views, gap))
+    for run in runs:
+        views = run.views
         # Views that share an axis stand on it or on different pages; what was parted on a large page finds room there.
         allowed = [leaf for leaf in leaves if sheet.name in ONE_PAGE or not leaf.shares(views)]
         found = _inside(allowed, run.footprint) if within and len(views) == 1 and views[0] is not largest else None
@@ -198,17 +226,23 @@ def _with_views(sheet: Format, runs: Sequence[Sequence[Panel]], way: Way) -> lis
             preference = middle if lone else _preferred(sheet, views, largest)
             # The first sheet of a large format is the cam's; only tables go to where there is more room.
             turn = allowed if sheet.name in ONE_PAGE else _in_turn(allowed, way)
-            found = _find(sheet, turn, run.footprint, preference)
+            found = _find(sheet, turn, run.footprint, preference, more=len(leaves) < most)
+        if found is None:
+            return None
         _taken(leaves, found[0]).put_views(run, found[1])
     return leaves
 
 
-def _with_blocks(sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way) -> list[Leaf]:
-    """Put blocks on the same pages, and on further ones if it takes them."""
+def _with_blocks(
+    sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way, most: float
+) -> list[Leaf] | None:
+    """Put blocks on the same pages, and on further ones if it takes them; None if these are more than ``most``."""
     leaves = [leaf.copy() for leaf in viewed]
     for block in blocks:
-        leaf, by = _place_block(sheet, _in_turn(leaves, way), block, way)
-        _taken(leaves, leaf).put_block(block, by)
+        found = _place_block(sheet, _in_turn(leaves, way), block, way, more=len(leaves) < most)
+        if found is None:
+            return None
+        _taken(leaves, found[0]).put_block(block, found[1])
     return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
 
 
@@ -224,14 +258,16 @@ def _in_turn(leaves: Sequence[Leaf], way: Way) -> list[Leaf]:
     return sorted(leaves, key=lambda leaf: -leaf.empty) if way.pages else list(leaves)
 
 
-def _place_block(sheet: Format, leaves: Sequence[Leaf], block: Block, way: Way) -> tuple[Leaf, complex]:
+def _place_block(
+    sheet: Format, leaves: Sequence[Leaf], block: Block, way: Way, *, more: bool
+) -> tuple[Leaf, complex] | None:
     # Where pages are filled evenly, the emptiest is taken before an empty part of another.
     for some in ([leaf] for leaf in leaves) if way.pages else (leaves,):
         if found := _inside(some, [block.box]):
             return found
         if way.pages and (by := some[0].room.find([block.box], bottom_right)) is not None:
             return some[0], by
-    return _find(sheet, leaves, [block.box], bottom_right)
+    return _find(sheet, leaves, [block.box], bottom_right, more=more)
 
 
 def _inside(leaves: Sequence[Leaf], boxes: Sequence[Box]) -> tuple[Leaf, complex] | None:
@@ -240,11 +276,18 @@ def _inside(leaves: Sequence[Leaf], boxes: Sequence[Box]) -> tuple[Leaf, complex
     return next(((leaf, by) for leaf, by in found if by is not None), None)
 
 
-def _find(sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preference: Preference) -> tuple[Leaf, complex]:
-    """The first page that has room for boxes which stand together, or a new one, and by how much to move them."""
+def _find(
+    sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preference: Preference, *, more: bool
+) -> tuple[Leaf, complex] | None:
+    """The first page that has room for boxes which stand together, and by how much to move them.
+
+    more : whether a new page may be begun; None where it may not and there is no room
+    """
     for leaf in leaves:
         if (by := leaf.room.find(boxes, preference)) is not None:
             return leaf, by
+    if not more:
+        return None
     blank = _blank(sheet)
     by = blank.room.find(boxes, preference)
     # What is larger than a page has been reduced before.
@@ -253,7 +296,13 @@ def _find(sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preferenc
 
 
 def _blank(sheet: Format) -> Leaf:
-    return Leaf(Room(sheet.content.grown(-BORDER), taken(sheet, BORDER)))
+    return Leaf(_blank_room(sheet).copy())
+
+
+@cache
+def _blank_room(sheet: Format) -> Room:
+    """The room of an empty sheet; it is looked into, and copied to be taken."""
+    return Room(sheet.content.grown(-BORDER), taken(sheet, BORDER))
 
 
 def _preferred(sheet: Format, run: Sequence[Panel], largest: Panel | None) -> Preference:
@@ -307,4 +356,8 @@ def _fits(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
     run = Run(views, stand(views, gap))
     # The margins of neighbours may overlap where room is scarce.
     boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(views, run.origins, strict=True)]
-    return apart(boxes) and _blank(sheet).room.find(run.footprint, top_left) is not None
+    if not apart(boxes):
+        return False
+    # Where there is room for a box about the views there is room for them.
+    room, footprint = _blank_room(sheet), run.footprint
+    return any(room.find(tried, top_left) is not None for tried in ([around_all(footprint)], footprint))

@@ -6,6 +6,8 @@ cells, and what the place itself costs, is least.
 
 import math
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +16,7 @@ from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn
 from graphcam.sheets.model import Entity, Strokes, Text
-from graphcam.sheets.sampling import corners, pieces, sampled, within
+from graphcam.sheets.sampling import around, box_of, corners, linework, sampled, within
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES
 from graphcam.sheets.writing import Floats, Writing
 
@@ -26,6 +28,10 @@ FORBIDDEN, ON_MEDIUM, ON_THIN, ON_HATCH = 200.0, 6.0, 1.5, 0.4
 """Cost of a cell with another text or a bold line in it, or with a lighter line."""
 AROUND_TEXT = 0.8
 """Free margin in the hatching around a text, mm."""
+TOGETHER = 1, 24
+"""So many places of a text are looked at before the further ones."""
+LEADER_SHARES = np.linspace(0.1, 0.95, 24)
+"""Where along a leader it is looked at what it crosses."""
 
 
 class Occupancy:
@@ -44,28 +50,44 @@ class Occupancy:
         self.cells: NDArray[np.float32] = np.full(shape, FORBIDDEN, dtype=np.float32)
         self.cells[1:-1, 1:-1] = 0.0
 
-    def _where(self, points: Points) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        offset = (points - self.corner) / CELL
-        row = np.clip(np.floor(offset.imag).astype(np.intp) + 1, 0, self.cells.shape[0] - 1)
-        column = np.clip(np.floor(offset.real).astype(np.intp) + 1, 0, self.cells.shape[1] - 1)
-        return row, column
+    def _where(self, x: Floats, y: Floats) -> NDArray[np.intp]:
+        """The numbers of the cells, row after row, that places lie in; those outside lie in the ring."""
+        (rows, columns), corner = self.cells.shape, self.corner
+        return _within(y - corner.imag, rows) * columns + _within(x - corner.real, columns)
 
     def take(self, points: Points, cost: float) -> None:
         """Occupy the cells of the points, unless they cost more already."""
-        where = self._where(points)
-        self.cells[where] = np.maximum(self.cells[where], cost)
+        cells, where = self.cells.reshape(-1), self._where(points.real, points.imag)
+        cells[where] = np.maximum(cells[where], cost)
 
     def cost(self, points: Points) -> Floats:
         """What letters in the cells of points (..., n) cost together, (...)."""
-        return self.cells[self._where(points)].sum(axis=-1, dtype=np.float64)
+        return self._cost(self._where(points.real, points.imag))
 
-    def take_entity(self, entity: Entity) -> None:
-        """Occupy the cells of a line, circle, arc or text."""
-        if isinstance(entity, Text):
-            a, b, _, d = corners(entity).tolist()
-            self.take(_grid(a, b - a, d - a), FORBIDDEN)
-        else:
-            self.take(sampled(*pieces(entity), 0.7 * CELL), _line_cost(entity.role))
+    def cost_level(self, x: Floats, y: Floats) -> Floats:
+        """What letters in all cells of columns at x (k, n) and rows at y (k, m) cost together, (k,)."""
+        where = self._where(x[:, None, :], y[:, :, None])
+        return self._cost(where.reshape(len(where), -1))
+
+    def _cost(self, where: NDArray[np.intp]) -> Floats:
+        return self.cells.reshape(-1).take(where).sum(axis=-1, dtype=np.float64)
+
+    def take_entities(self, entities: Iterable[Entity]) -> None:
+        """Occupy the cells of lines, circles, arcs and texts."""
+        lines: dict[float, list[Entity]] = {}
+        for entity in entities:
+            if isinstance(entity, Text):
+                a, b, _, d = corners(entity).tolist()
+                self.take(_grid(a, b - a, d - a), FORBIDDEN)
+            else:
+                lines.setdefault(_line_cost(entity.role), []).append(entity)
+        for cost, alike in lines.items():
+            self.take(sampled(*linework(alike), 0.7 * CELL), cost)
+
+
+def _within(along: Floats, count: int) -> NDArray[np.intp]:
+    """In which of ``count`` cells of a row places lie, the first and the last of them beyond the ends."""
+    return np.minimum(np.maximum(np.floor(along / CELL), -1), count - 2).astype(np.intp) + 1
 
 
 def _line_cost(role: str) -> float:
@@ -77,9 +99,13 @@ def _line_cost(role: str) -> float:
 
 def _grid(corner: complex, along: complex, up: complex) -> Points:
     """Points in every cell of a parallelogram (n,)."""
-    across = np.linspace(0.0, 1.0, math.ceil(abs(along) / CELL) + 1)
-    upwards = np.linspace(0.0, 1.0, math.ceil(abs(up) / CELL) + 1)
-    return (corner + across * along + upwards[:, None] * up).ravel()
+    return (corner + _shares(abs(along)) * along + _shares(abs(up))[:, None] * up).ravel()
+
+
+@lru_cache(maxsize=1024)
+def _shares(length: float) -> Floats:
+    """Where along a length points stand in every cell, from 0 to 1."""
+    return np.linspace(0.0, 1.0, math.ceil(length / CELL) + 1)
 
 
 def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[list[Entity]]:
@@ -88,43 +114,45 @@ def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> 
     Texts of dimensions choose first: they belong to their lines.
     """
     paper = Occupancy(inside)
-    for entity in drawn:
-        paper.take_entity(entity)
+    paper.take_entities(drawn)
     placed: dict[int, list[Entity]] = {}
     for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
         placed[k] = _set(writings[k], _choose(writings[k], paper))
-        for entity in placed[k]:
-            paper.take_entity(entity)
+        paper.take_entities(placed[k])
     return [placed[k] for k in range(len(writings))]
 
 
 def _choose(writing: Writing, paper: Occupancy) -> int:
-    """The cheapest place.  The near ones are tried first: most texts need no other."""
-    size = writing.size + 2 * AIR * (1 + 1j)
-    around = _grid(-size / 2, complex(size.real), 1j * size.imag)
+    """The cheapest place.  The best is tried first, then the near ones: most texts need no other."""
     best, least = 0, math.inf
-    for start in range(0, len(writing.centres), 24):
-        part = slice(start, start + 24)
-        if writing.cost[part].min() >= least:
-            continue
-        turned = around * np.exp(1j * writing.angles[part])[:, None]
-        cost = writing.cost[part] + paper.cost(writing.centres[part, None] + turned)
-        cost += _leader_cost(writing, part, paper)
-        k = int(np.argmin(cost))
-        if cost[k] < least:
-            best, least = start + k, float(cost[k])
+    for start, end in pairwise((0, *TOGETHER, len(writing.centres))):
+        part = start + np.flatnonzero(writing.cost[start:end] < least)
+        if part.size:
+            cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
+            k = int(np.argmin(cost))
+            if cost[k] < least:
+                best, least = int(part[k]), float(cost[k])
     return best
 
 
-def _leader_cost(writing: Writing, part: slice, paper: Occupancy) -> Floats:
+def _letters_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) -> Floats:
+    size, centres, angles = writing.size + 2 * AIR * (1 + 1j), writing.centres[part], writing.angles[part]
+    if angles.any():
+        turned = _grid(-size / 2, complex(size.real), 1j * size.imag) * np.exp(1j * angles)[:, None]
+        return paper.cost(centres[:, None] + turned)
+    # The points of a level text stand in rows and columns, so each coordinate is looked up once.
+    across, up = (_shares(side) * side - side / 2 for side in (size.real, size.imag))
+    return paper.cost_level(centres.real[:, None] + across, centres.imag[:, None] + up)
+
+
+def _leader_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) -> Floats:
     anchors, centres = writing.anchors[part], writing.centres[part]
     led = np.isfinite(anchors)
     cost = np.zeros(len(centres))
     if led.any():
         ends = _leader_end(writing, centres[led], anchors[led])
-        share = np.linspace(0.1, 0.95, 24)
         # A leader may cross lines, at a small cost, but no text.
-        cost[led] = 0.1 * paper.cost(anchors[led][:, None] + share * (ends - anchors[led])[:, None])
+        cost[led] = 0.1 * paper.cost(anchors[led][:, None] + LEADER_SHARES * (ends - anchors[led])[:, None])
     return cost
 
 
@@ -169,8 +197,11 @@ def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
     if not isinstance(entity, Strokes):
         return entity
     starts, ends = entity.starts, entity.ends
-    for text in texts:
-        low, high = within(starts, ends, corners(text), AROUND_TEXT)
+    drawn = box_of([entity])
+    for box in map(corners, texts):
+        if drawn is None or not around(box).grown(AROUND_TEXT).meets(drawn):
+            continue
+        low, high = within(starts, ends, box, AROUND_TEXT)
         cut = low < high
         steps = ends - starts
         before, after = cut & (low > 0), cut & (high < 1)

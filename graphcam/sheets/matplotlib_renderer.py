@@ -19,6 +19,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import GraphicsContextBase, RendererBase
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
@@ -29,6 +30,7 @@ from matplotlib.transforms import Affine2D, Transform
 from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import FAMILY, points_size, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.png import png_of
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
 
@@ -71,9 +73,15 @@ def svg(page: Page) -> str:
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
     """One page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
     with mpl.rc_context(_SETTINGS):
-        # Lines on white: a harder compression takes longer and saves nothing.
-        quick, about = {"compress_level": 1}, {"Software": "graphcam"}
-        _figure(page).savefig(path, format="png", dpi=dpi, metadata=about, pil_kwargs=quick)
+        figure = _figure(page)
+        figure.dpi = dpi
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+    png = png_of(np.asarray(canvas.buffer_rgba()), dpi)
+    if isinstance(path, str | os.PathLike):
+        File(path).write_bytes(png)
+    else:
+        path.write(png)
 
 
 def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -> None:

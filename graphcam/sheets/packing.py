@@ -16,6 +16,8 @@ Preference = Callable[[Grid, Grid], Grid]
 """Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
 MESH = 2.0
 """Of the grid on which room is sought, mm."""
+AT_ONCE = 20_000
+"""So many pairs of a place and a box are looked at together."""
 EDGE = 1e-6
 """A box that ends on a line of the grid does not touch the cells beyond it."""
 
@@ -34,6 +36,7 @@ class Room:
     def __init__(self, inside: Box, taken: Iterable[Box] = ()) -> None:
         self.corner = inside.corner
         self.full = np.zeros((math.floor(inside.height / MESH), math.floor(inside.width / MESH)), dtype=bool)
+        self._sums: NDArray[np.int32] | None = None
         for box in taken:
             self.take(box)
 
@@ -52,7 +55,10 @@ class Room:
     def take(self, box: Box) -> None:
         """Occupy a box."""
         left, bottom, right, top = (max(0, cell) for cell in self._cells(box))
-        self.full[bottom:top, left:right] = True
+        part = self.full[bottom:top, left:right]
+        if not part.all():
+            part[:] = True
+            self._sums = None
 
     def take_points(self, points: Points, margin: float) -> None:
         """Occupy the cells of points, and all cells in the squares that reach ``margin`` mm beyond them."""
@@ -67,28 +73,59 @@ class Room:
             taken[:, 1:] |= taken[:, :-1].copy()
             taken[:, :-1] |= taken[:, 1:].copy()
         self.full |= taken
+        self._sums = None
+
+    @property
+    def _counts(self) -> NDArray[np.int32]:
+        """How many cells are full to the left of and below each point of the grid: four of these tell if a box is free.
+
+        They are counted when they are asked for, and again when something has been taken.
+        """
+        if self._sums is None:
+            rows, columns = self.full.shape
+            sums = np.zeros((rows + 1, columns + 1), dtype=np.int32)
+            np.cumsum(np.cumsum(self.full, axis=0, dtype=np.int32), axis=1, out=sums[1:, 1:])
+            self._sums = sums
+        return self._sums
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
         """By how much to move the boxes, as one rigid body, so that all lie in free room; None if there is no room."""
-        # How many cells are full to the left of and below each grid point: four of these tell if a box is free.
-        sums = np.pad(self.full.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32), ((1, 0), (1, 0)))
         cells = np.array([self._cells(box) for box in boxes])
         least, most = cells[:, :2].min(axis=0), cells[:, 2:].max(axis=0)
         # Moves, in cells, that keep everything inside.
-        columns, rows = sums.shape[1] - (most - least)[0], sums.shape[0] - (most - least)[1]
+        columns, rows = (self.full.shape[::-1] - (most - least) + 1).tolist()
         if columns <= 0 or rows <= 0:
             return None
-        free = np.ones((rows, columns), dtype=bool)
-        for left, bottom, right, top in (cells - np.tile(least, 2)).tolist():
-            below, above = sums[bottom : bottom + rows], sums[top : top + rows]
-            # The cells between the two rows and left of each column: as many at the left as at the right, if free.
-            between = above - below
-            free &= between[:, right : right + columns] == between[:, left : left + columns]
-        if not free.any():
+        places = self._free(cells - np.tile(least, 2), rows, columns)
+        if not places.size:
             return None
-        y, x = (cell.astype(np.float64) for cell in np.nonzero(free))
-        best = int(np.argmin(preference(x, y)))
+        wide = self.full.shape[1] + 1
+        y = places // wide
+        x = (places - y * wide).astype(np.float64)
+        best = int(np.argmin(preference(x, y.astype(np.float64))))
         return MESH * complex(x[best] - least[0], y[best] - least[1])
+
+    def _free(self, cells: NDArray[np.int_], rows: int, columns: int) -> NDArray[np.intp]:
+        """The points of the grid, numbered row after row, to which boxes of cells can be moved; all in order."""
+        sums, wide = self._counts, self.full.shape[1] + 1
+        # The largest box first: it leaves the fewest places to look at for the others.
+        sizes = (cells[:, 2:] - cells[:, :2]).prod(axis=1)
+        cells = cells[np.argsort(-sizes, kind="stable")]
+        left, bottom, right, top = cells[0].tolist()
+        # The cells between two rows and left of each column: as many at the left as at the right, if a box is free.
+        between = sums[top : top + rows] - sums[bottom : bottom + rows]
+        free = between[:, right : right + columns] == between[:, left : left + columns]
+        places = np.flatnonzero(free)
+        # Of the grid, whose rows are longer than those of the places.
+        places += places // columns * (wide - columns)
+        counts, done = sums.reshape(-1), 1
+        while done < len(cells) and places.size:
+            lefts, bottoms, rights, tops = cells[done : done + max(1, AT_ONCE // places.size), :, None].swapaxes(0, 1)
+            below, above = bottoms * wide + places, tops * wide + places
+            inside = counts.take(above + rights) - counts.take(above + lefts)
+            free = inside == counts.take(below + rights) - counts.take(below + lefts)
+            places, done = places[free.all(axis=0)], done + len(lefts)
+        return places
 
 
 def least(across: float, up: float) -> Preference:

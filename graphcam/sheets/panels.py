@@ -14,7 +14,7 @@ from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.model import Entity, Text
 from graphcam.sheets.packing import Room
-from graphcam.sheets.sampling import around, box_of, pieces, sampled
+from graphcam.sheets.sampling import around, box_of_lines, linework, sampled
 from graphcam.words import Tell, say
 
 AIR = 3.0
@@ -49,14 +49,18 @@ class Panel:
         return [*entities, *(writing.set_at(0) for writing in writings)]
 
     @cached_property
+    def _lines(self) -> tuple[Points, Points]:
+        return linework(self._drawn)
+
+    @cached_property
     def points(self) -> Points:
         """Points 1 mm apart on all that is drawn."""
-        return np.concatenate([np.empty(0, dtype=np.complex128), *(sampled(*pieces(e), 1.0) for e in self._drawn)])
+        return sampled(*self._lines, 1.0)
 
     @cached_property
     def content(self) -> Box:
         """The box of the drawing, with room for its labels."""
-        return (box_of(self._drawn) or Box(0, 0, 1, 1)).grown(AIR)
+        return (box_of_lines(*self._lines) or Box(0, 0, 1, 1)).grown(AIR)
 
     @cached_property
     def heading(self) -> list[Text]:

@@ -8,6 +8,7 @@ import base64
 import cmath
 import json
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
@@ -66,6 +67,8 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("Without JavaScript the finished sheet is shown."),
 }
 """What the page itself says."""
+IDLE = re.compile(r"\.00|(?<=\.\d)0")
+"""The idle digits of a number with two decimals."""
 MARGIN = 8.0
 """Around what a step shows when it is looked at closely [mm]."""
 
@@ -109,22 +112,21 @@ def _text(text: Text, height: float) -> str:
 def _path(entity: Entity, height: float) -> str:
     match entity:
         case Strokes(starts=starts, ends=ends):
-            pairs = zip(_xy(starts, height), _xy(ends, height), strict=True)
-            return "".join(f"M{start}L{end}" for start, end in pairs)
+            return _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
         case Stroke(points=points, closed=closed):
-            return "M" + "L".join(_xy(points, height)) + "Z" * closed
+            return _numbers("M" + "L".join(["%.2f %.2f"] * len(points)) + "Z" * closed, points, height)
         case Curve(points=points):
-            start, *control = _xy(bezier(points), height)
-            return f"M{start}C{' '.join(control)}Z"
+            control = bezier(points)
+            return _numbers("M%.2f %.2fC" + " ".join(["%.2f %.2f"] * (len(control) - 1)) + "Z", control, height)
         case Circles(centres=centres, radius=radius):
             # Two half turns: an arc of a whole turn is none in SVG.
             r, d = _number(radius), _number(2 * radius)
-            starts = _xy(centres - radius, height)
-            return "".join(f"M{start}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z" for start in starts)
+            turns = f"a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z"
+            return _numbers(f"M%.2f %.2f{turns}" * len(centres), centres - radius, height)
         case ArcEntity():
             return _arc(entity, height)
         case Heads(corners=corners):
-            return "".join("M" + "L".join(_xy(triangle, height)) + "Z" for triangle in corners)
+            return _numbers("M%.2f %.2fL%.2f %.2fL%.2f %.2fZ" * len(corners), corners, height)
         case Text():
             raise AssertionError("a text has no path")
 
@@ -133,17 +135,25 @@ def _arc(arc: ArcEntity, height: float) -> str:
     # In two halves, so that the angle that each turns is never in doubt.
     turns = arc.start, (arc.start + arc.end) / 2, arc.end
     points = np.array([arc.centre + cmath.rect(arc.radius, turn) for turn in turns])
-    (start, middle, end), r = _xy(points, height), _number(arc.radius)
-    return f"M{start}A{r} {r} 0 0 0 {middle}A{r} {r} 0 0 0 {end}"
+    r = _number(arc.radius)
+    return _numbers(f"M%.2f %.2fA{r} {r} 0 0 0 %.2f %.2fA{r} {r} 0 0 0 %.2f %.2f", points, height)
 
 
-def _xy(points: Points, height: float) -> list[str]:
-    return [f"{_number(point.real)} {_number(height - point.imag)}" for point in points.tolist()]
+def _numbers(template: str, points: Points, height: float) -> str:
+    """A template with the coordinates of points: lengths to 0.01 mm, y down, without idle digits."""
+    flat = np.ravel(points)
+    written = template % tuple(np.column_stack([flat.real, height - flat.imag]).ravel().tolist())
+    return _without_idle(written)
 
 
 def _number(mm: float) -> str:
     """A length to 0.01 mm, without idle digits."""
-    return f"{mm:.2f}".rstrip("0").rstrip(".") if round(mm, 2) else "0"
+    return _without_idle(f"{mm:.2f}")
+
+
+def _without_idle(numbers: str) -> str:
+    """Numbers of two decimals without the digits and signs that say nothing."""
+    return IDLE.sub("", numbers.replace("-0.00", "0.00"))
 
 
 @dataclass(frozen=True)

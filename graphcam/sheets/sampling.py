@@ -3,6 +3,7 @@
 import cmath
 import math
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,21 @@ def pieces(entity: Entity) -> tuple[Points, Points]:
             return box, np.roll(box, -1)
 
 
+def linework(entities: Iterable[Entity]) -> tuple[Points, Points]:
+    """Starts and ends (n,) of the straight pieces of all entities.
+
+    >>> side = Strokes(np.array([0j]), np.array([4 + 0j]), "curve")
+    >>> starts, ends = linework([side, side])
+    >>> (ends - starts).tolist()
+    [(4+0j), (4+0j)]
+    """
+    nothing: Points = np.empty(0, dtype=np.complex128)
+    starts, ends = zip((nothing, nothing), *map(pieces, entities), strict=True)
+    return np.concatenate(starts), np.concatenate(ends)
+
+
+# Most circles are the dots of plotted points, all of one radius.
+@lru_cache(maxsize=256)
 def _bow(radius: float, start: float, end: float) -> Points:
     chord = 2 * math.acos(max(0.0, 1 - FLATNESS / radius)) if radius > FLATNESS else math.pi / 2
     return (radius + 0j) * np.exp(1j * np.linspace(start, end, max(2, math.ceil((end - start) / chord) + 1)))
@@ -92,11 +108,14 @@ def within(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Fl
 
 def box_of(entities: Iterable[Entity]) -> Box | None:
     """The box around entities; None if there is nothing to see."""
-    points = np.concatenate([np.empty(0, dtype=np.complex128), *(np.concatenate(pieces(e)) for e in entities)])
+    return box_of_lines(*linework(entities))
+
+
+def box_of_lines(starts: Points, ends: Points) -> Box | None:
+    """The box around straight pieces; None if there is nothing to see."""
+    points = np.concatenate([starts, ends])
     points = points[np.isfinite(points)]
-    if not len(points):
-        return None
-    return around(points)
+    return around(points) if len(points) else None
 
 
 def around(points: Points) -> Box:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,20 +87,42 @@ def _size(text: str, height: float) -> complex:
 
 def around(anchor: complex, text: str, height: float, towards: complex) -> Writing:
     """Level places around a point, first near it in the direction ``towards``."""
-    half, favourite = _size(text, height) / 2, unit(towards)
+    half, near = _size(text, height) / 2, _compass(unit(towards))
+    side = near.side.real * half.real + 1j * (near.side.imag * half.imag)
+    centres, anchors = anchor + near.ways + side, np.where(near.far, anchor, complex("nan"))
+    return Writing(text, height, centres, np.zeros(len(centres)), near.cost, anchors)
+
+
+@dataclass(frozen=True, eq=False)
+class _Compass:
+    """Where a text may stand about a point, the best first; each (k,).
+
+    ways : from the point to the text's box
+    side : where the box is touched, from its middle to its side in halves of its width and height
+    far : whether a leader is needed
+    """
+
+    ways: Points
+    side: Points
+    far: NDArray[np.bool_]
+    cost: Floats
+
+
+# Labels of one construction look into few directions.
+@lru_cache(maxsize=256)
+def _compass(favourite: complex) -> _Compass:
     # The preferred direction itself comes first, then the compass.
     directions: Points = np.concatenate([[favourite], DIRECTIONS])
-    # The box touches the point with a corner or with the middle of a side, and everything between.
-    side = np.clip(1.6 * directions.real, -1, 1) * half.real + 1j * np.clip(1.6 * directions.imag, -1, 1) * half.imag
-    centres = (anchor + GAPS[:, None] * directions + side).ravel()
     turned = 1.5 + 4.0 * (1.0 - (directions * favourite.conjugate()).real)
     turned[0] = 0.0
     far = GAPS >= LEADER
     distance = 0.9 * (GAPS - GAPS[0]) + 4.0 * far
     cost = (distance[:, None] + turned).ravel()
-    anchors = np.where(np.repeat(far, len(directions)), anchor, complex("nan"))
     order = np.argsort(cost, kind="stable")
-    return Writing(text, height, centres[order], np.zeros(len(order)), cost[order], anchors[order])
+    # The box touches the point with a corner or with the middle of a side, and everything between.
+    side = np.clip(1.6 * directions.real, -1, 1) + 1j * np.clip(1.6 * directions.imag, -1, 1)
+    ways, sides = (GAPS[:, None] * directions).ravel(), np.tile(side, len(GAPS))
+    return _Compass(ways[order], sides[order], np.repeat(far, len(directions))[order], cost[order])
 
 
 def outside(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> Writing:

@@ -52,7 +52,7 @@ def test_a_cell_is_half_a_millimetre_wide_and_keeps_its_highest_cost():
 )  # fmt: skip
 def test_a_line_costs_by_its_width_in_every_cell_that_it_crosses(role, worth):
     paper = Occupancy(FRAME)
-    paper.take_entity(Strokes(np.array([12.1 + 22.1j]), np.array([50.1 + 40.1j]), role))
+    paper.take_entities([Strokes(np.array([12.1 + 22.1j]), np.array([50.1 + 40.1j]), role)])
     along = 12.1 + 22.1j + np.linspace(0, 1, 2000) * (38 + 18j)
     assert np.mean(np.isclose(cost(paper, *along), worth)) > 0.9
     beside = along + (18 - 38j) / 42 * 1.2
@@ -63,7 +63,7 @@ def test_a_line_costs_by_its_width_in_every_cell_that_it_crosses(role, worth):
 def test_a_text_forbids_the_cells_of_its_box(angle, part):
     """All of them where it lies level, else so many that no letter has room between."""
     paper, text, turn = Occupancy(FRAME), Text(20 + 30j, "graphcam", 5.0, angle=angle), np.exp(1j * angle)
-    paper.take_entity(text)
+    paper.take_entities([text])
     a, b, _, d = corners(text)
     shares = np.random.default_rng(2).random((2, 500))
     assert np.mean(cost(paper, *(a + shares[0] * (b - a) + shares[1] * (d - a)))) >= part * FORBIDDEN
@@ -73,11 +73,11 @@ def test_a_text_forbids_the_cells_of_its_box(angle, part):
 
 def test_round_and_filled_entities_take_their_lines():
     paper = Occupancy(FRAME)
-    paper.take_entity(Circles(np.array([35 + 35j]), 8.0, Role.RESULT))
+    paper.take_entities([Circles(np.array([35 + 35j]), 8.0, Role.RESULT)])
     ring = 35 + 35j + 8 * np.exp(1j * np.linspace(0, 6, 300))
     assert np.mean(np.array(cost(paper, *ring)) == FORBIDDEN) > 0.9
     assert cost(paper, 35 + 35j) == [0.0]
-    paper.take_entity(Heads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT))
+    paper.take_entities([Heads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT)])
     assert cost(paper, 17.2 + 25.1j) == [FORBIDDEN]
 
 
