@@ -19,14 +19,14 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple, get_args
+from typing import NamedTuple
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
-from graphcam.mechanism.arm_lines import Side, higher
-from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, nearest
+from graphcam.mechanism.arm_lines import SAME_PLACE, Side, higher
+from graphcam.mechanism.half_planes import LINES, HalfPlane, Kept, Line, nearest
 from graphcam.mechanism.legs import sampled_legs
 
 ROUNDING = 1e-15
@@ -37,7 +37,6 @@ SQUARED = 1e-6
 """A step of so small a part of the place leaves an error of its square, which changes a greatest value by no bit."""
 PATIENCE = 12
 """Steps after which the search begins anew."""
-LINES: tuple[Line, ...] = get_args(Line)
 
 
 @dataclass(frozen=True)
@@ -168,27 +167,31 @@ def _least(
             return point, kept, 0.0
         next_point, next_kept = meet((*region.fixed, *kept, *beyond))
         for _ in range(PATIENCE):
-            next_kept, far = _touching(next_kept, next_point)
-            next_point, next_kept = meet(next_kept)
-            if not far:
+            moved, step = _touching(next_kept, next_point)
+            if step > SAME_PLACE:
+                next_point, next_kept = meet(moved)
+            if step <= SQUARED:
                 break
         if abs(next_point) <= abs(point):  # it grows until nothing but rounding is left
             return point, kept, beyond[-1].excess(point)
         point, kept = next_point, next_kept
 
 
-def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[tuple[HalfPlane, ...], bool]:
-    """The same lines where they touch nearer to the point, and whether they were still far from there."""
+def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[list[HalfPlane], float]:
+    """The same lines where they touch nearer to the point, and the longest step there, as a part of its place."""
     moved: list[HalfPlane] = []
-    far = False
+    longest = 0.0
     for line in lines:
         if line.touch:
             side, leg, w, low, high, *_ = line.touch
             place = higher(line, point, low, high)
-            far = far or abs(place - w) > SQUARED * place
-            line = side.line(leg, place, low, high)
+            step = abs(place - w)
+            if step > longest * place:
+                longest = step / place
+            if step > SAME_PLACE * place:
+                line = side.line(leg, place, low, high)
         moved.append(line)
-    return tuple(moved), far
+    return moved, longest
 
 
 @dataclass(frozen=True)

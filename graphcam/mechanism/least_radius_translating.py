@@ -11,9 +11,9 @@ so the cam centre lies in a region bounded by up to three lines, and r0 is its d
 Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
 """
 
-import cmath
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,9 +21,10 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-from graphcam.given.motion import Motion, Return, Rise
+from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.half_planes import HalfPlane, Line, nearest
+from graphcam.mechanism.half_planes import LINES, Line
+from graphcam.mechanism.legs import legs
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
@@ -54,46 +55,59 @@ def translating_minimum_radius(
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
     (22.5647, 11.2824, ('rise', 'rest'))
     """
-    lines = _region(motion, limits)
+    slope = math.tan(limits.rise)
+    height = _steepest_line(motion, +1, slope)
+    lines = [_Line("rest", slope, 0.0)] if limits.rest else []
+    if limits.return_ is not None:
+        back = math.tan(limits.return_)
+        lines.insert(0, _Line("return", back, _steepest_line(motion, -1, back)))
     if offset is None:
-        point, binding = nearest(lines)
-        return MinimumRadius(abs(point), sigma * point.real, tuple([line.name for line in binding if line.name]))
+        across, s0, active = _nearest(slope, height, lines)
+        return MinimumRadius(math.hypot(across, s0), sigma * across, active)
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
     place = sigma * offset
-    heights = [(height - normal.real * place) / normal.imag for _, normal, height, _ in lines]
-    s0 = max(0.0, *heights)
-    lowest = zip(heights, lines, strict=True)
-    active: list[Line] = [line.name for height, line in lowest if height == s0 > 0 and line.name]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
+    s0 = {"rise": (height - place) / slope} | {name: (height + place) / slope for name, slope, height in lines}
+    highest = max(0.0, *s0.values())
+    active = tuple(name for name in LINES if highest == s0.get(name) > 0)
+    return MinimumRadius(math.hypot(offset, highest), offset, active)
 
 
-def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
-    """The lines for the point e' + i s0, each multiplied by the cosine of its angle."""
-    normal = cmath.rect(1.0, limits.rise)
-    lines = [HalfPlane("rise", normal, normal.real * _steepest_line(motion, Rise, math.tan(limits.rise)))]
-    if limits.return_ is not None:
-        back = cmath.rect(1.0, limits.return_)
-        height = back.real * _steepest_line(motion, Return, math.tan(limits.return_))
-        lines.append(HalfPlane("return", -back.conjugate(), height))
-    if limits.rest:
-        lines.append(HalfPlane("rest", -normal.conjugate(), 0.0))
-    return lines
+class _Line(NamedTuple):
+    """s0 slope - e' >= height: of the returns, or of the rest."""
+
+    name: Line
+    slope: float
+    height: float
+
+
+def _nearest(slope: float, height: float, lines: list[_Line]) -> tuple[float, float, tuple[Line, ...]]:
+    """The point (e', s0) nearest to the start of the lift, with s0 slope + e' >= height and the other lines kept."""
+    for line in lines:
+        # Where the perpendicular meets a line of the returns the rises may be kept too.
+        foot = line.height / (1 + line.slope * line.slope)
+        if foot * (slope * line.slope - 1) >= height:
+            return -foot, foot * line.slope, (line.name,)
+    # Else the point lies on the rises' line: at the foot, or farther up, as far as the others need.
+    across = height / (1 + slope * slope)
+    s0, active = across * slope, ("rise",)
+    for line in lines:
+        crossing = (height + line.height) / (slope + line.slope)
+        if crossing > s0:
+            across, s0 = (height * line.slope - line.height * slope) / (slope + line.slope), crossing
+            active = "rise", line.name
+    return across, s0, active
 
 
 # --- the tangent to the s - v diagram --------------------------------------------------------------------------------
 
 
-def _steepest_line(motion: Motion, kind: type[Rise | Return], slope: float) -> float:
+def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
     """M or M': the greatest |v| - s * slope over all rises or all returns [mm/rad]."""
-    heights: list[float] = []
-    for k, phase in enumerate(motion.phases):
-        if isinstance(phase, kind):
-            # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
-            law, low = (phase.normalised, k) if kind is Rise else (phase.normalised.reversed, k + 1)
-            _, height = steepest_tangent(law, 1 / (slope * phase.angle))
-            heights.append(phase.lift / phase.angle * height - slope * float(motion.levels[low]))
-    return max(heights)
+    return max([
+        leg.lift / leg.angle * steepest_tangent(leg.law, 1 / (slope * leg.angle))[1] - slope * leg.low
+        for leg in legs(motion, direction)
+    ])  # fmt: skip
 
 
 def steepest_tangent(law: Law, k: float) -> tuple[float, float]:

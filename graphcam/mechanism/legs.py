@@ -21,14 +21,14 @@ CLOSEST = np.logspace(-12, -4, 25)
 
 
 class Leg(NamedTuple):
-    """A rise, or a return as if time ran backwards: s = low + lift f(w), |v| = rate f'(w).
+    """A rise, or a return as if time ran backwards: s = low + lift f(w), |v| = lift/angle f'(w).
 
-    law : as seen from the lower end;  rate : lift over angle;  low : s of the lower end
+    law : as seen from the lower end;  angle : rad;  low : s of the lower end
     """
 
     law: Law
     lift: float
-    rate: float
+    angle: float
     low: float
 
 
@@ -50,8 +50,9 @@ class Legs(NamedTuple):
         return self.legs[bisect_right(self.first, k) - 1]
 
 
+@lru_cache(maxsize=64)
 def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
-    """The rises (direction +1) or the returns (-1) of a motion.
+    """The rises (direction +1) or the returns (-1) of a motion.  They are kept, for it is sized again and again.
 
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
@@ -62,13 +63,13 @@ def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
     for k, phase in enumerate(motion.phases):
         if phase.direction == direction and not isinstance(phase, Dwell):
             law, low = (phase.normalised, k) if direction > 0 else (phase.normalised.reversed, k + 1)
-            found.append(Leg(law, phase.lift, phase.lift / phase.angle, motion.levels.item(low)))
+            found.append(Leg(law, phase.lift, phase.angle, motion.levels.item(low)))
     return tuple(found)
 
 
 @lru_cache(maxsize=64)
 def sampled_legs(motion: Motion, direction: int) -> Legs:
-    """The same with their places.  They are kept: a motion is sized again and again, for other limits and lengths.
+    """The same with their places.
 
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
@@ -79,7 +80,7 @@ def sampled_legs(motion: Motion, direction: int) -> Legs:
     places = [_places(leg.law) for leg in found]
     first = np.cumsum([0, *(part.shape[1] for part in places)]).tolist()
     w, s, v = np.hstack([
-        (part[0], leg.low + leg.lift * part[1], leg.rate * part[2]) for leg, part in zip(found, places, strict=True)
+        (part[0], leg.low + leg.lift * part[1], leg.lift / leg.angle * part[2]) for leg, part in zip(found, places, strict=True)
     ])  # fmt: skip
     return Legs(found, tuple(first), w, s, v)
 
