@@ -125,5 +125,5 @@ def higher(line: HalfPlane, point: complex, low: float, high: float) -> float:
         return w
     if second < 0:
         step = w - first / second
-        return low if step < low else high if step > high else step
+        return min(max(step, low), high)
     return (w + (high if first > 0 else low)) / 2

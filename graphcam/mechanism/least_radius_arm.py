@@ -111,7 +111,7 @@ class _Region(NamedTuple):
     fixed: list[HalfPlane]
 
     def beyond(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
-        """The lines that the point lies beyond by more than rounding leaves: of each side the worst, the farthest last."""
+        """Of each side the worst of the lines that the point lies beyond by more than rounding; the farthest last."""
         rounding, lines = ROUNDING * (self.arm + abs(point)), self.fixed
         excesses = [(side, side.excess(point)) for side in self.sides]
         for side, excess in excesses:
@@ -131,7 +131,8 @@ def _beyond(lines: Sequence[HalfPlane], point: complex, rounding: float) -> list
 def _region(motion: Motion, arm: float, sigma: int, limits: Limits) -> _Region:
     sides: list[Side] = []
     fixed: list[HalfPlane] = []
-    for name, direction, limit in (("rise", +1, limits.rise), ("return", -1, limits.return_)):
+    limited: tuple[tuple[Line, int, float | None], ...] = ("rise", +1, limits.rise), ("return", -1, limits.return_)
+    for name, direction, limit in limited:
         if limit is not None:
             tau, legs = sigma * direction, sampled_legs(motion, direction)
             sides.append(Side(name, tau, limit, arm, arm * math.cos(limit), legs))

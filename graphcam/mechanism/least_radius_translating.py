@@ -13,7 +13,6 @@ Source: the shaded region of the textbooks on the theory of machines, written as
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.half_planes import LINES, Line
+from graphcam.mechanism.half_planes import Line
 from graphcam.mechanism.legs import legs
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
@@ -57,45 +56,45 @@ def translating_minimum_radius(
     """
     slope = math.tan(limits.rise)
     height = _steepest_line(motion, +1, slope)
-    lines = [_Line("rest", slope, 0.0)] if limits.rest else []
+    lines: list[_Bound] = []
     if limits.return_ is not None:
         back = math.tan(limits.return_)
-        lines.insert(0, _Line("return", back, _steepest_line(motion, -1, back)))
+        lines.append(("return", back, _steepest_line(motion, -1, back)))
+    if limits.rest:
+        lines.append(("rest", slope, 0.0))
     if offset is None:
         across, s0, active = _nearest(slope, height, lines)
         return MinimumRadius(math.hypot(across, s0), sigma * across, active)
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
     place = sigma * offset
-    s0 = {"rise": (height - place) / slope} | {name: (height + place) / slope for name, slope, height in lines}
-    highest = max(0.0, *s0.values())
-    active = tuple(name for name in LINES if highest == s0.get(name) > 0)
-    return MinimumRadius(math.hypot(offset, highest), offset, active)
+    heights: dict[Line, float] = {"rise": (height - place) / slope}
+    heights |= {name: (height + place) / slope for name, slope, height in lines}
+    s0 = max(0.0, *heights.values())
+    active = tuple(name for name, needed in heights.items() if needed == s0 > 0)
+    return MinimumRadius(math.hypot(offset, s0), offset, active)
 
 
-class _Line(NamedTuple):
-    """s0 slope - e' >= height: of the returns, or of the rest."""
-
-    name: Line
-    slope: float
-    height: float
+_Bound = tuple[Line, float, float]
+"""Name, slope and height of the line of the returns, or of the rest: s0 slope - e' >= height."""
 
 
-def _nearest(slope: float, height: float, lines: list[_Line]) -> tuple[float, float, tuple[Line, ...]]:
+def _nearest(slope: float, height: float, lines: list[_Bound]) -> tuple[float, float, tuple[Line, ...]]:
     """The point (e', s0) nearest to the start of the lift, with s0 slope + e' >= height and the other lines kept."""
-    for line in lines:
-        # Where the perpendicular meets a line of the returns the rises may be kept too.
-        foot = line.height / (1 + line.slope * line.slope)
-        if foot * (slope * line.slope - 1) >= height:
-            return -foot, foot * line.slope, (line.name,)
+    for name, other, its_height in lines:
+        # Where the perpendicular meets the line of the returns the rises may be kept too.
+        foot = its_height / (1 + other * other)
+        if foot * (slope * other - 1) >= height:
+            return -foot, foot * other, (name,)
     # Else the point lies on the rises' line: at the foot, or farther up, as far as the others need.
     across = height / (1 + slope * slope)
-    s0, active = across * slope, ("rise",)
-    for line in lines:
-        crossing = (height + line.height) / (slope + line.slope)
+    s0 = across * slope
+    active: tuple[Line, ...] = ("rise",)
+    for name, other, its_height in lines:
+        crossing = (height + its_height) / (slope + other)
         if crossing > s0:
-            across, s0 = (height * line.slope - line.height * slope) / (slope + line.slope), crossing
-            active = "rise", line.name
+            across, s0 = (height * other - its_height * slope) / (slope + other), crossing
+            active = "rise", name
     return across, s0, active
 
 
@@ -104,10 +103,10 @@ def _nearest(slope: float, height: float, lines: list[_Line]) -> tuple[float, fl
 
 def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
     """M or M': the greatest |v| - s * slope over all rises or all returns [mm/rad]."""
-    return max([
-        leg.lift / leg.angle * steepest_tangent(leg.law, 1 / (slope * leg.angle))[1] - slope * leg.low
-        for leg in legs(motion, direction)
-    ])  # fmt: skip
+    heights: list[float] = []
+    for law, lift, angle, low in legs(motion, direction):
+        heights.append(lift / angle * steepest_tangent(law, 1 / (slope * angle))[1] - slope * low)
+    return max(heights)
 
 
 def steepest_tangent(law: Law, k: float) -> tuple[float, float]:

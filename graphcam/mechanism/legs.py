@@ -1,6 +1,5 @@
 """The rises and the returns of a motion, each seen from its lower end, and places on them."""
 
-import math
 from bisect import bisect_right
 from functools import lru_cache
 from itertools import pairwise
@@ -54,8 +53,9 @@ class Legs(NamedTuple):
 def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
     """The rises (direction +1) or the returns (-1) of a motion.  They are kept, for it is sized again and again.
 
+    >>> from math import pi
     >>> import graphcam as gc
-    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * pi - 1.0, "2-3")])
     >>> [(leg.law.name, leg.lift, leg.low) for leg in legs(motion, -1)]
     [('2-3', 30, 0.0)]
     """
@@ -71,18 +71,19 @@ def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
 def sampled_legs(motion: Motion, direction: int) -> Legs:
     """The same with their places.
 
+    >>> from math import pi
     >>> import graphcam as gc
-    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * math.pi - 1.0, "2-3")])
-    >>> sampled_legs(motion, +1).v.max().round(9).item()
-    47.123889804
+    >>> motion = gc.Motion([gc.Rise(30, 1.0, "cosine"), gc.Return(30, 2 * pi - 1.0, "2-3")])
+    >>> sampled_legs(motion, +1).s[[0, -1]].tolist()
+    [0.0, 30.0]
     """
     found = legs(motion, direction)
     places = [_places(leg.law) for leg in found]
     first = np.cumsum([0, *(part.shape[1] for part in places)]).tolist()
-    w, s, v = np.hstack([
-        (part[0], leg.low + leg.lift * part[1], leg.lift / leg.angle * part[2]) for leg, part in zip(found, places, strict=True)
-    ])  # fmt: skip
-    return Legs(found, tuple(first), w, s, v)
+    s = [leg.low + leg.lift * f for leg, (_, f, _) in zip(found, places, strict=True)]
+    v = [leg.lift / leg.angle * f1 for leg, (_, _, f1) in zip(found, places, strict=True)]
+    w = [w for w, _, _ in places]
+    return Legs(found, tuple(first), *map(np.concatenate, (w, s, v)))
 
 
 @lru_cache(maxsize=64)
