@@ -18,7 +18,7 @@ import numpy as np
 
 from graphcam.given.laws import Floats
 from graphcam.mechanism.half_planes import HalfPlane, Line
-from graphcam.mechanism.legs import Leg, Legs
+from graphcam.mechanism.leg_places import Leg, Legs
 
 SAME_PLACE = 1e-9
 """Fraction of a phase; at a greatest value a step this small no longer changes the value in double precision."""

@@ -27,7 +27,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.arm_lines import SAME_PLACE, Side, higher
 from graphcam.mechanism.half_planes import LINES, HalfPlane, Kept, Line, nearest
-from graphcam.mechanism.legs import sampled_legs
+from graphcam.mechanism.leg_places import sampled_legs
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""

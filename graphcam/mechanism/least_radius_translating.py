@@ -23,7 +23,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.half_planes import Line
-from graphcam.mechanism.legs import legs
+from graphcam.mechanism.leg_places import legs
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
@@ -71,8 +71,8 @@ def translating_minimum_radius(
     heights: dict[Line, float] = {"rise": (height - place) / slope}
     heights |= {name: (height + place) / slope for name, slope, height in lines}
     s0 = max(0.0, *heights.values())
-    active = tuple(name for name, needed in heights.items() if needed == s0 > 0)
-    return MinimumRadius(math.hypot(offset, s0), offset, active)
+    active: list[Line] = [name for name, needed in heights.items() if needed == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
 
 
 _Bound = tuple[Line, float, float]
