@@ -18,7 +18,7 @@ import numpy as np
 
 from graphcam.given.laws import Floats
 from graphcam.mechanism.half_planes import HalfPlane, Line
-from graphcam.mechanism.leg_places import Leg, Legs
+from graphcam.mechanism.leg_places import LegPlaces, OneLeg
 
 SAME_PLACE = 1e-9
 """Fraction of a phase; at a greatest value a step this small no longer changes the value in double precision."""
@@ -35,7 +35,7 @@ class Side(NamedTuple):
     limit: float
     arm: float
     force: float
-    legs: Legs
+    legs: LegPlaces
 
     def excess(self, point: complex) -> Floats:
         """How far the point lies beyond the line of each place, over l cos(A), less tau."""
@@ -74,7 +74,7 @@ class Side(NamedTuple):
             return self.line(leg, w, ends[piece - 2], w)
         return line
 
-    def line(self, leg: Leg, w: float, low: float, high: float) -> HalfPlane:
+    def line(self, leg: OneLeg, w: float, low: float, high: float) -> HalfPlane:
         """The line of a place of a smooth piece between two others."""
         f, f1, f2, f3 = leg.law.at(w, "left" if w == high else "right")
         half, turned = (leg.low + leg.lift * f) / 2, self.tau * self.limit
@@ -101,7 +101,7 @@ class Touch(NamedTuple):
     """Where a line touches: a side, a place w of a leg, the ends of its smooth piece, and f', f'', f''' there."""
 
     side: Side
-    leg: Leg
+    leg: OneLeg
     w: float
     low: float
     high: float

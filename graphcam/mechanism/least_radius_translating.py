@@ -71,8 +71,8 @@ def translating_minimum_radius(
     heights: dict[Line, float] = {"rise": (height - place) / slope}
     heights |= {name: (height + place) / slope for name, slope, height in lines}
     s0 = max(0.0, *heights.values())
-    active: list[Line] = [name for name, needed in heights.items() if needed == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
+    needing: list[Line] = [name for name, needed in heights.items() if needed == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, tuple(needing))
 
 
 _Bound = tuple[Line, float, float]

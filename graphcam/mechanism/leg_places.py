@@ -19,7 +19,7 @@ CLOSEST = np.logspace(-12, -4, 25)
 """Places nearer the phase's ends, where a steep limit moves the extremes to."""
 
 
-class Leg(NamedTuple):
+class OneLeg(NamedTuple):
     """A rise, or a return as if time ran backwards: s = low + lift f(w), |v| = lift/angle f'(w).
 
     law : as seen from the lower end;  angle : rad;  low : s of the lower end
@@ -31,26 +31,26 @@ class Leg(NamedTuple):
     low: float
 
 
-class Legs(NamedTuple):
+class LegPlaces(NamedTuple):
     """The rises or the returns of a motion, with their places in one row.
 
     first : where each leg's places begin, and the count of all;  w : fractions of the leg, from its lower end
     s, v : s and |v|
     """
 
-    legs: tuple[Leg, ...]
+    legs: tuple[OneLeg, ...]
     first: tuple[int, ...]
     w: Floats
     s: Floats
     v: Floats
 
-    def leg_of(self, k: int) -> Leg:
+    def leg_of(self, k: int) -> OneLeg:
         """The leg that the k-th place belongs to."""
         return self.legs[bisect_right(self.first, k) - 1]
 
 
 @lru_cache(maxsize=64)
-def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
+def legs(motion: Motion, direction: int) -> tuple[OneLeg, ...]:
     """The rises (direction +1) or the returns (-1) of a motion.  They are kept, for it is sized again and again.
 
     >>> from math import pi
@@ -59,16 +59,16 @@ def legs(motion: Motion, direction: int) -> tuple[Leg, ...]:
     >>> [(leg.law.name, leg.lift, leg.low) for leg in legs(motion, -1)]
     [('2-3', 30, 0.0)]
     """
-    found: list[Leg] = []
+    found: list[OneLeg] = []
     for k, phase in enumerate(motion.phases):
         if phase.direction == direction and not isinstance(phase, Dwell):
             law, low = (phase.normalised, k) if direction > 0 else (phase.normalised.reversed, k + 1)
-            found.append(Leg(law, phase.lift, phase.angle, motion.levels.item(low)))
+            found.append(OneLeg(law, phase.lift, phase.angle, motion.levels.item(low)))
     return tuple(found)
 
 
 @lru_cache(maxsize=64)
-def sampled_legs(motion: Motion, direction: int) -> Legs:
+def sampled_legs(motion: Motion, direction: int) -> LegPlaces:
     """The same with their places.
 
     >>> from math import pi
@@ -83,7 +83,7 @@ def sampled_legs(motion: Motion, direction: int) -> Legs:
     s = [leg.low + leg.lift * f for leg, (_, f, _) in zip(found, places, strict=True)]
     v = [leg.lift / leg.angle * f1 for leg, (_, _, f1) in zip(found, places, strict=True)]
     w = [w for w, _, _ in places]
-    return Legs(found, tuple(first), *map(np.concatenate, (w, s, v)))
+    return LegPlaces(found, tuple(first), *map(np.concatenate, (w, s, v)))
 
 
 @lru_cache(maxsize=64)
