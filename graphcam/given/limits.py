@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 
+QUARTER_TURN = math.pi / 2
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -24,8 +26,9 @@ class Limits:
     rest: bool = True
 
     def __post_init__(self) -> None:
-        limit, remedy = "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower"
-        for name, value in (("rise", self.rise), ("return", self.return_)):
-            if value is not None and not 0 < value < math.pi / 2:
-                quantity = f"permitted pressure angle on the {name}"
-                raise DesignError(quantity, f"{math.degrees(value):g} degrees", limit, remedy)
+        back = self.return_
+        if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
+            name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
+            limit, remedy = "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower"
+            quantity = f"permitted pressure angle on the {name}"
+            raise DesignError(quantity, f"{math.degrees(value or 0.0):g} degrees", limit, remedy)

@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 Line = Literal["rise", "return", "rest"]
+LINES: tuple[Line, ...] = get_args(Line)
 
 
 class HalfPlane(NamedTuple):

@@ -19,15 +19,15 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple, get_args
+from typing import NamedTuple
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
-from graphcam.mechanism.arm_lines import Side, higher
-from graphcam.mechanism.half_planes import HalfPlane, Kept, Line, nearest
-from graphcam.mechanism.legs import sampled_legs
+from graphcam.mechanism.arm_lines import SAME_PLACE, Side, higher
+from graphcam.mechanism.half_planes import LINES, HalfPlane, Kept, Line, nearest
+from graphcam.mechanism.leg_places import sampled_legs
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
@@ -37,7 +37,6 @@ SQUARED = 1e-6
 """A step of so small a part of the place leaves an error of its square, which changes a greatest value by no bit."""
 PATIENCE = 12
 """Steps after which the search begins anew."""
-LINES: tuple[Line, ...] = get_args(Line)
 
 
 @dataclass(frozen=True)
@@ -112,7 +111,7 @@ class _Region(NamedTuple):
     fixed: list[HalfPlane]
 
     def beyond(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
-        """The lines that the point lies beyond by more than rounding leaves: of each side the worst, the farthest last."""
+        """Of each side the worst of the lines that the point lies beyond by more than rounding; the farthest last."""
         rounding, lines = ROUNDING * (self.arm + abs(point)), self.fixed
         excesses = [(side, side.excess(point)) for side in self.sides]
         for side, excess in excesses:
@@ -132,7 +131,8 @@ def _beyond(lines: Sequence[HalfPlane], point: complex, rounding: float) -> list
 def _region(motion: Motion, arm: float, sigma: int, limits: Limits) -> _Region:
     sides: list[Side] = []
     fixed: list[HalfPlane] = []
-    for name, direction, limit in (("rise", +1, limits.rise), ("return", -1, limits.return_)):
+    limited: tuple[tuple[Line, int, float | None], ...] = ("rise", +1, limits.rise), ("return", -1, limits.return_)
+    for name, direction, limit in limited:
         if limit is not None:
             tau, legs = sigma * direction, sampled_legs(motion, direction)
             sides.append(Side(name, tau, limit, arm, arm * math.cos(limit), legs))
@@ -168,27 +168,31 @@ def _least(
             return point, kept, 0.0
         next_point, next_kept = meet((*region.fixed, *kept, *beyond))
         for _ in range(PATIENCE):
-            next_kept, far = _touching(next_kept, next_point)
-            next_point, next_kept = meet(next_kept)
-            if not far:
+            moved, step = _touching(next_kept, next_point)
+            if step > SAME_PLACE:
+                next_point, next_kept = meet(moved)
+            if step <= SQUARED:
                 break
         if abs(next_point) <= abs(point):  # it grows until nothing but rounding is left
             return point, kept, beyond[-1].excess(point)
         point, kept = next_point, next_kept
 
 
-def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[tuple[HalfPlane, ...], bool]:
-    """The same lines where they touch nearer to the point, and whether they were still far from there."""
+def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[list[HalfPlane], float]:
+    """The same lines where they touch nearer to the point, and the longest step there, as a part of its place."""
     moved: list[HalfPlane] = []
-    far = False
+    longest = 0.0
     for line in lines:
         if line.touch:
             side, leg, w, low, high, *_ = line.touch
             place = higher(line, point, low, high)
-            far = far or abs(place - w) > SQUARED * place
-            line = side.line(leg, place, low, high)
+            step = abs(place - w)
+            if step > longest * place:
+                longest = step / place
+            if step > SAME_PLACE * place:
+                line = side.line(leg, place, low, high)
         moved.append(line)
-    return tuple(moved), far
+    return moved, longest
 
 
 @dataclass(frozen=True)

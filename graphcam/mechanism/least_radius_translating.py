@@ -11,7 +11,6 @@ so the cam centre lies in a region bounded by up to three lines, and r0 is its d
 Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
 """
 
-import cmath
 import math
 from dataclasses import dataclass
 
@@ -21,9 +20,10 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
-from graphcam.given.motion import Motion, Return, Rise
+from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.half_planes import HalfPlane, Line, nearest
+from graphcam.mechanism.half_planes import Line
+from graphcam.mechanism.leg_places import legs
 from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
@@ -54,45 +54,58 @@ def translating_minimum_radius(
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
     (22.5647, 11.2824, ('rise', 'rest'))
     """
-    lines = _region(motion, limits)
+    slope = math.tan(limits.rise)
+    height = _steepest_line(motion, +1, slope)
+    lines: list[_Bound] = []
+    if limits.return_ is not None:
+        back = math.tan(limits.return_)
+        lines.append(("return", back, _steepest_line(motion, -1, back)))
+    if limits.rest:
+        lines.append(("rest", slope, 0.0))
     if offset is None:
-        point, binding = nearest(lines)
-        return MinimumRadius(abs(point), sigma * point.real, tuple([line.name for line in binding if line.name]))
+        across, s0, active = _nearest(slope, height, lines)
+        return MinimumRadius(math.hypot(across, s0), sigma * across, active)
     if not math.isfinite(offset):
         raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
     place = sigma * offset
-    heights = [(height - normal.real * place) / normal.imag for _, normal, height, _ in lines]
-    s0 = max(0.0, *heights)
-    lowest = zip(heights, lines, strict=True)
-    active: list[Line] = [line.name for height, line in lowest if height == s0 > 0 and line.name]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(active))
+    heights: dict[Line, float] = {"rise": (height - place) / slope}
+    heights |= {name: (height + place) / slope for name, slope, height in lines}
+    s0 = max(0.0, *heights.values())
+    needing: list[Line] = [name for name, needed in heights.items() if needed == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, tuple(needing))
 
 
-def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
-    """The lines for the point e' + i s0, each multiplied by the cosine of its angle."""
-    normal = cmath.rect(1.0, limits.rise)
-    lines = [HalfPlane("rise", normal, normal.real * _steepest_line(motion, Rise, math.tan(limits.rise)))]
-    if limits.return_ is not None:
-        back = cmath.rect(1.0, limits.return_)
-        height = back.real * _steepest_line(motion, Return, math.tan(limits.return_))
-        lines.append(HalfPlane("return", -back.conjugate(), height))
-    if limits.rest:
-        lines.append(HalfPlane("rest", -normal.conjugate(), 0.0))
-    return lines
+_Bound = tuple[Line, float, float]
+"""Name, slope and height of the line of the returns, or of the rest: s0 slope - e' >= height."""
+
+
+def _nearest(slope: float, height: float, lines: list[_Bound]) -> tuple[float, float, tuple[Line, ...]]:
+    """The point (e', s0) nearest to the start of the lift, with s0 slope + e' >= height and the other lines kept."""
+    for name, other, its_height in lines:
+        # Where the perpendicular meets the line of the returns the rises may be kept too.
+        foot = its_height / (1 + other * other)
+        if foot * (slope * other - 1) >= height:
+            return -foot, foot * other, (name,)
+    # Else the point lies on the rises' line: at the foot, or farther up, as far as the others need.
+    across = height / (1 + slope * slope)
+    s0 = across * slope
+    active: tuple[Line, ...] = ("rise",)
+    for name, other, its_height in lines:
+        crossing = (height + its_height) / (slope + other)
+        if crossing > s0:
+            across, s0 = (height * other - its_height * slope) / (slope + other), crossing
+            active = "rise", name
+    return across, s0, active
 
 
 # --- the tangent to the s - v diagram --------------------------------------------------------------------------------
 
 
-def _steepest_line(motion: Motion, kind: type[Rise | Return], slope: float) -> float:
+def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
     """M or M': the greatest |v| - s * slope over all rises or all returns [mm/rad]."""
     heights: list[float] = []
-    for k, phase in enumerate(motion.phases):
-        if isinstance(phase, kind):
-            # A return is seen from its lower end, as if time ran backwards: |v| and s are then those of a rise.
-            law, low = (phase.normalised, k) if kind is Rise else (phase.normalised.reversed, k + 1)
-            _, height = steepest_tangent(law, 1 / (slope * phase.angle))
-            heights.append(phase.lift / phase.angle * height - slope * float(motion.levels[low]))
+    for law, lift, angle, low in legs(motion, direction):
+        heights.append(lift / angle * steepest_tangent(law, 1 / (slope * angle))[1] - slope * low)
     return max(heights)
 
 
