@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, TestScene, scene
-from graphcam.comparison.quantities import Comparison
+from graphcam.comparison.quantities import Comparison, side_of
 from graphcam.constructions.chain import Chain
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
@@ -101,12 +101,14 @@ def error_of(where: TestScene, construction: str, reading: str, chain: Chain) ->
     drawn, phi = chain[construction], chain.board.stations.phi
     said = drawn.meaning.reading(reading).converges
     assert said is not None
-    read = said.of or reading
+    sides = next((compared.sides for compared in drawn.meaning.reading(reading).compared if compared.sides), "")
+    read = said.of or sides or reading
     value = drawn.value(read)
     match said.measured:
         case "value":
-            # Of several candidates the first.
-            return abs(float(np.atleast_1d(value)[0]) / where.exact[said.exact] - 1)
+            # Of several candidates the first, of two sides the exact one's.
+            place = side_of(where.exact[said.exact]) if sides else 0
+            return abs(float(np.atleast_1d(value)[place]) / where.exact[said.exact] - 1)
         case "at stations":
             at = Comparison(chain, where.cam).exact_stations
             there = {**dict(zip("sva", at.values, strict=False)), "pressure_angle": at.pressure_angle}[said.exact]

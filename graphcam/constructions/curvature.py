@@ -150,13 +150,16 @@ def _resting(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
 
     Where two moving phases meet and the acceleration of either vanishes, it rests for an instant.
     """
+    before = stations.phase[stations.last]
+    # What follows a moving phase is a dwell or the next moving phase; the last is followed by the first.
+    following = (before + 1) % len(motion.phases)
+    vanishes = _vanishes(motion, before, 1.0) | _vanishes(motion, following, 0.0)
     found: list[tuple[int, Floats]] = []
-    for k, last in zip(stations.phase[stations.last], stations.last.tolist(), strict=True):
-        # What follows a moving phase is a dwell or the next moving phase; the last is followed by the first.
-        before, following = motion.phases[k], motion.phases[(k + 1) % len(motion.phases)]
-        if isinstance(following, Dwell):
-            found.append((last, following.angle * np.array([0.0, 0.5, 1.0])))
-        elif _vanishes(before, 1.0) or _vanishes(following, 0.0):
+    for last, k, instant in zip(stations.last.tolist(), following, vanishes, strict=True):
+        phase = motion.phases[k]
+        if isinstance(phase, Dwell):
+            found.append((last, phase.angle * np.array([0.0, 0.5, 1.0])))
+        elif instant:
             found.append((last, INSTANT * np.array([-1.0, 0.0, 1.0])))
     return found
 
@@ -175,10 +178,11 @@ def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple
     return hand.cross("rests", rays, arcs[each]), hand.take("axis", axis, beyond)
 
 
-def _vanishes(phase: Moving, u: float) -> bool:
-    """Whether the given acceleration of a phase is zero at its end u."""
-    law = phase.normalised
-    return abs(float(law(u)[2])) <= NO_ACCELERATION * law.peak_acceleration
+def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.bool_]:
+    """Of which phases the given acceleration is zero at the end u; of a dwell too."""
+    ends = [motion.phases[k] for k in phases]
+    greatest = [p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, Moving) else 0.0 for p in ends]
+    return np.abs(motion.at(phases, u)[2]) <= NO_ACCELERATION * np.array(greatest)
 
 
 def _at(points: Points, at: Triples) -> Points:

@@ -150,12 +150,21 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
 
 
 def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
-    """Which touch points lie nearer than ``radius`` to the centre of another roller circle."""
-    covered = np.zeros(touch.shape, dtype=bool)
-    for k in range(pitch.shape[-1]):
-        inside = np.abs(touch - pitch[..., k : k + 1]) < radius
-        inside[..., k] = False  # its own circle it touches, however the hand may have set it
-        covered |= inside
+    """Which touch points lie nearer than ``radius`` to the centre of another roller circle.
+
+    Of the centres that follow one another a whole run lies too far from most points, so few are looked at singly.
+    """
+    covered, count = np.zeros(touch.shape, dtype=bool), touch.shape[-1]
+    size = math.isqrt(count)
+    for start in range(0, count, size):
+        run = pitch[..., start : start + size]
+        middle = run.mean(axis=-1, keepdims=True)
+        reach = radius + np.abs(run - middle).max(axis=-1, keepdims=True)
+        near = np.nonzero(~(np.abs(touch - middle) >= reach))
+        inside = np.abs(touch[near][:, None] - run[near[:-1]]) < radius
+        # Its own circle a point touches, however the hand may have set it.
+        other = near[-1][:, None] != start + np.arange(run.shape[-1])
+        covered[near] |= np.any(inside & other, axis=-1)
     return covered
 
 

@@ -38,7 +38,7 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     (2+2j)
     """
     direction = np.asarray(direction / np.abs(direction))[..., None]
-    first, last = np.array([piece.indices(points.shape[-1])[:2] for piece in pieces]).T - [[0], [1]]
+    first, last = _ends(pieces, points.shape[-1])
     best = _highest(dot(direction, points), first, last)
     plotted = np.take_along_axis(points, best, -1)
     # The three points about it; of a piece of fewer the first ones, which count for nothing.
@@ -55,6 +55,12 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     return np.take_along_axis(tops, farthest, -1)[..., 0]
 
 
+def _ends(pieces: Sequence[slice], count: int) -> NDArray[np.intp]:
+    """(2, k) the first and the last place of each of k pieces of so many points."""
+    ends = np.array([piece.indices(count)[:2] for piece in pieces], dtype=np.intp)
+    return (ends - (0, 1)).T
+
+
 def _highest(heights: NDArray[np.float64], first: NDArray[np.intp], last: NDArray[np.intp]) -> NDArray[np.intp]:
     """(..., k) the place of the greatest of heights (..., n) in each of k runs, from the first place to the last.
 
@@ -66,6 +72,25 @@ def _highest(heights: NDArray[np.float64], first: NDArray[np.intp], last: NDArra
     in_order = np.where(np.isnan(heights), -np.inf, heights)[..., places]
     greatest = np.repeat(np.maximum.reduceat(in_order, begins, axis=-1), counts, axis=-1)
     return np.minimum.reduceat(np.where(in_order == greatest, places, heights.shape[-1]), begins, axis=-1)
+
+
+def faired_pieces(points: Points, pieces: Sequence[slice], between: int = 8) -> Points:
+    """The smooth lines through the plotted points of several pieces, one after another, as :func:`faired`.
+
+    Pieces of as many points are faired together.
+
+    >>> x = np.arange(6.0)
+    >>> faired_pieces(x + 1j * abs(x - 3), [slice(0, 4), slice(3, 6)], between=1).real.tolist()
+    [0.0, 1.0, 2.0, 3.0, 3.0, 4.0, 5.0]
+    """
+    first, last = _ends(pieces, points.shape[-1])
+    lines: list[Points] = [points] * first.size
+    for parts in np.unique(last - first):
+        alike = np.flatnonzero(last - first == parts)
+        together = faired(points[..., first[alike, None] + np.arange(parts + 1)], between)
+        for k, number in enumerate(alike):
+            lines[number] = together[..., k, :]
+    return np.concatenate(lines, axis=-1)
 
 
 def faired(points: Points, between: int = 8) -> Points:

@@ -310,16 +310,13 @@ class Hand:
 
         Of lines through the points their angles are faired too, so that between them lies a family of lines.
         """
-
-        def faired(values: Points) -> Points:
-            return np.concatenate([curve.faired(values[..., piece], parts) for piece in pieces], axis=-1)
-
         along = None
         if points.along is not None:
             first = points.along[..., :1]
-            along = euclid.turned(first, faired(np.angle(points.along / first) + 0j).real)
+            turns: Points = np.angle(points.along / first) + 0j
+            along = euclid.turned(first, curve.faired_pieces(turns, pieces, parts).real)
         takes = {"points": points, "pieces": tuple(pieces), "parts": parts}
-        return self._left(Kind.FAIR, name, takes, faired(points.points), along)
+        return self._left(Kind.FAIR, name, takes, curve.faired_pieces(points.points, pieces, parts), along)
 
     # --- readings ----------------------------------------------------------------------------------------------------
 

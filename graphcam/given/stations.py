@@ -1,6 +1,7 @@
 """Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -107,11 +108,12 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     return Stations(phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine)
 
 
-def _shares(ends: tuple[float, ...], divisions: int) -> list[int]:
+@lru_cache
+def _shares(ends: tuple[float, ...], divisions: int) -> tuple[int, ...]:
     """Whole numbers of parts for the stretches between ``ends``: in proportion, each at least one."""
     lengths = np.diff(ends)
     shares = np.ones(lengths.size, dtype=np.intp)
     while shares.sum() < divisions:
         # The rule of Sainte-Lague: of two stretches it rounds the shares to the nearest, and of any it keeps the sum.
         shares[np.argmax(lengths / (shares + 0.5))] += 1
-    return shares.tolist()
+    return tuple(shares.tolist())

@@ -258,7 +258,7 @@ def against_exact(solution: AnySolution) -> str:
     return blocks(
         say("The error is the drawn value less the exact one."),
         compared(solution.comparison.quantities, tell),
-        sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution)], " "),
+        sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)], " "),
         tell=tell,
     )
 
@@ -284,6 +284,19 @@ def _verdict(solution: AnySolution) -> list[Caption]:
     if not unknown:
         return [verdict]
     return [verdict, say("No bound is known of {names}: more parts show what these do not.", names=unknown)]
+
+
+def _other_sides(solution: AnySolution) -> list[Caption]:
+    """What is said where the drawing takes the other side of a signed extreme for the greater one."""
+    quantities = solution.comparison.quantities
+    names = [
+        quantities[said.name].title
+        for construction in solution.drawn.values()
+        for reading, said in construction.meaning.compared
+        if said.sides and float(construction.value(reading)) * quantities[said.name].exact < 0
+    ]
+    text = say("Nearly as great on either side is: {names}; the side is compared on which it is exactly the greatest.")
+    return [text.where(names=joined(names))] if names else []
 
 
 def markdown_table(of_sheet: Table, tell: Tell) -> str:

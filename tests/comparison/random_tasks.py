@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import LAWS
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import (
@@ -40,6 +41,13 @@ def random_task(seed: int, law: str | None = None) -> Task:
         ),
         drawing=DrawingTable(divisions=int(random.integers(6, 25)), ordinate=60.0),
     )
+
+
+def flips(quantity: Quantity) -> bool:
+    """Whether a signed greatest is compared with one on the other side, or its bound reaches over there."""
+    # What is less than a degree may lie on either side without a flip.
+    reach = max(abs(quantity.error), quantity.tolerance_paper * abs(quantity.per_mm))
+    return reach > max(0.25 * abs(quantity.exact), 1.0)
 
 
 def random_arm_task(seed: int) -> Task:

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from random_tasks import random_arm_task, random_flat_task
+from random_tasks import flips, random_arm_task, random_flat_task, random_task
 from test_bounds import outside, stations_outside
 
 from graphcam.errors import DesignError
@@ -53,6 +53,34 @@ def test_what_is_compared_is_finite_and_said_within_millimetres(follower):
     for name, values in tolerances.items():
         assert np.isfinite(values).all(), name
         assert np.median(values) < 5.0, name
+
+
+ANGLES = ("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg")
+SHARP = ("min_pitch_curvature_radius", "roller_radius")
+
+
+def test_no_angle_is_compared_with_the_other_side_and_no_bound_of_a_radius_loses_it():
+    """Nor is a rest's exact radius bounded by what the moving phases, which hardly bend, are off."""
+    for solution in solved("arm"):
+        quantities = solution.comparison.quantities
+        assert not any(flips(quantities[name]) for name in ANGLES), solution.task
+        for q in (quantities[name] for name in SHARP):
+            assert q.tolerance_paper * q.per_mm <= 1.5 * abs(q.exact) + 1e-6, (q.name, solution.task)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("random", [random_task, random_arm_task])
+def test_of_hundreds_of_tasks_none_flips(random):
+    solved = 0
+    for seed in range(60, 360):
+        try:
+            quantities = solve(random(seed)).comparison.quantities
+        except DesignError:
+            continue
+        solved += 1
+        assert not any(flips(quantities[name]) for name in ANGLES), seed
+        assert all(q.tolerance_paper * q.per_mm <= 2 * abs(q.exact) + 1e-6 for q in map(quantities.get, SHARP)), seed
+    assert solved > 250
 
 
 @each_follower

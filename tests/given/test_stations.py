@@ -41,6 +41,22 @@ def test_a_jump_of_the_acceleration_falls_on_a_division(ratio, n):
     assert stations.left.size == 2 * max(n, 2)
 
 
+def test_the_jump_stands_on_its_division_to_the_last_bit_however_often_it_is_divided_again():
+    """A rounding beyond it, the ordinate before the jump would be the one after it."""
+    random = np.random.default_rng(5)
+    for ratio, n, again in zip(
+        random.uniform(0.3, 3, 200), random.integers(2, 25, 200), (2, 3, 5, 7) * 50, strict=True
+    ):
+        motion = motion_of("rectangular", float(ratio))
+        stations = divide(motion, int(n), again)
+        (jump,) = motion.phases[0].normalised.jumps
+        for piece in stations.pieces:
+            assert set(stations.u[piece][[0, -1]]) < {0.0, jump, 1.0}
+        ends = [piece.stop - 1 for piece in stations.pieces]
+        ordinates = [motion.at(stations.phase, stations.u, "left")[2][at] for at in (ends, np.subtract(ends, 1))]
+        assert_allclose(*ordinates, rtol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("ratio", "shares"), [(1.0, (6, 6)), (2.0, (4, 8)), (3.0, (3, 9)), (0.5, (8, 4)), (100.0, (1, 11))]
 )

@@ -12,7 +12,7 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
 from graphcam.exercises.key.redrawing import dependences
-from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected
+from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected, torn
 from graphcam.exercises.key.separation import alike, hypotheses, passing, perfect_hands, promising
 
 HANDS = 2000
@@ -49,6 +49,8 @@ def draw_key(variant: Variant) -> AnswerKey | None:
     if alike(exercise, wrong):
         return None
     hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HANDS)))
+    if torn(exercise, drawn.right, hands):
+        return None
     far = distances(exercise, drawn.answers, hands)
     keys = expected(exercise, drawn.answers, far, drawn.lengths, bulges_of(exercise, drawn.right))
     off = deviations(exercise, keys, far)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired
 from graphcam.drafting.marks import Points
-from graphcam.exercises.definition.drawn_answers import ask, per_mm
+from graphcam.exercises.definition.drawn_answers import ask, construction_of, per_mm
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.key.expectation import Expected, Floats, distance_to_curve
 from graphcam.given.motion import FULL_TURN
@@ -48,6 +48,16 @@ def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float)
     """
     read = 0.0 if math.isnan(length) else length * math.hypot(exercise.hand.line, exercise.hand.division * UNIFORM)
     return max(UNIFORM * 10.0**-asked.decimals, CALCULATED * abs(value), read)
+
+
+def torn(exercise: Exercise, chain: Chain, hands: Drawn) -> bool:
+    """Whether careful hands name different sides of a signed greatest that is asked: then no one answer is right."""
+    return any(
+        samples.min() < 0 < samples.max()
+        for asked, samples in zip(exercise.answers, hands, strict=True)
+        if (said := construction_of(chain, asked.construction).meaning.readings.get(asked.reading))
+        and any(compared.sides for compared in said.compared)
+    )
 
 
 def distances(exercise: Exercise, perfect: Drawn, hands: Drawn) -> Drawn:
