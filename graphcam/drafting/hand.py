@@ -1,7 +1,7 @@
 """The hand that draws one construction, with ruler, compass, set squares, dividers, protractor: none without error.
 
-Every act errs as :mod:`~graphcam.drafting.slips` says, is recorded, and returns what it leaves on the paper.  Points and
-lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
+Every act errs as :mod:`~graphcam.drafting.slips` says, is recorded, and returns what it leaves on the paper.  Points
+and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import differentiation
-from graphcam.drafting.slips import SQUARE
 from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.slips import SQUARE
 from graphcam.errors import DesignError
 from graphcam.given.measured import measured_motion
 from graphcam.given.motion import FULL_TURN

@@ -15,6 +15,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Step
 from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.slips import SQUARE
 
 SEVERAL = motion_of(
     (10, 40, "3-4-5"), (0, 20), (20, 80, "cosine"), (-25, 60, "2-3"), (15, 60, "cycloidal"), (-20, 100, "triangular")
@@ -300,12 +301,13 @@ def test_chords_are_parallel_to_their_rays_and_set_end_to_end(name, hand, index)
     run = integration(name, hand, index)
     k = 0
     for span, polygon in zip(BOARDS[name].stations.phases, run.polygons, strict=True):
-        np.testing.assert_allclose(polygon.real, run.x[span], atol=EXACT)
+        # The chords end on the uprights, which stand beside the marks of the axis.
+        np.testing.assert_allclose(polygon.real, run.x[span], atol=slack(hand, 1))
         slopes = np.diff(polygon.imag) / np.diff(polygon.real)
         rays = run.middles.imag[k : k + slopes.size] / run.pole
         # Of a hand: the height, the pole, the chord's own place and turn.
         widths = np.diff(polygon.real)
-        errors = MANY * SIGMA * (1 / run.pole + np.abs(rays) / run.pole + 1 / widths + 1 / 150)
+        errors = MANY * SIGMA * (1 / run.pole + np.abs(rays) / run.pole + 1 / widths + (1 + rays**2) / SQUARE)
         assert np.all(np.abs(slopes - rays) <= (1e-9 if hand == "perfect" else errors))
         k += slopes.size
     assert k == run.middles.size
@@ -324,7 +326,8 @@ def test_the_curve_comes_back_to_rest_by_turning_its_base_line_or_sharing_out(na
         # What is taken up grows evenly along the phase.
         share = (run.x[span] - run.x[span][0]) / (run.x[span][-1] - run.x[span][0])
         even = off[0] + (off[-1] - off[0]) * share
-        np.testing.assert_allclose(off, even, atol=slack(hand, 2.5))
+        np.testing.assert_allclose(off.imag, even.imag, atol=slack(hand, 2.5))
+        np.testing.assert_allclose(off.real, 0, atol=slack(hand, 1))
         lefts.append(abs(off[-1].imag) if index == 0 else off[-1].imag)
         if index == 0:
             assert abs(run.points[span][-1].imag) <= slack(hand, 1)

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from boards import SIZES, board_of, coursework, motion_of
 
+import graphcam as gc
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.acts import Kind
 from graphcam.drafting.euclid import centre_of_circle
+from graphcam.drafting.hand import COMPASS, Hand
+from graphcam.drafting.ink import say
+from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 
 SIGMA = 0.2
 SAMPLES = 2000
+TEXTBOOK = frozenset({Kind.PROJECT, Kind.PARALLEL})
+"""The acts whose errors the published scatter of one rise holds."""
 
 
 def one_rise(law: str, n: int = 12, pencil: Pencil | None = None) -> tuple[Chain, slice]:
@@ -22,9 +30,9 @@ def one_rise(law: str, n: int = 12, pencil: Pencil | None = None) -> tuple[Chain
     return Chain(board, pencil or Pencil(line=SIGMA, samples=SAMPLES), decided=SIZES), board.stations.phases[0]
 
 
-def shape_errors(law: str, n: int = 12) -> np.ndarray:
+def shape_errors(law: str, n: int = 12, only: frozenset[Kind] | None = None) -> np.ndarray:
     """The greatest error of s on the rise in every sample, in percent of the lift."""
-    chain, rise = one_rise(law, n)
+    chain, rise = one_rise(law, n, Pencil(line=SIGMA, samples=SAMPLES, only=only))
     stations = chain.board.stations
     exact = chain.board.motion.at(stations.phase[rise], stations.u[rise])[0]
     drawn = chain["integration"].readings["s"].value[:, rise]
@@ -33,12 +41,13 @@ def shape_errors(law: str, n: int = 12) -> np.ndarray:
 
 @pytest.mark.parametrize(("law", "percent"), [("rectangular", 0.46), ("cosine", 0.57), ("cycloidal", 0.85)])
 def test_the_shape_errors_of_a_hand_are_those_of_the_textbooks(law, percent):
-    assert shape_errors(law).mean() == pytest.approx(percent, rel=0.15)
+    """With an error on every projected ordinate and on every chord's end, the others off."""
+    assert shape_errors(law, only=TEXTBOOK).mean() == pytest.approx(percent, rel=0.15)
 
 
 @pytest.mark.parametrize("law", ["rectangular", "cosine", "cycloidal", "3-4-5"])
 def test_the_greatest_velocity_of_a_hand_scatters_by_about_one_percent(law):
-    chain, rise = one_rise(law)
+    chain, rise = one_rise(law, pencil=Pencil(line=SIGMA, samples=SAMPLES, only=TEXTBOOK))
     greatest = chain["integration"].readings["v"].value[:, rise].max(axis=1)
     assert 0.7 / 1.15 < 100 * greatest.std() / greatest.mean() < 1.0 * 1.15
 
@@ -57,29 +66,64 @@ def test_the_scatter_of_s_is_proportional_to_the_pencil():
     assert scatter[1] / scatter[0] == pytest.approx(np.full(scatter[0].size, 4.0), rel=0.03)
 
 
-AMPLIFICATION = {
-    # Scatter on paper over the pencil's, for the built-in task with 3-4-5 phases in 12 parts and r0 = 46 mm.
-    # The chords of a phase add up, so by their lines s scatters about as the root of twice its parts does, by 4.1; the
-    # settings of dividers (divisions, middle ordinates, poles, v above its base line) bring 2.1 beside: their root is
-    # 4.6.  Of v the lines bring 1.7, the settings 2.7.
-    ("integration", "s"): 4.8, ("integration", "v"): 3.3, ("integration", "max_v"): 3.1,
-    ("integration", "closing_v"): 4.5, ("integration", "closing_s"): 6.4,
+DIVIDE, ERECT, PROJECT, LAY_OFF, PARALLEL = Kind.DIVIDE, Kind.ERECT, Kind.PROJECT, Kind.LAY_OFF, Kind.PARALLEL
+PERPENDICULAR, TANGENT, BISECT, CIRCLE = Kind.PERPENDICULAR, Kind.TANGENT, Kind.BISECT, Kind.CIRCLE
+AMPLIFICATION: dict[tuple[str, str], dict[Kind, float]] = {
+    # Scatter on paper over the pencil's, by the kind of act, for the built-in task with 3-4-5 phases in 12 parts and
+    # r0 = 46 mm, at the station that scatters most; what brings less than a tenth of the variance is left out.
+    #
+    # Twelve chords add up to the root of 12 = 3.5 at a phase's end; with the base turned to there they are off most
+    # halfway, by half of it, 1.7.  On the return v is as steep as 2.2, and by that much a mark of the axis, an upright
+    # or both ends of a middle moves it.  Where v is greatest it is level, and of the settings its own remains, beside
+    # the middle ordinates' and the pole's.
+    ("integration", "v"): {DIVIDE: 2.5, ERECT: 2.6, LAY_OFF: 1.4, PARALLEL: 1.6},
+    ("integration", "max_v"): {DIVIDE: 1.2, ERECT: 1.35, LAY_OFF: 1.9, PARALLEL: 1.8, TANGENT: 1.05},
+    ("integration", "closing_v"): {DIVIDE: 2.55, ERECT: 2.8, PARALLEL: 3.55},
+    # The second chords add up to 3.5 again, and the first, summed halfway up to the top, bring 2.1 of their 1.7.
+    ("integration", "s"): {LAY_OFF: 2.05, PARALLEL: 4.25},
+    ("integration", "closing_s"): {LAY_OFF: 2.2, PARALLEL: 5.8},
+    # The angle is carried over with dividers and touched: 1 each; the rest comes with v and s.
+    ("angle_diagram", "max_rise"): {LAY_OFF: 2.15, PARALLEL: 3.5, TANGENT: 1.05},
+    ("angle_diagram", "max_return"): {LAY_OFF: 2.0, PARALLEL: 3.3, TANGENT: 1.05, ERECT: 1.2},
+    # Along the follower's line the prime circle is off by its setting and half a line, 1.1, the end of s by another
+    # setting, and by what s itself is off, at 0.85 mm of the profile for 1 mm.  Across it the line is off by 1, which
+    # x and y have in part; either is off less than both together.
+    ("inversion", "radius"): {DIVIDE: 0.85, ERECT: 0.9, LAY_OFF: 1.4, PARALLEL: 1.6, CIRCLE: 1.2},
+    ("inversion", "x"): {LAY_OFF: 1.45, PARALLEL: 1.3, CIRCLE: 1.05},
+    ("inversion", "y"): {DIVIDE: 0.8, ERECT: 0.85, LAY_OFF: 1.4, PARALLEL: 1.55, CIRCLE: 1.15},
+    ("working_profile", "radius"): {DIVIDE: 0.9, ERECT: 0.95, LAY_OFF: 1.9, PARALLEL: 1.7, CIRCLE: 1.45},
     # On the line at the given e, which is laid off and drawn, the place of s0 goes down by 1/sin 30 when the tangent is
-    # moved by 1, and by 1/tan 30 when that line is: the root of 2^2 + 2 * 1.73^2, 3.2, beside what v and s bring, 6.1.
-    ("minimum_radius", "prime_radius"): 6.4, ("minimum_radius", "s0"): 6.9, ("minimum_radius", "offset"): 2.15,
-    ("angle_diagram", "max_rise"): 4.4, ("angle_diagram", "max_return"): 4.05,
-    ("inversion", "radius"): 2.5, ("inversion", "x"): 2.2, ("inversion", "y"): 2.4,
-    ("curvature", "rho"): 39.0, ("working_profile", "radius"): 3.1,
+    # moved by 1, and by 1/tan 30 when that line is: 2 of the tangent, and of either 1.7 beside what v and s bring.
+    ("minimum_radius", "s0"): {ERECT: 2.2, LAY_OFF: 3.85, PARALLEL: 5.0, TANGENT: 2.1},
+    ("minimum_radius", "prime_radius"): {ERECT: 1.95, LAY_OFF: 3.6, PARALLEL: 4.7, TANGENT: 2.0},
+    ("minimum_radius", "offset"): {ERECT: 1.1, LAY_OFF: 1.25, PARALLEL: 1.4},
+    # Three points 13 mm apart on a radius of 60 mm: sqrt(6) rho^2/h^2 = 53 of one point's error across the curve, less
+    # what neighbours have in common; the bisectors as the test of them says.
+    ("curvature", "rho"): {LAY_OFF: 32.0, PARALLEL: 17.0, BISECT: 20.5, DIVIDE: 11.6, ERECT: 11.3},
 }  # fmt: skip
 
 
+def in_bounds(scatter: float, bound: float) -> bool:
+    """Never more, and not so much less that the bound says nothing."""
+    return 0.8 * bound < scatter < bound
+
+
 @pytest.mark.parametrize(("name", "reading"), AMPLIFICATION)
-def test_every_reading_scatters_within_its_bound(name, reading):
-    sigma = 0.05
-    chain = Chain(coursework("3-4-5"), Pencil(line=sigma, dividers=sigma, samples=SAMPLES), decided=SIZES)
-    scatter = np.nanstd(chain[name].readings[reading].paper, axis=0).max() / sigma
-    bound = AMPLIFICATION[name, reading]
-    assert 0.8 * bound < scatter < bound
+def test_every_reading_scatters_within_its_bound_and_so_does_every_kind_of_act_in_it(name, reading):
+    """The bound is the root of the sum of the squares of what the kinds of acts bring."""
+    parts, sigma = AMPLIFICATION[name, reading], 0.05
+    hands = Pencil(line=sigma, dividers=sigma, samples=SAMPLES)
+    chain = Chain(coursework("3-4-5"), hands, decided=SIZES)
+
+    def amplified(by: Pencil) -> np.ndarray:
+        return np.atleast_1d(np.nanstd(chain.by(by)[name].readings[reading].paper, axis=0)) / sigma
+
+    whole = amplified(hands)
+    most = int(np.argmax(whole))
+    for kind, bound in parts.items():
+        assert in_bounds(amplified(replace(hands, only=frozenset({kind})))[most], bound), kind
+    # What is left out is less than a tenth of the variance.
+    assert in_bounds(whole[most], math.hypot(*parts.values()) / math.sqrt(0.9))
 
 
 def test_the_whole_chain_is_drawn_by_many_hands_at_once():
@@ -143,6 +187,30 @@ def test_three_points_of_a_hand_scatter_the_radius_as_the_textbook_says(rho, h, 
     # The circle's own arc adds (h/2 rho)^2 to the chord's formula.
     assert found.std() == pytest.approx(math.sqrt(6) * noise, rel=0.08)
     assert found.mean() - 1 == pytest.approx(6 * noise**2, abs=0.5 * 6 * noise**2 + 4 * found.std() / 200)
+
+
+def test_bisectors_alone_scatter_the_radius_of_three_exact_points():
+    """Each is off across itself by line/2, the mean of both crossings, and turned; they cross at a small angle.
+
+    Set 0.2 mm beside themselves, without a turn, the bisectors of the built-in task would leave nine radii in ten
+    between 59.3 and 63.7 mm.  But the crossings of the arcs lie near to one another, so that the turn brings more.
+    """
+    pencil = Pencil(line=SIGMA, samples=4 * SAMPLES, seed=2, only=frozenset({Kind.BISECT}))
+    chain = gc.solve(gc.builtin_task()).chain
+    before, b, after = chain["curvature"].points["triple"]
+    centre = complex(chain["curvature"].points["centre"])
+    rho, chords = float(abs(centre - b)), np.array([abs(b - before), abs(after - b)])
+    crossing = abs(np.angle((centre - (before + b) / 2) / (centre - (b + after) / 2)))
+    apart = 2 * math.sqrt(COMPASS**2 - 0.25) * chords
+    across = SIGMA * np.hypot(0.5, rho * np.cos(crossing / 2) / apart)
+    hand = Hand(pencil, Meaning("three points", say("Three points"), say("Given.")))
+    places = [hand.given(name, at) for name, at in zip(("before", "B", "after"), (before, b, after), strict=True)]
+    o = hand.cross("O", hand.bisect("first", *places[:2]), hand.bisect("second", *places[1:]))
+    off = np.abs(o.points - b) - rho
+    assert np.std(off) == pytest.approx(math.hypot(*across) / math.sin(crossing), rel=0.05)
+    assert np.std(chain.redrawn(pencil=pencil)["curvature"].readings["rho"].paper) > 0.5 * np.std(off)
+    beside = 1.645 * SIGMA * math.sqrt(2) / math.sin(crossing)
+    assert (rho - beside, rho + beside) == pytest.approx((59.3, 63.7), abs=0.2)
 
 
 def test_the_radius_through_three_points_of_an_ellipse_is_right_to_second_order():

@@ -135,8 +135,9 @@ def test_chords_set_end_to_end_start_from_the_end_of_the_one_before_and_gather_t
     ends = hand.end_to_end("ends", rays, cuts, [(slice(0, 4), slice(0, 3)), (slice(4, 6), slice(3, 4))])
     assert_allclose(ends.points.mean(axis=0).imag, [0, 10, 15, 5, 0, 2], atol=0.02)
     assert_allclose(ends.points.real, np.broadcast_to(cuts.points.real, ends.points.shape), atol=1e-12)
-    one = LINE * math.hypot(1, 10 / SQUARE)
-    expected = [0, one, one * math.sqrt(2), one * math.sqrt(3), 0, one]
+    # A chord of slope m that is turned rises by 1 + m^2 times as much as one that lies level.
+    each = [LINE * math.hypot(1, 10 * (1 + m**2) / SQUARE) for m in (1, 0.5, -1, 0.2)]
+    expected = [0, each[0], math.hypot(*each[:2]), math.hypot(*each[:3]), 0, each[3]]
     assert_allclose(scatter(ends.points.imag), expected, rtol=WITHIN, atol=1e-12)
 
 
