@@ -100,7 +100,7 @@ def test_the_parts_hold_the_rows_of_one_file_in_its_order(space, tmp_path):
     assert one["max_pressure_angle_rise_deg"].isna().sum() == 16  # the prime radius of 10 mm, under the offset
     assert (found.designs, found.parts) == (32, 7)
     assert found.feasible == one["feasible"].sum() > 0
-    assert found.ranges["max_v"] == (one["max_v"].min(), one["max_v"].max())
+    assert found.ranges["max_v"] == [one["max_v"].min(), one["max_v"].max()]
     assert found.bytes == sum(path.stat().st_size for path in (tmp_path / "out").glob("*.parquet"))
 
 
