@@ -29,9 +29,9 @@ MANIFEST = "_manifest.json"
 BLOCK = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
 """Designs that a worker has in memory at a time."""
 PART = 32 * BLOCK
-"""Designs of a part, seconds of work: what a dead worker loses."""
-MOST_PARTS = 10_000
-"""Of a large space: its parts are larger, and the manifest stays small."""
+"""Most designs of a part, seconds of work: what a dead worker loses."""
+SHARED_OUT, MOST_PARTS = 256, 10_000
+"""Parts of a small space, so that many workers share it, and of a large one, whose manifest stays small."""
 SAVED_EVERY = 1.0
 """Seconds between two states of the manifest; what a killed run has not recorded is computed again."""
 SHARE_OF_SAVING = 20
@@ -186,10 +186,10 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
 def parts_of(n: int) -> list[Record]:
     """The parts of n designs, none of them written: each but the last of whole blocks.
 
-    >>> [part["stop"] for part in parts_of(3_000_000)], parts_of(10**12)[-1]["file"]
-    ([1048576, 2097152, 3000000], 'part-09999.parquet')
+    >>> [part["stop"] for part in parts_of(70_000)], parts_of(10**9)[0]["stop"], parts_of(10**12)[0]["stop"]
+    ([32768, 65536, 70000], 1048576, 100007936)
     """
-    size = BLOCK * math.ceil(max(PART, n / MOST_PARTS) / BLOCK)
+    size = BLOCK * math.ceil(max(min(PART, n / SHARED_OUT), n / MOST_PARTS) / BLOCK)
     starts = range(0, n, size)
     return [
         {"file": f"part-{k:05d}.parquet", "first": first, "stop": min(first + size, n), "whole": False}

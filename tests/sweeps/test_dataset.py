@@ -188,6 +188,11 @@ def test_storage_without_folders_and_renames_holds_the_same(space, tmp_path):
     assert json.loads(held[MANIFEST])["whole"]
 
 
+def test_a_small_space_has_parts_for_many_workers():
+    assert len(parts_of(10**6)) == 31
+    assert len(parts_of(10**8)) == pytest.approx(256, rel=0.05)
+
+
 def test_a_million_million_designs_have_a_small_manifest_and_no_gap():
     parts = parts_of(10**12)
     assert len(parts) <= 10_000
