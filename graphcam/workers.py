@@ -30,6 +30,8 @@ JOBS_AHEAD = 32
 """Jobs that wait for an executor at a time where they come in order: they bound the memory."""
 ANSWERED_WITHIN = 5.0
 """Seconds in which a scheduler must answer."""
+FEWEST_EXPECTED = 32
+"""Workers of a cluster for which jobs are handed out, though fewer are there yet."""
 LAST_MOMENTS = 2.0
 """Seconds that a worker has to clear away when the run has been killed."""
 _working = threading.Event()
@@ -74,7 +76,9 @@ def cluster(address: str) -> WorkerPool:
         client: Any = Client(address, timeout=ANSWERED_WITHIN)
     except (OSError, ValueError) as error:
         raise OSError(f"no dask scheduler answers at {address!r} ({error})") from None
-    return WorkerPool(partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), 1), client.close)
+    return WorkerPool(
+        partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), FEWEST_EXPECTED), client.close
+    )
 
 
 def worker_pool(workers: int, address: str, *preloaded: str) -> WorkerPool:

@@ -29,9 +29,9 @@ MANIFEST = "_manifest.json"
 BLOCK = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
 """Designs that a worker has in memory at a time."""
 PART = 32 * BLOCK
-"""Designs of a part, seconds of work: what a dead worker loses."""
-MOST_PARTS = 10_000
-"""Of a large space: its parts are larger, and the manifest stays small."""
+"""Most designs of a part, seconds of work: what a dead worker loses."""
+SHARED_OUT, MOST_PARTS = 256, 10_000
+"""Parts of a small space, so that many workers share it, and of a large one, whose manifest stays small."""
 SAVED_EVERY = 1.0
 """Seconds between two states of the manifest; what a killed run has not recorded is computed again."""
 SHARE_OF_SAVING = 20
@@ -54,7 +54,7 @@ class Summary:
     bytes: int
     seconds: float
     feasible: int | None
-    ranges: dict[str, tuple[float, float] | None]
+    ranges: dict[str, list[float] | None]
 
     def __str__(self) -> str:
         kept = "" if self.feasible is None else f", {self.feasible} feasible"
@@ -107,7 +107,8 @@ def sweep_to_folder(
         why = f"{lost} of {len(parts)} parts are missing: their workers died or have no graphcam"
         raise OutputError(folder, why, "start again to go on")
     place.clear_drafts()
-    summary = summed(parts)
+    size, seconds = (sum(part[key] for part in parts) for key in ("bytes", "seconds"))
+    summary = Summary(len(space), len(parts), size, seconds, **joined(parts))
     manifest |= {"whole": True, "summary": asdict(summary)}
     save()
     return summary
@@ -118,9 +119,7 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
     _, file, first, stop = job
     if version != __version__:
         return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
-    start = time.thread_time()
-    held: dict[str, list[float]] = {}
-    feasible: int | None = None
+    start, blocks = time.thread_time(), []
     try:
         if MANIFEST not in place.sizes():
             return f"the worker on {socket.gethostname()} does not see it; all workers must share it"
@@ -130,45 +129,35 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
                 for k in range(first, stop, BLOCK):
                     columns = space.results((k, min(k + BLOCK, stop)))
                     write(columns)
-                    feasible = _tally(columns, space.varied, held, feasible)
+                    blocks.append(_seen(columns, len(space.varied)))
     except OutputError as error:
         return f"{error.why}; {error.remedy}"
-    except (OSError, ImportError) as error:
-        return f"{socket.gethostname()}: {error}"
-    ranges = {name: None if least > greatest else [least, greatest] for name, (least, greatest) in held.items()}
-    seconds = time.thread_time() - start
-    return sealed.record() | {"seconds": seconds, "feasible": feasible, "ranges": ranges}
+    except Exception as error:  # noqa: BLE001  every kind of storage fails in its own way, and what is raised is not told
+        return f"{type(error).__name__} on {socket.gethostname()}: {error}"
+    return sealed.record() | {"seconds": time.thread_time() - start} | joined(blocks)
 
 
-def _tally(columns: Columns, varied: Sequence[str], held: dict[str, list[float]], feasible: int | None) -> int | None:
-    """Widen the ranges by a block, and count its feasible designs too."""
-    # The sizes that vary stand first.
-    for name in list(columns)[len(varied) :]:
-        column = columns[name]
-        if name == "feasible":
-            feasible = (feasible or 0) + int(np.count_nonzero(column))
-            continue
-        finite = column[np.isfinite(column)]
-        least, greatest = held.get(name, (math.inf, -math.inf))
-        held[name] = [float(finite.min(initial=least)), float(finite.max(initial=greatest))]
-    return feasible
+def _seen(columns: Columns, varied: int) -> Record:
+    """What a summary keeps of a block; the sizes that vary stand first in it."""
+    found = dict(list(columns.items())[varied:])
+    feasible = found.pop("feasible", None)
+    finite = {name: column[np.isfinite(column)] for name, column in found.items()}
+    ends = {name: [float(x.min()), float(x.max())] if x.size else None for name, x in finite.items()}
+    return {"feasible": None if feasible is None else int(np.count_nonzero(feasible)), "ranges": ends}
 
 
-def summed(parts: Sequence[Record]) -> Summary:
-    """The summary of parts that are whole.
+def joined(records: Sequence[Record]) -> Record:
+    """What a summary keeps of blocks, or of parts, taken together.
 
-    >>> part = {"first": 0, "stop": 8, "bytes": 900, "seconds": 0.5, "feasible": 3, "ranges": {"max_v": [1.0, 2.0]}}
-    >>> summed([part, part | {"first": 8, "stop": 16, "ranges": {"max_v": None}}]).ranges
-    {'max_v': (1.0, 2.0)}
+    >>> joined([{"feasible": 3, "ranges": {"max_v": [1.0, 2.0]}}, {"feasible": 1, "ranges": {"max_v": None}}])
+    {'feasible': 4, 'ranges': {'max_v': [1.0, 2.0]}}
     """
-    ranges: dict[str, tuple[float, float] | None] = {}
-    for name in parts[0]["ranges"]:
-        found = [part["ranges"][name] for part in parts if part["ranges"][name] is not None]
-        ranges[name] = (min(least for least, _ in found), max(most for _, most in found)) if found else None
-    asked = parts[0]["feasible"] is not None
-    feasible = sum(part["feasible"] for part in parts) if asked else None
-    size, seconds = sum(part["bytes"] for part in parts), sum(part["seconds"] for part in parts)
-    return Summary(parts[-1]["stop"], len(parts), size, seconds, feasible, ranges)
+    counted = [record["feasible"] for record in records if record["feasible"] is not None]
+    ends: dict[str, list[float] | None] = {}
+    for name in records[0]["ranges"]:
+        found = [record["ranges"][name] for record in records if record["ranges"][name]]
+        ends[name] = [min(least for least, _ in found), max(most for _, most in found)] if found else None
+    return {"feasible": sum(counted) if counted else None, "ranges": ends}
 
 
 # --- the manifest ----------------------------------------------------------------------------------------------------
@@ -189,29 +178,23 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
         raise OutputError(place.url, f"its {MANIFEST} is no JSON", "choose an empty folder") from None
     if different := _difference(found, wanted):
         raise OutputError(place.url, f"it is of another sweep: {different} differs", "choose an empty folder")
-    # As they stand in the folder, each as long as it was recorded.
-    parts = [
-        part
-        if part["whole"] and sizes.get(part["file"]) == part["bytes"]
-        else _not_yet(part["file"], part["first"], part["stop"])
-        for part in found["parts"]
-    ]
-    return found | {"whole": False, "parts": parts}
+    for part in found["parts"]:
+        part["whole"] = part["whole"] and sizes.get(part["file"]) == part["bytes"]
+    return found | {"whole": False}
 
 
 def parts_of(n: int) -> list[Record]:
     """The parts of n designs, none of them written: each but the last of whole blocks.
 
-    >>> [part["stop"] for part in parts_of(3_000_000)], parts_of(10**12)[-1]["file"]
-    ([1048576, 2097152, 3000000], 'part-09999.parquet')
+    >>> [part["stop"] for part in parts_of(70_000)], parts_of(10**9)[0]["stop"], parts_of(10**12)[0]["stop"]
+    ([32768, 65536, 70000], 1048576, 100007936)
     """
-    size = BLOCK * math.ceil(max(PART, n / MOST_PARTS) / BLOCK)
+    size = BLOCK * math.ceil(max(min(PART, n / SHARED_OUT), n / MOST_PARTS) / BLOCK)
     starts = range(0, n, size)
-    return [_not_yet(f"part-{k:05d}.parquet", first, min(first + size, n)) for k, first in enumerate(starts)]
-
-
-def _not_yet(file: str, first: int, stop: int) -> Record:
-    return {"file": file, "first": first, "stop": stop, "whole": False}
+    return [
+        {"file": f"part-{k:05d}.parquet", "first": first, "stop": min(first + size, n), "whole": False}
+        for k, first in enumerate(starts)
+    ]
 
 
 def _difference(found: Any, wanted: Any, name: str = "") -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,6 +19,7 @@ from pages import HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
 from graphcam.given import laws
 from graphcam.mechanism.least_radius_translating import steepest_tangent
+from graphcam.sweeps.dataset import parts_of
 
 WITH_COMMANDS = [page for page in HOW_TO if blocks(page, "bash")]
 NAMED = "5-6-7-8-9"
@@ -29,6 +31,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "grade-a-group",
         "write-an-exercise",
         "check-my-drawing",
+        "sweep-many-cams",
         "add-a-law",
         "add-a-language",
         "add-a-construction",
@@ -255,3 +258,71 @@ def test_least_radius_sweep_and_task_of_the_page_take_its_laws(cells):
     assert computed["solution"].to_dict()["task"]["motion"]["phases"][0]["law"] == NAMED
     assert computed["sudden"].jumps == (0.4,)
     assert computed["sampled"](0.5)[0] == pytest.approx(0.5, abs=1e-12)
+
+
+# --- many cams -------------------------------------------------------------------------------------------------------
+
+MANY = "how-to/sweep-many-cams.md"
+
+
+@pytest.mark.slow
+def test_the_parts_of_the_page_are_read_as_it_says(tmp_path):
+    script = """
+import runpy, subprocess, sys
+command = [sys.executable, "-m", "graphcam", "sweep", "space.toml", "--out", "results", "--workers", "2"]
+subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+runpy.run_path("read.py")
+"""
+    permitted, radius, rows = followed(MANY, tmp_path, script).split()
+    assert int(rows) == 17 * 2 * 161 * 9
+    assert 0 < int(permitted) < int(rows)
+    assert 40 <= float(radius) < 80
+
+
+@pytest.mark.slow
+def test_the_search_of_the_page_ends_in_the_front_of_the_whole_grid(tmp_path):
+    script = """
+import itertools
+import numpy as np
+import search as s
+
+def pairs(cams, radii, strokes):
+    best = s.front(radii, strokes)
+    return sorted(zip(cams[best].tolist(), radii[best], strokes[best]))
+
+cams = np.array([*itertools.product(range(33), repeat=3)])
+radii = s.least_radii(cams)
+whole = pairs(cams, radii, s.ANGLES[cams[:, 0]] + s.ANGLES[cams[:, 1]])
+for s.NEAR in (1.0, 1.02, 1.05):
+    s.computed = 0
+    print(pairs(*s.search()) == whole, s.computed)
+some = np.random.default_rng(3).choice(len(cams), 12)
+every = np.arange(0, s.RADII.size, 8)
+for cam, radius in zip(cams[some], radii[some]):
+    permitted = s.swept(np.repeat(cam[None], every.size, axis=0), s.RADII[every], "feasible")
+    print((permitted == (s.RADII[every] >= radius)).all(), s.RADII.size * len(cams))
+"""
+    missed, near, nearer, *monotone = (line.split() for line in followed(MANY, tmp_path, script).splitlines())
+    assert missed[0] == "False"
+    assert [line[0] for line in (near, nearer, *monotone)] == ["True"] * 14
+    assert f"{int(nearer[1]):,} of {round(int(monotone[0][1]) / 1e6)} million" in text_of(MANY)
+
+
+def test_what_a_sweep_takes_follows_from_what_a_design_takes():
+    text = text_of(MANY)
+    all_of_them, most, feasible, few = map(
+        float,
+        re.search(
+            r"took (\S+) µs and at most (\S+) bytes.*?quantities, (\S+) µs and (\S+) bytes", text, re.DOTALL
+        ).groups(),
+    )
+    for designs, row in ((10**9, "10⁹"), (10**12, "10¹²")):
+        cells = re.search(rf"\| {row} \| (.*) \|", text)[1].replace(",", "").split(" | ")
+        parts, hours, size, hours_feasible, size_feasible = (float(cell.split()[0]) for cell in cells)
+        assert parts == len(parts_of(designs))
+        unit = designs / 1e9
+        for told, micros in ((hours, all_of_them), (hours_feasible, feasible)):
+            assert told == pytest.approx(designs * micros * 1e-6 / 3600, rel=0.05)
+        for told, each in ((size, most), (size_feasible, few)):
+            assert told == each
+        assert {cell.split()[1] for cell in cells if " " in cell} == {"GB" if unit == 1 else "TB"}

@@ -100,7 +100,7 @@ def test_the_parts_hold_the_rows_of_one_file_in_its_order(space, tmp_path):
     assert one["max_pressure_angle_rise_deg"].isna().sum() == 16  # the prime radius of 10 mm, under the offset
     assert (found.designs, found.parts) == (32, 7)
     assert found.feasible == one["feasible"].sum() > 0
-    assert found.ranges["max_v"] == (one["max_v"].min(), one["max_v"].max())
+    assert found.ranges["max_v"] == [one["max_v"].min(), one["max_v"].max()]
     assert found.bytes == sum(path.stat().st_size for path in (tmp_path / "out").glob("*.parquet"))
 
 
@@ -186,6 +186,11 @@ def test_storage_without_folders_and_renames_holds_the_same(space, tmp_path):
         tmp_path / "out"
     )
     assert json.loads(held[MANIFEST])["whole"]
+
+
+def test_a_small_space_has_parts_for_many_workers():
+    assert len(parts_of(10**6)) == 31
+    assert len(parts_of(10**8)) == pytest.approx(256, rel=0.05)
 
 
 def test_a_million_million_designs_have_a_small_manifest_and_no_gap():
