@@ -9,7 +9,7 @@ import math
 import os
 import re
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from io import StringIO
 from pathlib import Path as File
 from typing import IO, Any, cast
@@ -115,12 +115,11 @@ class _GroupArtist(Artist):
     def draw(self, renderer: RendererBase) -> None:
         """Draw into the group of the renderer that bears the group's key."""
         renderer.open_group("group", gid=self.group.key)
-        for kind, role, run in self.group.runs():
-            if kind == "text":
-                for text in run:
-                    self._draw_text(renderer, cast(Text, text))
-            else:
+        for kind, role, run in _runs(self.group):
+            if isinstance(run, Path):
                 self._draw_path(renderer, run, kind, role)
+            else:
+                self._draw_texts(renderer, run, role)
         renderer.close_group("group")
 
     @property
@@ -141,7 +140,7 @@ class _GroupArtist(Artist):
             context.set_clip_rectangle(self.axes.bbox)
         return context
 
-    def _draw_path(self, renderer: RendererBase, entities: Sequence[Entity], kind: str, role: str) -> None:
+    def _draw_path(self, renderer: RendererBase, path: Path, kind: str, role: str) -> None:
         style = STYLES[role]
         context = self._context(renderer, style.colour, 0.0 if kind == "filled" else style.width)
         context.set_joinstyle("miter" if kind == "filled" else "round")
@@ -150,27 +149,45 @@ class _GroupArtist(Artist):
         if style.pattern and kind == "line":
             context.set_dashes(0.0, [self._times * POINT * mm for mm in style.pattern])
         fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
-        path = Path.make_compound_path(*(_path(entity) for entity in entities))
-        path.should_simplify = False
         renderer.draw_path(context, path, self.to_device, fill)
         context.restore()
 
-    def _draw_text(self, renderer: RendererBase, text: Text) -> None:
-        context = self._context(renderer, STYLES[text.role].colour, STYLES[text.role].width)
-        # The renderers place the left end of the base line.
-        shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-        start = text.at - cmath.rect(shift, text.angle)
-        x, y = self.to_device.transform((start.real, start.imag))
+    def _draw_texts(self, renderer: RendererBase, texts: Sequence[Text], role: str) -> None:
+        context = self._context(renderer, STYLES[role].colour, STYLES[role].width)
+        places = self.to_device.transform(_xy(np.array([_start(text) for text in texts])))
         if renderer.flipy():
-            y = renderer.get_canvas_width_height()[1] - y
-        font = _font(self._times * text.height)
-        renderer.draw_text(context, x, y, text.text, font, math.degrees(text.angle), ismath=False)
+            places[:, 1] = renderer.get_canvas_width_height()[1] - places[:, 1]
+        times = self._times
+        for text, (x, y) in zip(texts, places.tolist(), strict=True):
+            font = _font(times * text.height)
+            renderer.draw_text(context, x, y, text.text, font, math.degrees(text.angle), ismath=False)
         context.restore()
+
+
+def _start(text: Text) -> complex:
+    """The left end of the base line, which the renderers place."""
+    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
+    return text.at - cmath.rect(shift, text.angle)
 
 
 @cache
 def _font(height: float) -> FontProperties:
     return FontProperties(family=FAMILY, size=points_size(height))
+
+
+# PDF, SVG and PNG of a page are drawn one after another from the same paths.
+@lru_cache(maxsize=256)
+def _runs(group: Group) -> list[tuple[str, str, Path | list[Text]]]:
+    """The runs of a group, the lines of each as one path."""
+    found: list[tuple[str, str, Path | list[Text]]] = []
+    for kind, role, run in group.runs():
+        if kind == "text":
+            found.append((kind, role, cast(list[Text], run)))
+        else:
+            path = Path.make_compound_path(*map(_path, run))
+            path.should_simplify = False
+            found.append((kind, role, path))
+    return found
 
 
 def _path(entity: Entity) -> Path:

@@ -34,7 +34,7 @@ def png_of(pixels: NDArray[np.uint8], dpi: float) -> bytes:
         (b"IHDR", header),
         (b"tEXt", b"Software\0graphcam"),
         (b"pHYs", struct.pack(">IIB", a_metre, a_metre, 1)),
-        (b"IDAT", zlib.compress(rows, QUICK)),
+        (b"IDAT", zlib.compress(rows.data, QUICK)),
         (b"IEND", b""),
     )
     return SIGNATURE + b"".join(_chunk(name, data) for name, data in chunks)
