@@ -22,6 +22,8 @@ CHUNK = 16_384
 """Values that are computed at a time: their arrays stay in the processor's cache, and bound the memory."""
 LONG = 512
 """From so many values a piece on it is quicker to slice than to gather."""
+ORDERED = 2048
+"""From so many values a piece on it is quicker to bring them into the pieces' order than to gather them by formula."""
 COMPARED = 64
 """Up to so many pieces it is quicker to compare every value with every start than to search for its place."""
 
@@ -60,9 +62,10 @@ def in_phase(u: Floats) -> Floats:
     return np.where((u >= 0) & (u <= 1), u, np.nan)
 
 
-def at_rest(x: Floats) -> Sequence[Floats | float]:
-    """The formula of a dwell, which stays at its base: it is known by its name, and costs nothing."""
-    return np.zeros((4, *x.shape))
+def at_rest(x: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """The formula of a dwell, which stays at its base; it is known by its name and not computed."""
+    still = np.zeros_like(x)
+    return still, still, still, still
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +119,7 @@ class Piecewise:
                 _slice(met, t, out)
                 return
         number = self._numbers(t, side)
-        if self._alike or t.size < LONG * len(self.pieces):
+        if self._alike or t.size < ORDERED * len(self.pieces):
             self.gather(number.astype(np.intp), t, self._places, out)
             return
         order = np.argsort(number, kind="stable")
@@ -209,4 +212,9 @@ def sine_cosine(x: Floats) -> tuple[Floats, Floats]:
     """
     t = np.tan(0.5 * x)
     q = 1 / (1 + t * t)
-    return 2 * t * q, (1 - t) * (1 + t) * q
+    cosine = 1 - t
+    cosine *= 1 + t
+    cosine *= q
+    t *= 2
+    t *= q
+    return t, cosine
