@@ -294,7 +294,7 @@ class Motion(Shown):
     def _ends(self) -> Floats:
         """(2, p) the end of its phase that a piece is seen from, 0 or 1, and the way from there."""
         ways = np.sign([piece.length for piece in self._piecewise.pieces])
-        return np.array([ways < 0, ways])
+        return np.array([ways < 0, ways], dtype=np.float64)
 
 
 def _in_words(phase: Phase) -> str:

@@ -146,11 +146,11 @@ class Cam(Shown):
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
-        return self._in_chunks(self._write_pitch, phi, side, (2,))[0]
+        return self._in_chunks(self._write_pitch, phi, side, points=1)[0]
 
     def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the working profile on the cam [mm]: the pitch curve moved inwards by the roller radius."""
-        return self._in_chunks(self._write_profile, phi, side, (2,))[0]
+        return self._in_chunks(self._write_profile, phi, side, points=1)[0]
 
     def pressure_angle(self, phi: ArrayLike) -> Floats:
         """alpha [rad] between the contact normal and the trace point's motion, positive on an ordinary rise."""
@@ -158,11 +158,11 @@ class Cam(Shown):
 
     def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        return self._in_chunks(self._write_curvature, phi, side, ())[0]
+        return self._in_chunks(self._write_curvature, phi, side, numbers=1)[0]
 
     def curves(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats]:
         """Pitch curve, profile (..., 2) [mm] and curvature of the pitch curve [1/mm] together, in half the time."""
-        pitch, profile, curvature = self._in_chunks(self._write_curves, phi, side, (2,), (2,), ())
+        pitch, profile, curvature = self._in_chunks(self._write_curves, phi, side, points=2, numbers=1)
         return pitch, profile, curvature
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints:
@@ -228,18 +228,17 @@ class Cam(Shown):
         return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
 
     def _in_chunks(
-        self, write: Callable[..., None], phi: ArrayLike, side: Side, *rows: tuple[int, ...]
+        self, write: Callable[..., None], phi: ArrayLike, side: Side, points: int = 0, numbers: int = 0
     ) -> list[Floats]:
-        """What is written of the angles and (s, v, a, j), in arrays with a row of each shape at every angle."""
+        """So many arrays of points, and of numbers, that are written of the angles and (s, v, a, j)."""
         phi = np.asarray(phi, dtype=np.float64)
-        flat, sizes = phi.ravel(), [phi.size * math.prod(row) for row in rows]
-        # In one block, because new pages of memory for each array would take as long as the half of what is computed.
-        parts = np.split(np.empty(sum(sizes)), np.cumsum(sizes)[:-1])
-        arrays = [part.reshape((phi.size, *row)) for part, row in zip(parts, rows, strict=True)]
+        flat = phi.ravel()
+        # Arrays in one block each, because finding memory for every one takes the system as long as all this computing.
+        arrays = [*np.empty((points, phi.size, 2)), *np.empty((numbers, phi.size))]
         for here in chunks(phi.size):
             turned = wrap(flat[here])
             write(turned, self.motion(turned, side), *(array[here] for array in arrays))
-        return [array.reshape((*phi.shape, *row)) for array, row in zip(arrays, rows, strict=True)]
+        return [array.reshape((*phi.shape, *array.shape[1:])) for array in arrays]
 
     # What follows from (s, v, a, j) alone, whatever the angle or the phase they came from.
 
