@@ -4,7 +4,9 @@ Beside it stand running sums, in memory copies, and the order of the curvature t
 """
 
 import math
+import tracemalloc
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -16,7 +18,11 @@ from graphcam.bench.scenes import ARM, FOLLOWERS, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import INSIDE, exact_profile_error, inner_places, turn
 from graphcam.comparison.integrals import accurate_cumsum
+from graphcam.given.follower import Translating
 from graphcam.given.laws import Floats, law
+from graphcam.given.motion import FULL_TURN, Motion, Return, Rise
+from graphcam.given.pieces import CHUNK
+from graphcam.mechanism.cam import Cam, largest_roller
 from graphcam.mechanism.three_points import circumradius
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, sweep
@@ -41,6 +47,10 @@ GOALS = (
     | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
 )
 """Of the laws: polynomial, trigonometric, piecewise."""
+PASSES, QUOTIENTS = 60, 4
+"""Of a block of values, that cam points take; see :func:`_bare_cam_points`."""
+LOBES, POINTS = 200, 2000
+"""Phases of a cam on which a large roller leaves many loops, and points of what is left of its profile."""
 SUMMED = 10_000_000
 """Values of the running sums."""
 HALVINGS = 8
@@ -69,6 +79,7 @@ def exact_rows(gauge: Gauge) -> Iterator[Row]:
     yield from _laws(gauge.unit(gauge.stations), timer)
     yield from _cam_points(gauge.unit(gauge.points), few, timer)
     yield from _extremes(few, timer)
+    yield from _undercuts(timer)
     yield from _sweeps(timer)
     yield from _least_radii(few, timer)
     yield from _sums(timer)
@@ -78,7 +89,19 @@ def exact_rows(gauge: Gauge) -> Iterator[Row]:
 def _laws(unit: Unit, timer: Timer) -> Iterator[Row]:
     u, what = np.linspace(0, 1, unit.n), f"f, f', f'', f''' at {unit.n} places"
     for name, goal in GOALS.items():
-        yield unit.row(f"law {name}", what, timer.seconds(partial(law(name), u)), goal, _law_error(name))
+        growing, mixed = timer.seconds(partial(law(name), u)), timer.seconds(partial(law(name), _mixed(u)))
+        yield unit.row(f"law {name}", what, growing, goal, _law_error(name))
+        yield _in_any_order(f"law {name}", mixed, growing)
+
+
+def _mixed(places: Floats) -> Floats:
+    """The same places in no order, which is always the same."""
+    return np.random.default_rng(2).permutation(places)
+
+
+def _in_any_order(name: str, mixed: float, growing: float) -> Row:
+    """The time at places in any order beside that at the same places in growing order."""
+    return Row(name, "places in any order", mixed / growing, "times sorted", "<= 1.5", None, mixed)
 
 
 def _law_error(name: str) -> float | None:
@@ -94,13 +117,59 @@ def _law_error(name: str) -> float | None:
 def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[Row]:
     where, phi = scene("translating", "3-4-5"), turn(unit.n)
     motion, cam, at = where.board.motion, where.cam, f"at {unit.n} stations"
-    yield unit.row("motion", f"s, v, a, j {at}", timer.seconds(partial(motion, phi)))
+    growing, mixed = timer.seconds(partial(motion, phi)), _mixed(phi)
+    yield unit.row("motion", f"s, v, a, j {at}", growing)
+    yield _in_any_order("motion", timer.seconds(partial(motion, mixed)), growing)
     # As many as of one drawing: the overhead of a call counts.
     yield few.row("motion", f"s, v, a, j at {few.n} stations", timer.seconds(partial(motion, turn(few.n))), "<= 100 µs")
     error_eps = exact_profile_error(where) / reference.EPS if reference.available() else None
     yield unit.row("profile", f"working profile {at}", timer.seconds(partial(cam.profile, phi)), "", error_eps)
     what = f"pitch curve, profile and curvature {at}"
-    yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 2.5")
+    yield unit.row("cam points", what, timer.seconds(partial(cam.curves, phi)), "<= 1.0")
+    yield unit.row("cam points", "the same in any order", timer.seconds(partial(cam.curves, mixed)), "<= 1.6")
+    yield unit.row(
+        "cam points, floor", "their arithmetic alone, in place", timer.seconds(partial(_bare_cam_points, unit.n))
+    )
+
+
+def _bare_cam_points(n: int) -> None:
+    """The passes that no order of the computing saves: nothing is new memory, and nothing is chosen.
+
+    Of the 3-4-5 law and its derivatives 21 products and sums and a quotient; of the sine and the cosine 8, a quotient
+    and a tangent; of the curves 31, two quotients and a root.
+    """
+    x, y, out = np.ones(CHUNK), np.ones(CHUNK), np.empty(CHUNK)
+    for _ in range(0, n, CHUNK):
+        for _ in range(PASSES // 2):
+            np.multiply(x, y, out)
+            np.add(x, y, out)
+        for _ in range(QUOTIENTS):
+            np.divide(x, y, out)
+        np.sqrt(x, out)
+        np.tan(x, out)
+
+
+def _undercuts(timer: Timer) -> Iterator[Row]:
+    """A cam of many loops, which are all sought anew: time and memory."""
+    phases = [(Rise, Return)[k % 2](0.5, FULL_TURN / LOBES, "cosine") for k in range(LOBES)]
+    knife = Cam(Motion(phases), Translating(), 100.0)
+    cam = replace(knife, follower=Translating(roller_radius=1.5 * largest_roller(knife)))
+    for name, work in (
+        ("undercuts", lambda: replace(cam).undercuts()),
+        ("trimmed profile", lambda: replace(cam).trimmed_profile(POINTS)),
+    ):
+        seconds, what = timer.seconds(work), f"{LOBES} phases, {len(cam.undercuts())} loops"
+        yield Row(name, what, 1e3 * seconds, "ms", "<= 500", None, seconds)
+        yield Row(name, f"{what}: greatest memory", _peak(work) / 1e6, "MB", "<= 120", None, seconds)
+
+
+def _peak(work: Callable[[], object]) -> float:
+    """The most memory [bytes] that a piece of work holds at once."""
+    tracemalloc.start()
+    work()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return peak
 
 
 def _extremes(unit: Unit, timer: Timer) -> Iterator[Row]:
@@ -167,6 +236,8 @@ def _sums(timer: Timer) -> Iterator[Row]:
         seconds, error = timer.seconds(partial(work, values)), abs(float(work(values)[-1]) - exact) / exact
         eps = error / reference.EPS
         yield Row(f"running sum, {name}", what, seconds / copy, "memory copies", goal, eps, seconds)
+    filled = timer.seconds(lambda: np.empty_like(values).fill(0.0))
+    yield Row("running sum, floor", "new memory for the result", filled / copy, "memory copies", "", None, filled)
 
 
 def _three_points(timer: Timer) -> Iterator[Row]:

@@ -118,8 +118,8 @@ def _less_sine(t: Floats, sine: Floats) -> Floats:
     difference = t - sine
     if isinstance(t, float):
         return _of_series(t) if t < 1 else difference
-    small = t < 1
-    if small.any():
+    small = np.flatnonzero(t < 1)  # as numbers, which cost less than a mask where they lie scattered
+    if small.size:
         difference[small] = _of_series(t[small])
     return difference
 

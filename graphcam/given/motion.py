@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side, law
 from graphcam.given.motion_law import Law
-from graphcam.given.pieces import Piece, Piecewise, chunks
+from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
 from graphcam.showing import Shown, in_lines
 
 CLOSURE = 1e-9
@@ -257,11 +257,11 @@ class Motion(Shown):
         shape, index, flat = index.shape, index.ravel(), fraction.ravel()
         out = np.empty((4, flat.size))
         for here in chunks(flat.size):
-            u = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
+            u = in_phase(flat[here])
             edges = self._edges[index[here]]
             passed = edges <= u[:, None] if side == "right" else edges < u[:, None]
             piece = self.first_piece[index[here]] + np.count_nonzero(passed, axis=1)
-            self._piecewise.gather(piece, np.where(self._from_end[piece], 1 - u, u), out[:, here])
+            self._piecewise.gather(piece, u, self._ends, out[:, here])
         s, v, a, j = out.reshape(4, *shape)
         return s, v, a, j
 
@@ -307,9 +307,10 @@ class Motion(Shown):
         return edges
 
     @cached_property
-    def _from_end(self) -> NDArray[np.bool_]:
-        """(p,) whether a piece is seen from the end of its phase."""
-        return np.array([piece.length < 0 for piece in self._piecewise.pieces])
+    def _ends(self) -> Floats:
+        """(2, p) the end of its phase that a piece is seen from, 0 or 1, and the way from there."""
+        ways = np.sign([piece.length for piece in self._piecewise.pieces])
+        return np.array([ways < 0, ways], dtype=np.float64)
 
 
 def _in_words(phase: Phase) -> str:
@@ -322,15 +323,10 @@ def _in_words(phase: Phase) -> str:
     return f"{phase.kind} by {phase.lift:.6g} {over}, {law.name}{ratio}"
 
 
-def _rest(x: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    still = np.zeros_like(x)
-    return still, still, still, still
-
-
 def _pieces(phase: Phase, ends: tuple[float, float], levels: tuple[float, float]) -> list[Piece]:
     """The pieces of a phase between two cam angles [rad] and two displacements."""
     if isinstance(phase, Dwell):
-        return [Piece(_rest, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
+        return [Piece(at_rest, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
     h, angle, up = phase.lift, phase.angle, phase.direction > 0
     # A return is measured from its lower end, where the missing lift keeps its digits.
     low = levels[0] if up else levels[1]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks
+from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
 """f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
@@ -125,8 +125,7 @@ class Law:
         flat = u.ravel()
         out = np.empty((4, flat.size))
         for here in chunks(flat.size):
-            inside = np.where((flat[here] >= 0) & (flat[here] <= 1), flat[here], np.nan)
-            self._piecewise.fill(inside, side, out[:, here])
+            self._piecewise.fill(in_phase(flat[here]), side, out[:, here])
         return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
 
     def at(self, u: float, side: Side = "right") -> list[float]:

@@ -2,10 +2,11 @@
 
 Angles that grow, as a turn's do, are cut at the breaks into slices of one piece each, which cost a dozen passes of the
 processor and no sorting.  Angles in any other order, and few of them, are gathered by their formula, which many pieces
-share: both halves of a law, and the same law's rise and return.  Both ways do the same arithmetic to every value.
+share: both halves of a law, and the same law's rise and return.  They are not sorted either: comparing them with every
+start tells their pieces.  Both ways do the same arithmetic to every value.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, Literal, NamedTuple
@@ -21,6 +22,10 @@ CHUNK = 16_384
 """Values that are computed at a time: their arrays stay in the processor's cache, and bound the memory."""
 LONG = 512
 """From so many values a piece on it is quicker to slice than to gather."""
+ORDERED = 2048
+"""From so many values a piece on it is quicker to bring them into the pieces' order than to gather them by formula."""
+COMPARED = 64
+"""Up to so many pieces it is quicker to compare every value with every start than to search for its place."""
 
 
 class Piece(NamedTuple):
@@ -46,6 +51,23 @@ def chunks(n: int) -> Iterator[slice]:
     return (slice(k, k + CHUNK) for k in range(0, n, CHUNK))
 
 
+def in_phase(u: Floats) -> Floats:
+    """The fractions of a phase, with NaN in place of those outside [0, 1].
+
+    >>> in_phase(np.array([-0.1, 0.5, 1.0])).tolist()
+    [nan, 0.5, 1.0]
+    """
+    if u.size and u.min() >= 0 and u.max() <= 1:
+        return u  # the usual case, and to choose one by one is dear
+    return np.where((u >= 0) & (u <= 1), u, np.nan)
+
+
+def at_rest(x: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """The formula of a dwell, which stays at its base; it is known by its name and not computed."""
+    still = np.zeros_like(x)
+    return still, still, still, still
+
+
 @dataclass(frozen=True, eq=False)
 class Piecewise:
     """A function of t and its first three derivatives, made of pieces in order; it begins at the first one's start.
@@ -67,6 +89,8 @@ class Piecewise:
     """those that differ"""
     _formula_of: NDArray[np.intp] = field(init=False)
     """(p,) the number of each piece's formula"""
+    _alike: bool = field(init=False)
+    """whether all that moves has one formula"""
     _places: Floats = field(init=False)
     """(2, p) origins and lengths"""
     _units: Floats = field(init=False)
@@ -79,6 +103,7 @@ class Piecewise:
         object.__setattr__(self, "starts", np.array(starts))
         object.__setattr__(self, "_formulas", distinct)
         object.__setattr__(self, "_formula_of", np.array([number[formula] for formula in formulas]))
+        object.__setattr__(self, "_alike", len({*distinct} - {at_rest}) == 1)
         object.__setattr__(self, "_places", np.array([origins, lengths]))
         object.__setattr__(self, "_units", np.array([bases, *zip(*factors, strict=True)], dtype=np.float64))
 
@@ -89,38 +114,90 @@ class Piecewise:
         """
         # Whether t lies before or after a break is decided among the t: x, a quotient, is rounded.
         if t.size >= LONG and np.all(t[1:] >= t[:-1]):
-            cuts = np.searchsorted(t, self.starts, side="left" if side == "right" else "right").tolist()
-            slices = [slice(*ends) for ends in pairwise([0, *cuts[1:], t.size])]
-            met = [k for k, here in enumerate(slices) if here.start < here.stop]
+            met = self._met(np.searchsorted(t, self.starts[1:], side="left" if side == "right" else "right"), t.size)
             if t.size >= LONG * len(met):
-                for k in met:
-                    formula, _, origin, length, base, factors = self.pieces[k]
-                    _store(out, slices[k], formula((t[slices[k]] - origin) / length), (base, *factors))
-                out += 0.0  # so that zero is +0
+                _slice(met, t, out)
                 return
-        number = self.starts[1:].searchsorted(t, side=side)
-        origins, lengths = self._places
-        self.gather(number, (t - origins[number]) / lengths[number], out)
+        number = self._numbers(t, side)
+        if self._alike or t.size < ORDERED * len(self.pieces):
+            self.gather(number.astype(np.intp), t, self._places, out)
+            return
+        order = np.argsort(number, kind="stable")
+        place, ordered = np.empty_like(order), np.empty_like(out)
+        place[order] = np.arange(t.size)
+        met = self._met(np.searchsorted(number[order], np.arange(1, len(self.pieces))), t.size)
+        _slice(met, t[order], ordered)
+        for row, values in zip(out, ordered, strict=True):
+            values.take(place, out=row, mode="clip")
+        _keep_missing(t, out)
 
-    def gather(self, number: NDArray[np.intp], x: Floats, out: Floats) -> None:
-        """Write the values at the distances x in the pieces of those numbers, (n,) each, into ``out``, (4, n)."""
-        formula_of = self._formula_of[number]
-        for k, count in enumerate(np.bincount(formula_of).tolist()):
-            if count:
-                here = slice(None) if count == number.size else (formula_of == k).nonzero()[0]
-                units = self._units.take(number[here], axis=1)
-                _store(out, here, self._formulas[k](x[here]), list(units))
-        out += 0.0 * x  # so that zero is +0, and NaN stays NaN even where a constant takes its place
+    def _met(self, cuts: NDArray[np.intp], n: int) -> list[tuple[Piece, slice]]:
+        """The pieces that n values in order lie in, and which of them lie in each."""
+        ends = pairwise([0, *cuts.tolist(), n])
+        return [(piece, slice(*here)) for piece, here in zip(self.pieces, ends, strict=True) if here[0] < here[1]]
+
+    def _numbers(self, t: Floats, side: Side) -> NDArray[Any]:
+        """(n,) the number of the piece that each t lies in; of few pieces in a byte, for which sorting is by radix."""
+        if len(self.pieces) > COMPARED:
+            return self.starts[1:].searchsorted(t, side=side)
+        number, compare = np.zeros(t.shape, dtype=np.uint8), np.greater_equal if side == "right" else np.greater
+        for start in self.starts[1:].tolist():
+            number += compare(t, start).view(np.uint8)
+        return number
+
+    def gather(self, number: NDArray[np.intp], t: Floats, places: Floats, out: Floats) -> None:
+        """Write the values in the pieces of those numbers, (n,), into ``out``, (4, n).
+
+        t : (n,) from which the distances x follow;  places : (2, p) origins and lengths for it
+        """
+        if len(self._formulas) == 1:
+            self._write_one(0, number, t, places, out)
+        else:
+            self._units[0].take(number, out=out[0], mode="clip")
+            out[1:] = 0.0
+            formula_of = self._formula_of.take(number)
+            met = np.zeros(len(self._formulas), dtype=bool)
+            met[formula_of] = True
+            for k in np.flatnonzero(met).tolist():
+                if self._formulas[k] is not at_rest:
+                    here = np.flatnonzero(formula_of == k)
+                    part = np.empty((4, here.size))
+                    self._write_one(k, number.take(here), t.take(here), places, part)
+                    for row, values in zip(out, part, strict=True):
+                        row[here] = values
+        _keep_missing(t, out)
+
+    def _write_one(self, formula: int, number: NDArray[np.intp], t: Floats, places: Floats, out: Floats) -> None:
+        """Write the values of a formula, each in the units of its own piece."""
+        x = t - places[0].take(number)
+        x /= places[1].take(number)
+        _write(out, self._formulas[formula](x), (unit.take(number) for unit in self._units))
 
 
-def _store(
-    out: Floats, here: slice | NDArray[np.intp], values: Sequence[Floats | float], units: Sequence[Floats | float]
-) -> None:
-    """Write the values, in those units, to some columns: s = base + factor f, and the derivatives."""
+def _slice(met: list[tuple[Piece, slice]], t: Floats, out: Floats) -> None:
+    """Write the values at t, which lie in the order of the pieces."""
+    for (formula, _, origin, length, base, factors), here in met:
+        if formula is at_rest:
+            out[:, here] = [[base], [0.0], [0.0], [0.0]]
+        else:
+            x = t[here] - origin
+            x /= length
+            _write(out[:, here], formula(x), (base, *factors))
+
+
+def _keep_missing(t: Floats, out: Floats) -> None:
+    """NaN for NaN, even where a constant took its place."""
+    if np.isnan(np.min(t, initial=0.0)):
+        out[:, np.isnan(t)] = np.nan
+
+
+def _write(out: Floats, values: Sequence[Floats | float], units: Iterable[Floats | float]) -> None:
+    """Write the values in those units: s = base + factor f, and the derivatives."""
     base, *factors = units
     for row, value, factor in zip(out, values, factors, strict=True):
-        row[here] = factor * value
-    out[0, here] += base
+        np.multiply(factor, value, out=row)
+    out[0] += base
+    out[1:] += 0.0  # so that zero is +0
 
 
 def sine_cosine(x: Floats) -> tuple[Floats, Floats]:
@@ -135,4 +212,9 @@ def sine_cosine(x: Floats) -> tuple[Floats, Floats]:
     """
     t = np.tan(0.5 * x)
     q = 1 / (1 + t * t)
-    return 2 * t * q, (1 - t) * (1 + t) * q
+    cosine = 1 - t
+    cosine *= 1 + t
+    cosine *= q
+    t *= 2
+    t *= q
+    return t, cosine

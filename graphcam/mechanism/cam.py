@@ -147,11 +147,11 @@ class Cam(Shown):
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
-        return self._in_chunks(self._pitch, phi, side, 2)
+        return self._in_chunks(self._write_pitch, phi, side, points=1)[0]
 
     def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the working profile on the cam [mm]: the pitch curve moved inwards by the roller radius."""
-        return self._in_chunks(lambda turned, values: self._curves(turned, values)[1], phi, side, 2)
+        return self._in_chunks(self._write_profile, phi, side, points=1)[0]
 
     def pressure_angle(self, phi: ArrayLike) -> Floats:
         """alpha [rad] between the contact normal and the trace point's motion, positive on an ordinary rise."""
@@ -159,17 +159,12 @@ class Cam(Shown):
 
     def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        return self._in_chunks(lambda _, values: self.kinematics.curvature(values), phi, side)
+        return self._in_chunks(self._write_curvature, phi, side, numbers=1)[0]
 
     def curves(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats]:
         """Pitch curve, profile (..., 2) [mm] and curvature of the pitch curve [1/mm] together, in half the time."""
-        phi = np.asarray(phi, dtype=np.float64)
-        flat, n = phi.ravel(), phi.size
-        pitch, profile, curvature = np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
-        for here in chunks(n):
-            turned = wrap(flat[here])
-            pitch[here], profile[here], curvature[here] = self._curves(turned, self.motion(turned, side))
-        return pitch.reshape((*phi.shape, 2)), profile.reshape((*phi.shape, 2)), curvature.reshape(phi.shape)
+        pitch, profile, curvature = self._in_chunks(self._write_curves, phi, side, points=2, numbers=1)
+        return pitch, profile, curvature
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints:
         """All of this at the fraction u of a phase, so that an end of a phase is seen from inside.
@@ -177,7 +172,8 @@ class Cam(Shown):
         phase : index of the phase, one or as many as there are u
         """
         phi, values = self.motion.angle_at(phase, u), self.motion.at(phase, u, side)
-        pitch, profile, curvature = self._curves(phi, values)
+        (pitch, profile), curvature = np.empty((2, *phi.shape, 2)), np.empty(phi.shape)
+        self._write_curves(phi, values, pitch, profile, curvature)
         return CamPoints(phi, values, pitch, profile, self._pressure_angle(values), curvature)
 
     def extremes(self) -> Extremes:
@@ -234,32 +230,46 @@ class Cam(Shown):
         return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
 
     def _in_chunks(
-        self, values_of: Callable[[Floats, Values], Floats], phi: ArrayLike, side: Side, *row: int
-    ) -> Floats:
-        """What follows from the angle and (s, v, a, j), with the shape ``row`` at each angle."""
+        self, write: Callable[..., None], phi: ArrayLike, side: Side, points: int = 0, numbers: int = 0
+    ) -> list[Floats]:
+        """So many arrays of points, and of numbers, that are written of the angles and (s, v, a, j)."""
         phi = np.asarray(phi, dtype=np.float64)
-        flat, out = phi.ravel(), np.empty((phi.size, *row))
+        flat = phi.ravel()
+        # Arrays in one block each, because finding memory for every one takes the system as long as all this computing.
+        arrays = [*np.empty((points, phi.size, 2)), *np.empty((numbers, phi.size))]
         for here in chunks(phi.size):
             turned = wrap(flat[here])
-            out[here] = values_of(turned, self.motion(turned, side))
-        return out.reshape((*phi.shape, *row))
+            write(turned, self.motion(turned, side), *(array[here] for array in arrays))
+        return [array.reshape((*phi.shape, *array.shape[1:])) for array in arrays]
 
     # What follows from (s, v, a, j) alone, whatever the angle or the phase they came from.
 
-    def _curves(self, phi: Floats, values: Values) -> tuple[Floats, Floats, Floats]:
-        """Points of the pitch curve and of the profile, and the pitch curve's curvature."""
-        point, normal, curvature = self.kinematics.path(values)
-        axes, r = self._axes(phi), self.roller_radius
-        return _seen(point, axes), _seen((point[0] - r * normal[0], point[1] - r * normal[1]), axes), curvature
+    def _write_pitch(self, phi: Floats, values: Values, pitch: Floats) -> None:
+        z = self.kinematics.point(values)
+        _see((z.real, z.imag), self._axes(phi), pitch)
+
+    def _write_profile(self, phi: Floats, values: Values, profile: Floats) -> None:
+        point, normal, _ = self.kinematics.path(values)
+        _see(self._inset(point, normal), self._axes(phi), profile)
+
+    def _write_curvature(self, _: Floats, values: Values, curvature: Floats) -> None:
+        curvature[...] = self.kinematics.curvature(values)
+
+    def _write_curves(self, phi: Floats, values: Values, pitch: Floats, profile: Floats, curvature: Floats) -> None:
+        point, normal, curvature[...] = self.kinematics.path(values)
+        axes = self._axes(phi)
+        _see(point, axes, pitch)
+        _see(self._inset(point, normal), axes, profile)
+
+    def _inset(self, point: Pair, normal: Pair) -> Pair:
+        """Points as far inside of a curve as the roller reaches."""
+        r = self.roller_radius
+        return point[0] - r * normal[0], point[1] - r * normal[1]
 
     def _axes(self, phi: Floats) -> Pair:
         """Cosine and sine of sigma phi, by which the frame turns as it is seen from the cam."""
         sine, cosine = sine_cosine(phi)
         return cosine, self.sigma * sine
-
-    def _pitch(self, phi: Floats, values: Values) -> Floats:
-        z = self.kinematics.point(values)
-        return _seen((z.real, z.imag), self._axes(phi))
 
     def _pressure_angle(self, values: Values) -> Floats:
         (along, across), _ = self.kinematics.pressure(values)
@@ -280,10 +290,8 @@ def largest_roller(cam: Cam) -> float:
     return cam.envelope.least_radius
 
 
-def _seen(vector: Pair, axes: Pair) -> Floats:
-    """(..., 2) the cam coordinates of vectors of the frame."""
+def _see(vector: Pair, axes: Pair, out: Floats) -> None:
+    """Write the cam coordinates of vectors of the frame to (..., 2)."""
     (x, y), (c, s) = vector, axes
-    out = np.empty((*np.shape(y), 2))
     np.add(x * c, y * s, out=out[..., 0])
     np.subtract(y * c, x * s, out=out[..., 1])
-    return out
