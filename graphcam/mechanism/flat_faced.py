@@ -51,6 +51,10 @@ class FlatFacedKinematics(Kinematics):
         one = _ones(values)
         return (one, 0 * one), (0.0, 0.0)
 
+    def steepness(self, values: Values) -> Floats:
+        """0."""
+        return 0 * values[0]
+
     def speed(self, values: Values, inset: float) -> Floats:
         """rho - inset [mm/rad]: the face turns with the cam."""
         return self.convex_radius(values) - inset

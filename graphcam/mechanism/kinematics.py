@@ -12,7 +12,8 @@ sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where 
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, fields
+from copy import copy
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -78,8 +79,11 @@ class Kinematics(ABC):
         """
 
     def part(self, which: NDArray[Any] | slice) -> Self:
-        """The same of some of the cams."""
-        return type(self)(*(getattr(self, size.name)[which] for size in fields(self)))
+        """The same of some of the cams, with what is known of them already."""
+        some = copy(self)
+        for name, values in vars(self).items():
+            object.__setattr__(some, name, values[which])
+        return some
 
     @abstractmethod
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
@@ -88,6 +92,11 @@ class Kinematics(ABC):
     @abstractmethod
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
+
+    def steepness(self, values: Values) -> Floats:
+        """The tangent of the pressure angle."""
+        (along, across), _ = self.pressure(values)
+        return np.divide(across, along)
 
     def pressure_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
@@ -184,15 +193,33 @@ class RollerKinematics(Kinematics):
         squared = _dot(q1, q1)
         return np.sqrt(squared) + inset * self.sigma * pair_cross(q1, q2) / squared
 
+    @abstractmethod
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure`; it is as long as q1."""
+
+    def steepness(self, values: Values) -> Floats:
+        """The tangent of the pressure angle."""
+        along, across = self.seen(values)
+        return np.divide(across, along)
+
+    @abstractmethod
+    def bend(self, values: Values) -> tuple[Pair, Pair]:
+        """The two factors g, h of kappa = (|q|^2 + g q.imag - h q.real)/|q|^3, and their derivatives g', h'."""
+
     def curvature(self, values: Values) -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        return self._bend(values)[3]
+        (along, across), ((g, h), _) = self.seen(values), self.bend(values)
+        squared = along * along + across * across
+        return (squared + (g * across - h * along)) / (squared * np.sqrt(squared))
 
     def curvature_slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
-        q1, q2, q3 = self.derivatives(values)
-        # (q1 x q2)' = q1 x q3, and |q1|' = q1.q2/|q1|
-        return -self.sigma * (pair_cross(q1, q3) * _dot(q1, q1) - 3 * pair_cross(q1, q2) * _dot(q1, q2))
+        (along, across), (along1, across1) = self.pressure(values)
+        (g, h), (g1, h1) = self.bend(values)
+        squared, half = along * along + across * across, along * along1 + across * across1
+        bent = squared + (g * across - h * along)
+        bent1 = 2 * half + (g1 * across - h1 * along) + (g * across1 - h * along1)
+        return bent1 * squared - 3 * bent * half
 
     def sharpness(self, values: Values) -> Floats:
         """kappa [1/mm]."""

@@ -51,5 +51,15 @@ class TranslatingKinematics(RollerKinematics):
         tan(alpha) = (v - sigma e)/(s0 + s): the contact normal passes through the centre of relative rotation, which
         lies on the horizontal through the cam centre at the distance v.
         """
-        s, v, a, _ = values
-        return (self.s0 + s, v - self.sigma * self.offset), (v, a)
+        _, v, a, _ = values
+        return self.seen(values), (v, a)
+
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure`: from the centre of relative rotation to the trace point, turned."""
+        s, v, _, _ = values
+        return self.s0 + s, v - self.sigma * self.offset
+
+    def bend(self, values: Values) -> tuple[Pair, Pair]:
+        """g = v and h = a of kappa, and g', h'."""
+        _, v, a, j = values
+        return (v, a), (a, j)

@@ -31,8 +31,7 @@ class Steepness(Sought):
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
-        (along, across), _ = self.kin.pressure(values)
-        return np.asarray(across / along)
+        return self.kin.steepness(values)
 
     def slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
