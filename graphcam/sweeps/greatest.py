@@ -26,11 +26,11 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.kinematics import Kinematics, Values
 
-INSIDE = 40
+INSIDE = 20
 """Places on a whole phase between which a quantity is taken to have one extreme at most."""
-FEWEST = 10
+FEWEST = 4
 """Places on a smooth piece of it, however short."""
-CLOSER = 1 / 32
+CLOSER = 1 / 256
 """Nearer the phase's ends the places follow at this ratio, for small prime radii move the extremes there ..."""
 CLOSEST = 1e-12
 """... down to this distance."""
