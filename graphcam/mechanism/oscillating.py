@@ -67,17 +67,13 @@ class OscillatingKinematics(RollerKinematics):
         fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
         return np.where(fits, angle, np.nan)[()]
 
-    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
-        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
-        s, v, a, j = values
+    def trace(self, values: Values) -> tuple[Pair, Pair]:
+        """The trace point z [mm] and z' by phi, from (s, v, a, j)."""
+        s, v, _, _ = values
         sine, cosine = sine_cosine((self.psi0 + s) / 2)
         # By the half angle, because c and l cos(psi) may be nearly equal.
         x, y = (self.distance - self.arm) + 2 * self.arm * sine * sine, 2 * self.arm * sine * cosine
-        # (k + i m) l exp(-i psi), with l cos(psi) = c - x
-        forth, back = self.arm * (cosine - sine) * (cosine + sine), -y
-        factors = ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v))
-        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth) for k, m in factors)
-        return (x, y), z1, z2, z3
+        return (x, y), (v * y, self.arm * v * (cosine - sine) * (cosine + sine))
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)), whose argument is the pressure angle, and q'.

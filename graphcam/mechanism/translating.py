@@ -40,10 +40,10 @@ class TranslatingKinematics(RollerKinematics):
         with np.errstate(invalid="ignore"):
             return np.sqrt((self.prime_radius - self.offset) * (self.prime_radius + self.offset))
 
-    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
-        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
-        s, v, a, j = values
-        return (self.offset, self.s0 + s), (0.0, v), (0.0, a), (0.0, j)
+    def trace(self, values: Values) -> tuple[Pair, Pair]:
+        """The trace point z [mm] and z' by phi, from (s, v, a, j)."""
+        s, v, _, _ = values
+        return (self.offset, self.s0 + s), (0.0, v)
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """q = s0 + s + i (v - sigma e), whose argument is the pressure angle, and q'.
