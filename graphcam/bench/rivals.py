@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import cumulative_simpson, cumulative_trapezoid
 from scipy.interpolate import CubicSpline
-from scipy.optimize import minimize
+from scipy.optimize import LinearConstraint, minimize
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
-from graphcam.given.laws import Floats
+from graphcam.given.laws import Floats, law
 from graphcam.given.motion import Dwell, Motion
+from graphcam.sweeps.designs import Designs
 
 Lines = tuple[Floats, Floats]
 """Normals (m, 2) and heights (m,) of half-planes: what keeps normals @ x >= heights is permitted."""
@@ -106,6 +107,15 @@ def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
     return size * float(np.hypot(*found.x))
 
 
+def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
+    """The same with the half-planes as scipy's linear constraints."""
+    normals, heights = lines
+    size = math.hypot(*start)
+    kept = LinearConstraint(normals, heights / size, np.inf)
+    found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
+    return size * float(np.hypot(*found.x))
+
+
 def _square(x: Floats) -> tuple[float, Floats]:
     """Of the distance from the origin, and its derivative."""
     return float(x @ x), 2 * x
@@ -150,6 +160,47 @@ def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
     share = np.clip(-np.sum(start * along, axis=1) / np.sum(along * along, axis=1), 0, 1)
     nearest = start + share[:, None] * along
     return float(np.hypot(nearest[:, 0], nearest[:, 1]).min())
+
+
+# --- many cams -------------------------------------------------------------------------------------------------------
+
+
+_Seen = tuple[Floats, Floats, Floats]
+
+
+def by_stations(designs: Designs, n: int) -> Floats:
+    """(designs, 3) greatest pressure angles of rise and return, least convex radius, of n stations of each phase.
+
+    A loop over the designs in plain NumPy, by the textbooks' formulas; all rises follow one law, and all returns.
+    """
+    u, found = np.linspace(0, 1, n), np.empty((len(designs), 3))
+    columns = [designs.column(name).tolist() for name in ("lift", "rise_angle", "return_angle", "prime_radius")]
+    places = [designs.column(name).tolist() for name in ("offset", "arm", "distance")]
+    (up, up1, up2), (back, back1, back2) = (law(x.item())(u, 2) for x in (designs.rise_law, designs.return_law))
+    seen = _seen_by_arm if designs.follower == "oscillating" else _seen_by_stem
+    for k, (lift, rise, fall, r0, *place) in enumerate(zip(*columns, *places, strict=True)):
+        sharpest = 0.0
+        for side, angle, s, v, a in ((0, rise, up, up1, up2), (1, fall, 1 - back, -back1, -back2)):
+            along, across, bent = seen(lift * s, lift / angle * v, lift / angle**2 * a, r0, *place)
+            alpha = np.arctan2(across, along)
+            found[k, side] = alpha[np.argmax(np.abs(alpha))]
+            sharpest = max(sharpest, (bent / np.hypot(along, across) ** 3).max())
+        found[k, 2] = 1 / sharpest
+    return found
+
+
+def _seen_by_stem(
+    s: Floats, v: Floats, a: Floats, r0: float, offset: float, *_: float
+) -> tuple[Floats, Floats, Floats]:
+    """Along and across the stem the vector whose argument is the pressure angle, and kappa times its cube."""
+    along, across = math.sqrt(r0**2 - offset**2) + s, v - offset
+    return along, across, along**2 + across**2 + v * across - a * along
+
+
+def _seen_by_arm(s: Floats, v: Floats, a: Floats, r0: float, _: float, arm: float, distance: float) -> _Seen:
+    psi = math.acos((distance**2 + arm**2 - r0**2) / (2 * distance * arm)) + s
+    along, across = distance * np.sin(psi), arm * (1 + v) - distance * np.cos(psi)
+    return along, across, along**2 + across**2 + arm * v * (1 + v) * across - arm * a * along
 
 
 # --- the roller's envelope -------------------------------------------------------------------------------------------

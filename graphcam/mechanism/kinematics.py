@@ -1,18 +1,17 @@
 """What a cam needs to know of its follower: each kind of follower has one file that says it.
 
-The trace point z(phi) of the frame, a complex number, is seen from the turning cam as p = z exp(-i sigma phi).  With
+The trace point z(phi) of the frame, a complex number, is seen from the turning cam as p = z exp(-i sigma phi), with
 
-    p'   = q1 exp(-i sigma phi),  q1 = z' - i sigma z
-    p''  = q2 exp(-i sigma phi),  q2 = z'' - 2 i sigma z' - z
-    p''' = q3 exp(-i sigma phi),  q3 = z''' - 3 i sigma z'' - 3 z' + i sigma z
+    p' = q1 exp(-i sigma phi),   q1 = z' - i sigma z
 
-normal and curvature are the same for every follower with a roller or a knife edge.  The curve runs against the cam's
-sense, so the outer normal is i sigma q1/|q1| and the curvature, positive where the cam is convex,
--sigma (q1 x q2)/|q1|^3.
+for every follower with a roller or a knife edge.  The curve runs against the cam's sense, so the outer normal is
+i sigma q1/|q1|.  The vector q whose argument is the pressure angle is q1, turned, and in its parts the curvature,
+positive where the cam is convex, is (|q|^2 + g q.imag - h q.real)/|q|^3, with g and h of each follower's own.
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, fields
+from copy import copy
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -78,8 +77,11 @@ class Kinematics(ABC):
         """
 
     def part(self, which: NDArray[Any] | slice) -> Self:
-        """The same of some of the cams."""
-        return type(self)(*(getattr(self, size.name)[which] for size in fields(self)))
+        """The same of some of the cams, with what is known of them already."""
+        some = copy(self)
+        for name, values in vars(self).items():
+            object.__setattr__(some, name, values[which])
+        return some
 
     @abstractmethod
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
@@ -112,6 +114,10 @@ class Kinematics(ABC):
     @abstractmethod
     def curvature_slope(self, values: Values) -> Floats:
         """Of the sign of kappa', and zero with it."""
+
+    def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The sharpness, and what has the sign of its derivative; both cost little more than one."""
+        return self.sharpness(values), self.curvature_slope(values)
 
     @abstractmethod
     def sharpness(self, values: Values) -> Floats:
@@ -146,37 +152,15 @@ class RollerKinematics(Kinematics):
     """A follower with a roller or a knife edge: what follows from its trace point."""
 
     @abstractmethod
-    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
-        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
-
-    def derivatives(self, values: Values) -> tuple[Pair, Pair, Pair]:
-        """q1, q2, q3 of the module's docstring."""
-        z, z1, z2, z3 = self.trace(values)
-        return self._first(z, z1), self._second(z, z1, z2), self._third(z, z1, z2, z3)
-
-    def _first(self, z: Pair, z1: Pair) -> Pair:
-        return z1[0] + self.sigma * z[1], z1[1] - self.sigma * z[0]
-
-    def _second(self, z: Pair, z1: Pair, z2: Pair) -> Pair:
-        twice = 2 * self.sigma
-        return z2[0] - z[0] + twice * z1[1], z2[1] - z[1] - twice * z1[0]
-
-    def _third(self, z: Pair, z1: Pair, z2: Pair, z3: Pair) -> Pair:
-        (x, y), i = z, self.sigma
-        return z3[0] - 3 * z1[0] + i * (3 * z2[1] - y), z3[1] - 3 * z1[1] - i * (3 * z2[0] - x)
+    def trace(self, values: Values) -> tuple[Pair, Pair]:
+        """The trace point z [mm] and z' by phi, from (s, v, a, j)."""
 
     def path(self, values: Values) -> tuple[Pair, Pair, Floats]:
         """The trace point [mm], the unit normal of the pitch curve away from the cam, and its curvature [1/mm]."""
-        z, q1, factor, kappa = self._bend(values)
-        return z, (-q1[1] * factor, q1[0] * factor), kappa
-
-    def _bend(self, values: Values) -> tuple[Pair, Pair, Floats, Floats]:
-        """z, q1, sigma/|q1| and the curvature."""
-        z, z1, z2, _ = self.trace(values)
-        q1, q2 = self._first(z, z1), self._second(z, z1, z2)
-        squared = _dot(q1, q1)
-        factor = self.sigma / np.sqrt(squared)
-        return z, q1, factor, pair_cross(q2, q1) * factor / squared
+        z, (x, y) = self.trace(values)
+        x, y = x + self.sigma * z[1], y - self.sigma * z[0]
+        factor = self.sigma / np.sqrt(x * x + y * y)
+        return z, (-y * factor, x * factor), self.curvature(values)
 
     def point(self, values: Values) -> Complexes:
         """The trace point [mm]."""
@@ -185,19 +169,45 @@ class RollerKinematics(Kinematics):
 
     def speed(self, values: Values, inset: float) -> Floats:
         """|p'| (1 - inset kappa) [mm/rad]."""
-        q1, q2, _ = self.derivatives(values)
-        squared = _dot(q1, q1)
-        return np.sqrt(squared) + inset * self.sigma * pair_cross(q1, q2) / squared
+        squared, bent = self._bent(values)
+        return np.sqrt(squared) - inset * bent / squared
+
+    @abstractmethod
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure`; it is as long as q1."""
+
+    def steepness(self, values: Values) -> Floats:
+        """The tangent of the pressure angle."""
+        along, across = self.seen(values)
+        return np.divide(across, along)
+
+    @abstractmethod
+    def bend(self, values: Values) -> tuple[Pair, Pair]:
+        """The two factors g, h of kappa = (|q|^2 + g q.imag - h q.real)/|q|^3, and their derivatives g', h'."""
 
     def curvature(self, values: Values) -> Floats:
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
-        return self._bend(values)[3]
+        squared, bent = self._bent(values)
+        return bent / (squared * np.sqrt(squared))
+
+    def _bent(self, values: Values) -> tuple[Floats, Floats]:
+        """|q|^2, and kappa |q|^3."""
+        (along, across), ((g, h), _) = self.seen(values), self.bend(values)
+        squared = np.add(along * along, across * across)
+        return squared, np.add(squared, g * across - h * along)
 
     def curvature_slope(self, values: Values) -> Floats:
         """Of the sign of kappa'."""
-        q1, q2, q3 = self.derivatives(values)
-        # (q1 x q2)' = q1 x q3, and |q1|' = q1.q2/|q1|
-        return -self.sigma * (pair_cross(q1, q3) * _dot(q1, q1) - 3 * pair_cross(q1, q2) * _dot(q1, q2))
+        return self.sharpness_and_slope(values)[1]
+
+    def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """kappa [1/mm], and what has the sign of kappa'."""
+        (along, across), (along1, across1) = self.pressure(values)
+        (g, h), (g1, h1) = self.bend(values)
+        squared, half = along * along + across * across, along * along1 + across * across1
+        bent = squared + (g * across - h * along)
+        bent1 = 2 * half + (g1 * across - h1 * along) + (g * across1 - h * along1)
+        return bent / (squared * np.sqrt(squared)), np.subtract(bent1 * squared, 3 * bent * half)
 
     def sharpness(self, values: Values) -> Floats:
         """kappa [1/mm]."""
@@ -212,7 +222,3 @@ class RollerKinematics(Kinematics):
 def pair_cross(a: Pair, b: Pair) -> Floats:
     """The vector product of vectors in two parts, x and y."""
     return np.subtract(a[0] * b[1], a[1] * b[0])
-
-
-def _dot(a: Pair, b: Pair) -> Floats:
-    return np.add(a[0] * b[0], a[1] * b[1])

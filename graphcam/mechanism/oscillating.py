@@ -37,7 +37,9 @@ class OscillatingKinematics(RollerKinematics):
         if sizes.distance is None:
             remedy = "take the one that minimum_radius(...) finds"
             raise DesignError("centre distance", "left open", "given for a cam", remedy)
-        return cls(sigma, prime_radius, sizes.arm, sizes.distance, lift)
+        made = cls(sigma, prime_radius, sizes.arm, sizes.distance, lift)
+        _ = made.psi0  # so that its parts know it
+        return made
 
     def check(self) -> None:
         """That arm, distance and prime radius close a triangle, and the arm stays above the line of centres."""
@@ -65,17 +67,13 @@ class OscillatingKinematics(RollerKinematics):
         fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
         return np.where(fits, angle, np.nan)[()]
 
-    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
-        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
-        s, v, a, j = values
+    def trace(self, values: Values) -> tuple[Pair, Pair]:
+        """The trace point z [mm] and z' by phi, from (s, v, a, j)."""
+        s, v, _, _ = values
         sine, cosine = sine_cosine((self.psi0 + s) / 2)
         # By the half angle, because c and l cos(psi) may be nearly equal.
         x, y = (self.distance - self.arm) + 2 * self.arm * sine * sine, 2 * self.arm * sine * cosine
-        # (k + i m) l exp(-i psi), with l cos(psi) = c - x
-        forth, back = self.arm * (cosine - sine) * (cosine + sine), -y
-        factors = ((0.0, v), (v * v, a), (3 * v * a, j - v * v * v))
-        z1, z2, z3 = ((k * forth - m * back, k * back + m * forth) for k, m in factors)
-        return (x, y), z1, z2, z3
+        return (x, y), (v * y, self.arm * v * (cosine - sine) * (cosine + sine))
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)), whose argument is the pressure angle, and q'.
@@ -83,12 +81,23 @@ class OscillatingKinematics(RollerKinematics):
         It is the pitch curve's outer normal -i sigma exp(i sigma phi) p' seen along the trace point's motion
         i exp(-i psi), drawn from the end of the segment l v, which is laid off along the arm, to the cam centre.
         """
-        s, v, a, _ = values
-        arm, c = self.arm, self.distance
-        sine, cosine = sine_cosine((self.psi0 + s) / 2)
-        up, forth = 2 * c * sine * cosine, c * (cosine - sine) * (cosine + sine)  # c sin(psi), c cos(psi)
-        across = (arm - c) + self.sigma * arm * v + 2 * c * sine * sine
-        return (up, across), (v * forth, v * up + self.sigma * arm * a)
+        _, v, a, _ = values
+        along, across = self.seen(values)
+        forth = self.arm - across + self.sigma * self.arm * v  # c cos(psi)
+        return (along, across), (v * forth, v * along + self.sigma * self.arm * a)
+
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure`: c sin(psi), and l (1 + sigma v) - c cos(psi)."""
+        s, v, _, _ = values
+        tangent = np.tan((self.psi0 + s) / 2)
+        along = 2 * self.distance * tangent / (1 + tangent * tangent)
+        # By the half angle, because l and c cos(psi) may be nearly equal.
+        return along, (self.arm - self.distance) + self.sigma * self.arm * v + along * tangent
+
+    def bend(self, values: Values) -> tuple[Pair, Pair]:
+        """g = l v (sigma + v) and h = l a of kappa, and g', h'."""
+        _, v, a, j = values
+        return (self.arm * v * (self.sigma + v), self.arm * a), (self.arm * a * (self.sigma + 2 * v), self.arm * j)
 
     def appearance(self, motion: Motion, values: Values) -> Appearance:
         """An arm; from the left it swings clockwise on the rise."""

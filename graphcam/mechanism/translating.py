@@ -40,10 +40,10 @@ class TranslatingKinematics(RollerKinematics):
         with np.errstate(invalid="ignore"):
             return np.sqrt((self.prime_radius - self.offset) * (self.prime_radius + self.offset))
 
-    def trace(self, values: Values) -> tuple[Pair, Pair, Pair, Pair]:
-        """The trace point z [mm] and z', z'', z''' by phi, from (s, v, a, j)."""
-        s, v, a, j = values
-        return (self.offset, self.s0 + s), (0.0, v), (0.0, a), (0.0, j)
+    def trace(self, values: Values) -> tuple[Pair, Pair]:
+        """The trace point z [mm] and z' by phi, from (s, v, a, j)."""
+        s, v, _, _ = values
+        return (self.offset, self.s0 + s), (0.0, v)
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """q = s0 + s + i (v - sigma e), whose argument is the pressure angle, and q'.
@@ -51,5 +51,15 @@ class TranslatingKinematics(RollerKinematics):
         tan(alpha) = (v - sigma e)/(s0 + s): the contact normal passes through the centre of relative rotation, which
         lies on the horizontal through the cam centre at the distance v.
         """
-        s, v, a, _ = values
-        return (self.s0 + s, v - self.sigma * self.offset), (v, a)
+        _, v, a, _ = values
+        return self.seen(values), (v, a)
+
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure`: from the centre of relative rotation to the trace point, turned."""
+        s, v, _, _ = values
+        return self.s0 + s, v - self.sigma * self.offset
+
+    def bend(self, values: Values) -> tuple[Pair, Pair]:
+        """g = v and h = a of kappa, and g', h'."""
+        _, v, a, j = values
+        return (v, a), (a, j)

@@ -26,11 +26,11 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.kinematics import Kinematics, Values
 
-INSIDE = 40
+INSIDE = 16
 """Places on a whole phase between which a quantity is taken to have one extreme at most."""
-FEWEST = 10
+FEWEST = 4
 """Places on a smooth piece of it, however short."""
-CLOSER = 1 / 32
+CLOSER = 1 / 256
 """Nearer the phase's ends the places follow at this ratio, for small prime radii move the extremes there ..."""
 CLOSEST = 1e-12
 """... down to this distance."""
@@ -143,8 +143,8 @@ class Sought(ABC):
         """The quantity, from (s, v, a, j)."""
 
     @abstractmethod
-    def slope(self, values: Values) -> Floats:
-        """Of the sign of its derivative by phi."""
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The quantity, and what has the sign of its derivative by phi."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,7 +216,7 @@ def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> 
     """The reading at each summit."""
     place = summits.place
     values = legs.values(table.values[:, place])
-    best, slope = sought.reading(values), _uphill(sought, legs, values)
+    best, slope = _uphill(sought, legs, values)
     w, low, high = table.w[place], table.w[place - 1], table.w[np.minimum(place + 1, table.w.size - 1)]
     low, high = np.where(place == table.first[place], w, low), np.where(place == table.last[place], w, high)
     close = CLOSE * (high - low)
@@ -231,7 +231,7 @@ def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> 
         active, (w, low, high, before, slope_before, close) = active[going], state.take(going, axis=1)
         some, part = sought.part(active), legs.part(active)
         values = part.at(w)
-        reading, slope = some.reading(values), _uphill(some, part, values)
+        reading, slope = _uphill(some, part, values)
         higher = _heights(sought, reading) > _heights(sought, best[active])
         best[active] = np.where(higher, reading, best[active])
         low, high = np.where(slope > 0, w, low), np.where(slope > 0, high, w)
@@ -241,10 +241,11 @@ def _refined(sought: Sought, legs: Legs, table: LawTable, summits: _Summits) -> 
     return best
 
 
-def _uphill(sought: Sought, legs: Legs, values: Values) -> Floats:
-    """Positive where the height grows with w."""
-    slope = legs.direction * sought.slope(values)
-    return slope * np.sign(sought.reading(values)) if sought.signed else slope
+def _uphill(sought: Sought, legs: Legs, values: Values) -> tuple[Floats, Floats]:
+    """The reading, and what is positive where its height grows with w."""
+    reading, slope = sought.with_slope(values)
+    slope = legs.direction * slope
+    return reading, slope * np.sign(reading) if sought.signed else slope
 
 
 def _within(w: Floats | float, low: Floats, high: Floats, close: Floats) -> Floats:

@@ -14,7 +14,7 @@ from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.followers import EXACT
-from graphcam.mechanism.kinematics import Kinematics, Values
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
 
@@ -31,12 +31,12 @@ class Steepness(Sought):
 
     def reading(self, values: Values) -> Floats:
         """tan(alpha)."""
-        (along, across), _ = self.kin.pressure(values)
-        return np.asarray(across / along)
+        return self.kin.steepness(values)
 
-    def slope(self, values: Values) -> Floats:
-        """Of the sign of alpha'."""
-        return self.kin.pressure_slope(values)
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """tan(alpha), and what has the sign of alpha'."""
+        q, q1 = self.kin.pressure(values)
+        return np.divide(q[1], q[0]), pair_cross(q, q1)
 
 
 class Sharpness(Sought):
@@ -46,9 +46,9 @@ class Sharpness(Sought):
         """kappa [1/mm], or -rho [mm] of a flat face's cam."""
         return self.kin.sharpness(values)
 
-    def slope(self, values: Values) -> Floats:
-        """Of the sign of kappa'."""
-        return self.kin.curvature_slope(values)
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The same, and what has the sign of kappa'."""
+        return self.kin.sharpness_and_slope(values)
 
 
 @dataclass(frozen=True, eq=False)
