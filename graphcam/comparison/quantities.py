@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.comparison.bounds import Bounds
+from graphcam.comparison.double_integration import proved_bounds
 from graphcam.comparison.speed import PhaseAtSpeed, at_speed
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
@@ -29,7 +30,9 @@ class Quantity:
 
     drawn, exact : in ``unit``; NaN where there is none
     per_mm : scale of the paper it was read from [unit/mm]
-    tolerance_paper : how far the drawn value may lie off [mm of paper], from the number of parts and the pencil
+    tolerance_paper : how far the drawn value may lie off [mm of paper], estimated from redrawings in more parts and by
+        the same pencil
+    proved_paper : the same, proved beforehand for a hand without error; NaN where no theorem tells it
     """
 
     name: str
@@ -39,6 +42,7 @@ class Quantity:
     unit: str
     per_mm: float
     tolerance_paper: float
+    proved_paper: float = math.nan
 
     @property
     def exists(self) -> bool:
@@ -84,7 +88,13 @@ class Comparison:
     @cached_property
     def quantities(self) -> dict[str, Quantity]:
         """The quantities by name; of a sampled pencil the first drawing is compared."""
-        return quantities_of(self.drawn, self.bounds, self.exact)
+        return quantities_of(self.drawn, self.bounds, self.exact, self.proved)
+
+    @cached_property
+    def proved(self) -> Mapping[str, float]:
+        """The bounds that are proved beforehand, by name, in machine units; none for a hand that errs."""
+        board = self.drawn.board
+        return proved_bounds(board.motion, board.stations) if self.drawn.pencil.perfect else {}
 
     @cached_property
     def exact(self) -> Mapping[str, float]:
@@ -133,10 +143,18 @@ class Comparison:
         }
 
 
-def quantities_of(drawn: Mapping[str, Construction], bounds: Bounds, exact: Mapping[str, float]) -> dict[str, Quantity]:
-    """What the constructions say that their readings are compared as, in the order of the exact counterparts."""
+NONE: Mapping[str, float] = {}
+
+
+def quantities_of(
+    drawn: Mapping[str, Construction], bounds: Bounds, exact: Mapping[str, float], proved: Mapping[str, float] = NONE
+) -> dict[str, Quantity]:
+    """What the constructions say that their readings are compared as, in the order of the exact counterparts.
+
+    exact, proved : the exact values and the proved bounds by name
+    """
     found = [
-        (said.exact or said.name, _quantity(construction, reading, said, bounds, exact))
+        (said.exact or said.name, _quantity(construction, reading, said, bounds, exact, proved))
         for construction in drawn.values()
         for reading, said in construction.meaning.compared
     ]
@@ -148,7 +166,12 @@ def quantities_of(drawn: Mapping[str, Construction], bounds: Bounds, exact: Mapp
 
 
 def _quantity(
-    construction: Construction, reading: str, said: Compared, bounds: Bounds, exact: Mapping[str, float]
+    construction: Construction,
+    reading: str,
+    said: Compared,
+    bounds: Bounds,
+    exact: Mapping[str, float],
+    proved: Mapping[str, float],
 ) -> Quantity:
     """The drawn value beside the exact one."""
     counterpart = said.exact or said.name
@@ -164,7 +187,9 @@ def _quantity(
         bound = float(bounds.of(construction.name, said.sides or reading)[side])
     drawn = factor * float(construction.value(said.sides or reading)[side])
     title = said.title or construction.meaning.reading(reading).title
-    return Quantity(said.name, title, drawn, exact[counterpart], unit, factor * read.per_mm, bound)
+    per_mm = factor * read.per_mm
+    beforehand = proved.get(said.name, math.nan) / abs(per_mm)
+    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand)
 
 
 def side_of(extreme: float) -> int:

@@ -160,7 +160,7 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
         run = pitch[..., start : start + size]
         middle = run.mean(axis=-1, keepdims=True)
         reach = radius + np.abs(run - middle).max(axis=-1, keepdims=True)
-        near = np.nonzero(~(np.abs(touch - middle) >= reach))
+        near = np.nonzero(~covered & ~(np.abs(touch - middle) >= reach))
         inside = np.abs(touch[near][:, None] - run[near[:-1]]) < radius
         # Its own circle a point touches, however the hand may have set it.
         other = near[-1][:, None] != start + np.arange(run.shape[-1])

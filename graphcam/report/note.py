@@ -244,8 +244,9 @@ def against_exact(solution: AnySolution) -> str:
     """The table of drawn and exact values, and what the bound means."""
     tell, pencil = solution.tell, solution.chain.pencil
     meaning = say(
-        "The bound is how far the drawn value may lie off the exact one on this paper: for the finite number of parts "
-        "{factor:g} times the greatest change that is seen when every part is divided into {parts}.",
+        "The bound is an estimate, from redrawings, of how far the drawn value may lie off the exact one on this "
+        "paper: for the finite number of parts {factor:g} times the greatest change that is seen when every part is "
+        "divided into {parts}.",
         factor=CHANGE_TO_ERROR,
         parts=joined([str(k) for k in FINER]),
     )
@@ -255,6 +256,12 @@ def against_exact(solution: AnySolution) -> str:
         deviations=DEVIATIONS,
         count=pencil.samples or HANDS,
     )
+    proved = say(
+        "Of the double integration a bound is proved beforehand, from the laws' derivatives alone; it holds for every "
+        "drawing of so many parts by a hand that does not err."
+    )
+    beforehand = any(math.isfinite(q.proved_paper) for q in solution.comparison.quantities.values())
+    meaning = sequence([meaning, *([proved] if beforehand else [])], " ")
     return blocks(
         say("The error is the drawn value less the exact one."),
         compared(solution.comparison.quantities, tell),

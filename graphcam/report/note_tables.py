@@ -1,5 +1,6 @@
 """The chapters of the note that are long tables."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -68,12 +69,15 @@ def polar_coordinates(solution: Solution) -> str:
 
 
 def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:
-    """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bound."""
-    rows = [
-        (q.title, unit(q.unit), number(q.drawn, 3), *_exactly(q), *on_paper(q)) for q in quantities.values() if q.exists
-    ]
+    """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bounds that are known."""
+    there = [q for q in quantities.values() if q.exists]
+    rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exactly(q), *on_paper(q)) for q in there]
     header = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"))
-    return table((*header, say("error, mm of paper"), say("bound, mm of paper")), rows, tell)
+    header += say("error, mm of paper"), say("estimated bound, mm of paper")
+    if any(math.isfinite(q.proved_paper) for q in there):
+        header += (say("proved bound, mm of paper"),)
+        rows = [(*row, number(q.proved_paper, 3)) for row, q in zip(rows, there, strict=True)]
+    return table(header, rows, tell)
 
 
 def _exactly(q: Quantity) -> tuple[Caption, Caption]:

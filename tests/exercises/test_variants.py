@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given, strategies as st
 from issued_variants import SECRET
@@ -9,11 +11,14 @@ from issued_variants import SECRET
 from graphcam.errors import DesignError
 from graphcam.exercises.course.roster import LONGEST, folder_name, student_of
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.exercise import Parameter
+from graphcam.exercises.definition.exercise import Asked, Parameter
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.scatter import answers_of, torn
 from graphcam.exercises.key.separation import perfect_hands, promising
+from graphcam.tasks.task import CamTable
+from graphcam.tasks.task_file import builtin_task
 
 GOLDEN = {
     "acceleration-and-scales": {
@@ -242,3 +247,17 @@ def test_devices_and_paths_are_no_folders():
 @given(st.text(alphabet="ab%25EF/.", max_size=8), st.text(alphabet="ab%25EF/.", max_size=8))
 def test_two_students_never_share_a_folder(a, b):
     assert a == b or folder_name(a) != folder_name(b)
+
+
+def test_a_greatest_angle_that_careful_hands_find_on_either_side_is_not_asked_for():
+    """At such an offset the angle at the low rest is as great as the one on the rise."""
+    exercise = find_exercise("pressure-angle")
+    greatest = Asked("most", "The greatest pressure angle.", "angle_diagram", "max_rise", unit="deg")
+    only = replace(exercise, answers=(greatest,))
+    for offset, either in ((-18.4, True), (-10.0, False), (-30.0, False)):
+        task = builtin_task()
+        follower = replace(task.follower, offset=offset, roller_radius=12.0)
+        chain = board_chain(replace(task, cam=CamTable(50.0), follower=follower))
+        hands = answers_of(only, chain.by(exercise.hand.pencil(200)))
+        assert torn(only, chain, hands) is either, offset
+        assert torn(exercise, chain, answers_of(exercise, chain.by(exercise.hand.pencil(200)))) is False

@@ -1,0 +1,164 @@
+"""A proved bound of the double integration: how far its chords can be off, known before anything is drawn.
+
+A law f is integrated twice over divisions 0 = u_0 < ... < u_n = 1 of widths w, as the textbook does it: a chord climbs
+by w f''(middle), the velocity left at the end is taken up by the base line, a second chord climbs by w times the mean
+of the velocities at its ends, and the end is read as the known lift.
+
+Theorem.  Inside its parts let |f'''''| <= M; at a distance x behind the division before it, y before the next one and
+m = min(x, y), let f'' jump by D, f''' by J and f'''' by G.  With sums over the parts before u_k
+
+    v_k - f'_k = u_k E_n - E_k + at most (1 - u_k) R_k + u_k (R_n - R_k)
+        E = sum w^2/24 (f''' from end to end, less J) + J m^2/2 + D (y or -x, whichever is the smaller)
+        R = sum M w^4/192 + |G| m (w^2/24 - m^2/6)
+    S_k - f_k = a_k + at most r_k, where the trapezoid of the velocities' errors and of their bounds comes to
+        a = sum w^2/12 (f'' from end to end) + D (x y/2 - w^2/12) + J x y (y - x)/12
+        r = sum M w^5/720 + |G| x^2 y^2/24
+
+and with the end read as 1 displacement, velocity and acceleration are off by at most the magnitude of a_k - f_k a_n
+(u_k E_n - E_k - f'_k a_n; f'' a_n) and its bound r_k + f_k r_n (and so on), over 1 + a_n - r_n.
+
+Proof.  The middle ordinate errs by the integral over the part of K f'''', K = t^2/2 at the distance t from the nearer
+division (Peano).  The mean of K is w^2/24; what is left of it has none, so by parts its integral, t^3/6 - w^2 t/24,
+stands before f''''', and the magnitude of that makes w^4/192.  The trapezoid of f' errs by the integral of x y/2 times
+f''', of mean w^2/12; twice by parts the rest makes x y (y - x)/12 before f'''' and x^2 y^2/24, in all w^5/720, before
+f'''''.  Every jump counts by the kernel at its place.  The base line takes up u_k of the whole error.  Last, S_k/S_n -
+f_k = (S_k - f_k - f_k (S_n - 1))/S_n.
+
+A jump on a division counts for nothing; one of f'' off the grid makes D m, of first order where all else is of second.
+The named part is the error itself, so that the bound is the tighter the more parts there are.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.given.laws import Floats, law as law_of
+from graphcam.given.motion import Motion, Moving
+from graphcam.given.motion_law import Law
+from graphcam.given.stations import Stations
+from graphcam.mechanism.stationary import max_acceleration, max_velocity
+
+_PI = math.pi
+_RAMP, _SINE = 128 * _PI**3 / (2 + _PI), 64 * _PI**4 / (4 + _PI)
+FIFTH = {
+    "rectangular": ((0.0,), ()),
+    "triangular": ((0.0, 0.0), (0.0,)),
+    "cosine": ((_PI**5 / 2,), ()),
+    "cycloidal": ((16 * _PI**4,), ()),
+    "trapezoidal": ((0.0, 0.0, 0.0), (0.0, 0.0)),
+    "modified-trapezoidal": ((4 * _PI * _RAMP, 0.0, 4 * _PI * _RAMP), (_RAMP, _RAMP)),
+    "modified-sine": ((4 * _PI * _SINE, 4 * _PI * _SINE / 27), (8 / 9 * _SINE,)),
+    "2-3": ((0.0,), ()),
+    "3-4-5": ((720.0,), ()),
+    "4-5-6-7": ((10080.0,), ()),
+}
+"""The greatest |f'''''| of each piece of the first half, and by how much f'''' jumps between them; so in the second."""
+
+
+@dataclass(frozen=True, eq=False)
+class Chords:
+    """How far the chords of a law are off at its divisions (n + 1,), of the lift: the part that is known, and the rest.
+
+    s, v : the known parts before the end is read as the lift;  s_rest, v_rest : what may come to them
+    exact : f, f', f''
+    """
+
+    s: Floats
+    s_rest: Floats
+    v: Floats
+    v_rest: Floats
+    exact: tuple[Floats, Floats, Floats]
+
+    def read(self) -> tuple[Floats, Floats, Floats]:
+        """The bounds of displacement, velocity and acceleration at the divisions, the end being read as the lift.
+
+        >>> s, v, a = chords(law_of("3-4-5"), np.linspace(0, 1, 13)).read()
+        >>> round(s.max(), 5), round(v.max(), 5), round(a.max(), 5)
+        (0.00433, 0.0039, 0.03597)
+        """
+        end, rest, (f, f1, f2) = self.s[-1], self.s_rest[-1], self.exact
+        least = 1 + end - rest
+        if not least > 0:
+            return np.full_like(f, np.inf), np.full_like(f, np.inf), np.full_like(f, np.inf)
+        s = np.abs(self.s - f * end) + self.s_rest + f * rest
+        v = np.abs(self.v - f1 * end) + self.v_rest + f1 * rest
+        return s / least, v / least, np.abs(f2) * (abs(end) + rest) / least
+
+
+def known(law: Law) -> bool:
+    """Whether the derivatives of a law are known: of those that graphcam names, not of one's own or a measured one.
+
+    >>> known(law_of("cosine"))
+    True
+    """
+    return law.name in FIFTH and law == law_of(law.name, law.ratio)
+
+
+def chords(law: Law, u: Floats) -> Chords:
+    """How far the chords of a law that is :func:`known` are off at the divisions u, from 0 to 1."""
+    w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
+    greatest, inner = (np.array([*half, *half[::-1]]) for half in FIFTH[law.name])
+    # At the middle f'''' of a mirrored law, which is odd about it, does not jump; that of the rectangular law is zero.
+    bends = np.insert(inner, inner.size // 2, 0.0)
+    first, last = np.searchsorted(law.edges, u[:-1], "right"), np.searchsorted(law.edges, u[1:], "left")
+    fifth = np.array([greatest[a : b + 1].max() for a, b in zip(first, last, strict=True)])
+    steep = w**2 / 24 * (before[3] - after[3])
+    steep_rest, flat_rest = fifth * w**4 / 192, fifth * w**5 / 720
+    flat = w**2 / 12 * (before[2] - after[2])
+    for edge, bend in zip(law.edges, bends, strict=True):
+        part = min(int(np.searchsorted(u, edge, "right")) - 1, w.size - 1)
+        x, y, width = edge - u[part], u[part + 1] - edge, w[part]
+        if not x > 0:
+            continue
+        m = min(x, y)
+        step, jump = (float(law(edge)[n] - law(edge, side="left")[n]) for n in (2, 3))
+        steep[part] += jump * (m * m / 2 - width**2 / 24) + step * (y if y < x else -x)
+        flat[part] += step * (x * y / 2 - width**2 / 12) + jump * x * y * (y - x) / 12
+        steep_rest[part] += bend * m * (width**2 / 24 - m * m / 6)
+        flat_rest[part] += bend * (x * y) ** 2 / 24
+    error, rest = (np.append(0.0, np.cumsum(each)) for each in (steep, steep_rest))
+    v, v_rest = u * error[-1] - error, (1 - u) * rest + u * (rest[-1] - rest)
+    s, s_rest = (
+        np.append(0.0, np.cumsum(own + w * (of_v[:-1] + of_v[1:]) / 2))
+        for own, of_v in ((flat, v), (flat_rest, v_rest))
+    )
+    f, f1, f2 = law(u, derivatives=2)
+    return Chords(s, s_rest, v, v_rest, (f, f1, f2))
+
+
+def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
+    """How far the greatest v and a are off at most, in machine units, for a hand without error; empty if not known.
+
+    The rises come first and settle the scale.  The greatest v is read from a parabola through three plotted points,
+    whose top is by an eighth of their second difference higher than the highest, at most.
+
+    >>> import graphcam as gc
+    >>> chain = gc.solve(gc.builtin_task()).chain
+    >>> {name: round(bound, 9) for name, bound in proved_bounds(chain.board.motion, chain.board.stations).items()}
+    {'max_v': 0.0, 'max_a': 0.0}
+    """
+    phases = [phase for phase in motion.phases if isinstance(phase, Moving)]
+    directions = [phase.direction for phase in phases]
+    if directions != sorted(directions, reverse=True) or not all(known(phase.normalised) for phase in phases):
+        return {}
+    drawn = [chords(p.normalised, stations.u[span]) for p, span in zip(phases, stations.phases, strict=True)]
+    rises = zip(phases, drawn, strict=True)
+    ends = [p.lift / motion.lift * np.array([c.s[-1], c.s_rest[-1]]) for p, c in rises if p.direction > 0]
+    end, rest = np.sum(ends, axis=0).tolist()
+    if not 1 + end - rest > 0:
+        return {}
+    low, high = np.max([_range_of_top(c) * (p.lift / p.angle) for p, c in zip(phases, drawn, strict=True)], axis=0)
+    exact = max_velocity(motion)
+    off = max(abs(low / (1 + end + rest) - exact), abs(high / (1 + end - rest) - exact))
+    return {"max_v": float(off), "max_a": max_acceleration(motion) * (abs(end) + rest) / (1 + end - rest)}
+
+
+def _range_of_top(c: Chords) -> Floats:
+    """Between which heights the faired curve of v has its top, of the lift over the phase."""
+    plotted = c.exact[1] + c.v
+    second = np.abs(np.diff(plotted, 2)) + 4 * np.max(c.v_rest)
+    low = np.max(plotted - c.v_rest)
+    # Each of the three points may be the highest one.
+    likely = np.convolve(plotted + c.v_rest >= low, np.ones(3), "valid") > 0
+    return np.array([low, np.max(plotted + c.v_rest) + np.max(second[likely], initial=0.0) / 8])
