@@ -53,7 +53,7 @@ smooth = changed(task, {"motion.phases": tuple(
 
 
 def with_pencil(sigma, seed):
-    hand = gc.Pencil(line=float(sigma), dividers=float(sigma), seed=int(seed))
+    hand = gc.Pencil.of(float(sigma), seed=int(seed))
     return drawing(gc.solve(smooth, hand).drawn["minimum_radius"])
 
 
@@ -75,7 +75,7 @@ for parts in (4, 6, 8, 12, 16, 24, 48):
     perfect = gc.solve(finer)
     exact = perfect.comparison.exact_stations.values[0]
     method = np.abs(perfect.drawn["integration"].readings["s"].value - exact).max()
-    hands = gc.solve(finer, gc.Pencil(line=0.2, dividers=0.2, samples=400, seed=1)).drawn["integration"]
+    hands = gc.solve(finer, gc.Pencil.of(0.2, samples=400, seed=1)).drawn["integration"]
     both = np.abs(hands.readings["s"].value - exact).max(axis=-1).mean()
     rows.append((parts, 100 * method / 30, 100 * both / 30))
 table(("parts n", "perfect hand, % of the lift", "pencil of 0.2 mm, % of the lift"), rows, digits=2)
@@ -110,7 +110,7 @@ assert abs(slope + 2) < 0.1
 # %%
 names = {"greatest v": ("integration", "max_v"), "least radius": ("minimum_radius", "prime_radius"),
          "least radius of curvature": ("curvature", "rho"), "roller radius": ("roller", "roller_radius")}
-hands = gc.solve(smooth, gc.Pencil(line=0.2, dividers=0.2, samples=400, seed=1))
+hands = gc.solve(smooth, gc.Pencil.of(0.2, samples=400, seed=1))
 budget = []
 for title, (construction, name) in names.items():
     value = np.asarray(hands.drawn[construction].readings[name].value, dtype=float)

@@ -75,7 +75,7 @@ def solve(
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
-        hand = None if pencil is None else graphcam.Pencil(line=pencil, dividers=pencil, seed=seed)
+        hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
         solution = solved(given, hand)
         document = solution.to_dict()
         if folder is None:
