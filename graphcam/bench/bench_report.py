@@ -8,7 +8,7 @@ from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.exact_rows import ExactRow, exact_rows
-from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
+from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, Hands, bands, budgets, by_hand
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
@@ -76,6 +76,7 @@ class Report:
 
     pair : the time of one sine and one cosine on this machine [s], the unit of all times
     bands : between which relative errors nine hands in ten stay, by the question of the methods
+    budgets : what makes the readings of every follower scatter
     rendering : times of laying out and rendering the sheet of the built-in task, in pairs
     """
 
@@ -83,6 +84,7 @@ class Report:
     series: tuple[Series, ...]
     hands: tuple[Hands, ...]
     bands: Mapping[str, tuple[float, float]]
+    budgets: tuple[BudgetRow, ...]
     methods: tuple[Method, ...]
     rows: tuple[ExactRow, ...]
     peers: tuple[Peer, ...]
@@ -102,6 +104,7 @@ class Report:
                     for h in self.hands
                 ],
                 "pencil_bands": dict(self.bands),
+                "error_budgets": [asdict(b) for b in self.budgets],
                 "error_against_time": [asdict(m) for m in self.methods],
                 "exact": [{key: value for key, value in asdict(r).items() if key != "seconds"} for r in self.rows],
                 "peers": [asdict(p) for p in self.peers],
@@ -121,7 +124,7 @@ def measure(
     series = tuple(convergence(effort.parts, effort.laws))
     progress("error of the hand")
     hands = tuple(by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws)
-    bands_of_hands = bands(LAW, effort.hands)
+    hands_of = bands(LAW, effort.hands), tuple(budgets(LAW))
     progress("error against time")
     methods = tuple(tradeoff(effort.sizes, timer, pair))
     progress("the exact side")
@@ -132,7 +135,7 @@ def measure(
     drawing = tuple(drawing_times(timer, pair))
     progress("rendering")
     rendered = {name: seconds / pair for name, seconds in rendering(timer).items()}
-    return Report(pair, series, hands, bands_of_hands, methods, rows, others, drawing, rendered)
+    return Report(pair, series, hands, *hands_of, methods, rows, others, drawing, rendered)
 
 
 def _plain(value: Any) -> Any:

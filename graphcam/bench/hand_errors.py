@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.bench.convergence import distance_from_profile
-from graphcam.bench.scenes import LIFT, TestScene, free_scene, motion_of, scene
+from graphcam.bench.scenes import FOLLOWERS, LIFT, TestScene, free_scene, motion_of, scene
+from graphcam.comparison.error_budget import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 
@@ -70,6 +71,35 @@ def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     rise = stations.phases[0]
     exact = chain.board.motion.at(0, stations.u[rise])[0]
     return np.abs(chain["integration"].readings["s"].value[:, rise] - exact).max(axis=1) / LIFT
+
+
+@dataclass(frozen=True)
+class BudgetRow:
+    """What makes one reading of a construction scatter.
+
+    deviation : standard deviation [mm of paper; an angle that was measured itself: rad]
+    parts : of its variance by the kind of act, and what they bring together only
+    """
+
+    follower: str
+    construction: str
+    reading: str
+    deviation: float
+    parts: Mapping[str, float]
+
+
+def budgets(law: str, parts: int = 12) -> list[BudgetRow]:
+    """The error budget of every reading of every follower."""
+    rows: list[BudgetRow] = []
+    for follower in FOLLOWERS:
+        chain = scene(follower, law).chain(parts)
+        budget = ErrorBudget(chain, Pencil.of(SIGMA))
+        for name, drawn in chain.items():
+            for reading in drawn.meaning.readings:
+                shares = budget.of(name, reading)
+                brought = {kind.value: share for kind, share in shares.of.items()} | {"together": shares.together}
+                rows.append(BudgetRow(follower, name, reading, shares.deviation, brought))
+    return rows
 
 
 def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
