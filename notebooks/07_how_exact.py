@@ -26,7 +26,16 @@ import numpy as np
 
 import graphcam as gc
 from graphcam.notebooks import (
-    Question, Slider, changed, chart, compared, drawing, error_budget, explore, picture_of, table,
+    Question,
+    Slider,
+    changed,
+    chart,
+    compared,
+    drawing,
+    error_budget,
+    explore,
+    picture_of,
+    table,
 )
 
 # %% [markdown]

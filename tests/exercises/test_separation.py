@@ -1,4 +1,4 @@
-"""Issued is a variant in which every mistake can be told: from careful work, from every other, from an answer of nought."""
+"""Issued is where every mistake can be told: from careful work, from every other, and from an answer of nought."""
 
 from __future__ import annotations
 
