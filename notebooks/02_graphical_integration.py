@@ -182,7 +182,7 @@ show_steps(back, 2, 3, 4)
 # the chord by 1.7°, and at a pole distance of 40 mm that is 1.2 mm of velocity; the second differentiation does it again.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-hand = gc.Pencil(line=0.2, seed=3)
+hand = gc.Pencil.of(0.2, seed=3)
 trembling = differentiation(axis[rise], s.paper[rise], solution.chain.board.mu_phi, gc.Scale(float(s.scale), "mm"),
                             poles, hand)
 figure, axes = chart("axis, mm", "ordinate on paper, mm", 2.8)

@@ -25,7 +25,18 @@ from time import perf_counter
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, chart, compared, drawing, explore, picture_of, table
+from graphcam.notebooks import (
+    Question,
+    Slider,
+    changed,
+    chart,
+    compared,
+    drawing,
+    error_budget,
+    explore,
+    picture_of,
+    table,
+)
 
 # %% [markdown]
 # ## Background: two kinds of error
@@ -43,7 +54,7 @@ from graphcam.notebooks import Question, Slider, changed, chart, compared, drawi
 # ## A construction with a thousand hands
 #
 # graphcam draws each construction with a *pencil*. The default pencil is perfect. Another one misses every line and every divider setting by a random
-# amount, and it can draw a thousand sheets at once. Four students with a pencil of 0.5 mm (a bad one, so that you see it):
+# amount, and every angle by as much at the edge of a protractor of 100 mm; and it can draw a thousand sheets at once. Four students with a pencil of 0.5 mm (a bad one, so that you see it):
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -53,7 +64,7 @@ smooth = changed(task, {"motion.phases": tuple(
 
 
 def with_pencil(sigma, seed):
-    hand = gc.Pencil(line=float(sigma), dividers=float(sigma), seed=int(seed))
+    hand = gc.Pencil.of(float(sigma), seed=int(seed))
     return drawing(gc.solve(smooth, hand).drawn["minimum_radius"])
 
 
@@ -75,7 +86,7 @@ for parts in (4, 6, 8, 12, 16, 24, 48):
     perfect = gc.solve(finer)
     exact = perfect.comparison.exact_stations.values[0]
     method = np.abs(perfect.drawn["integration"].readings["s"].value - exact).max()
-    hands = gc.solve(finer, gc.Pencil(line=0.2, dividers=0.2, samples=400, seed=1)).drawn["integration"]
+    hands = gc.solve(finer, gc.Pencil.of(0.2, samples=400, seed=1)).drawn["integration"]
     both = np.abs(hands.readings["s"].value - exact).max(axis=-1).mean()
     rows.append((parts, 100 * method / 30, 100 * both / 30))
 table(("parts n", "perfect hand, % of the lift", "pencil of 0.2 mm, % of the lift"), rows, digits=2)
@@ -89,7 +100,7 @@ axes.legend(fontsize=8)
 axes.set_xticks(n, [f"{int(k)}" for k in n], minor=False)
 axes.minorticks_off()
 picture_of(figure, "Error against the number of parts, both axes logarithmic: the perfect hand's error falls steadily from 3.4 to 0.02 "
-           "percent; that of a 0.2 mm pencil falls to about 2 percent at 8 to 12 parts and then rises to 4 percent at 48.",
+           "percent; that of a 0.2 mm pencil falls to about 3 percent at 8 to 12 parts and then rises to 5 percent at 48.",
            "More parts help a perfect hand; a real one is best at 8 to 12")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
@@ -110,12 +121,21 @@ assert abs(slope + 2) < 0.1
 # %%
 names = {"greatest v": ("integration", "max_v"), "least radius": ("minimum_radius", "prime_radius"),
          "least radius of curvature": ("curvature", "rho"), "roller radius": ("roller", "roller_radius")}
-hands = gc.solve(smooth, gc.Pencil(line=0.2, dividers=0.2, samples=400, seed=1))
+hands = gc.solve(smooth, gc.Pencil.of(0.2, samples=400, seed=1))
 budget = []
 for title, (construction, name) in names.items():
     value = np.asarray(hands.drawn[construction].readings[name].value, dtype=float)
     budget.append((title, float(np.nanmean(value)), float(np.nanstd(value)), 100 * float(np.nanstd(value) / np.nanmean(value))))
 table(("quantity", "mean", "standard deviation", "%"), budget, digits=2)
+
+# %% [markdown]
+# Which acts bring this about? Let the same hands draw again, with errors in one kind of act alone: only the marks that the dividers divide an axis by,
+# only the circles, only the bisectors. Each kind brings a share of the variance, the square of the standard deviation; independent errors add by their
+# squares, so the shares of a row make 100 %. What is left over stands under *together*: errors can make the eye choose another place as the
+# sharpest one, and no kind of act is to blame for that alone.
+
+# %%
+error_budget(gc.solve(smooth), gc.Pencil.of(0.2))
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert budget[2][3] > 2 * budget[0][3]
@@ -176,8 +196,10 @@ assert abs(float(drawn) - exact.prime_radius) < 0.5
 #
 # ## Where the error comes from
 #
-# Summed up, from the most harmful to the least: readings to half a division; the protractor at the tangents; too short chords at the three points; chords that
-# pass their errors on; the method with 12 parts. Who wants a better sheet draws it *larger*, not finer.
+# Summed up, by the table of shares, from the most harmful to the least: chords that pass their errors on (the parallels: half to two thirds of velocity and
+# least radius); settings of the dividers; the marks of the axis and the uprights on them, wherever a curve is steep; too short chords at the three
+# points, where errors that are harmless alone move the place; the protractor, in the inversion; the method with 12 parts. Who wants a better sheet
+# draws it *larger*, not finer.
 #
 # ## Questions
 #

@@ -102,7 +102,7 @@ def test_options_reach_the_rooms_below(run, asked):
     task, pencil = asked[0]
     assert task.drawing.divisions == 24
     assert task.motion == graphcam.builtin_task().motion
-    assert pencil == graphcam.Pencil(line=0.2, dividers=0.2, seed=7)
+    assert pencil == graphcam.Pencil.of(0.2, seed=7)
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,8 @@ class TextTable:
 def tables(report: Report) -> list[TextTable]:
     """All tables of a report, in order."""
     figures = [_figures(section, report.rows[section.key]) for section in SECTIONS]
-    return [_convergence(report), _pencil(report), _methods(report), *figures, _peers(report), _drawing(report)]
+    of_hands = [_pencil(report), _budgets(report)]
+    return [_convergence(report), *of_hands, _methods(report), *figures, _peers(report), _drawing(report)]
 
 
 def markdown(report: Report) -> str:
@@ -81,6 +82,20 @@ def _without_goals(report: Report) -> Iterator[list[Cell]]:
         for n, mean, method in zip(h.parts, h.mean, h.method, strict=True):
             remark = f"of the method {method:.3g}" + (", best" if n == h.best else "")
             yield ["pencil", "translating", h.law, "displacement", n, mean, "of the lift", None, "", remark]
+    for b in report.budgets:
+        for kind, part in b.parts.items():
+            yield [
+                "budget",
+                b.follower,
+                "",
+                f"{b.construction}: {b.reading}",
+                None,
+                part,
+                "of the variance",
+                None,
+                "",
+                kind,
+            ]
     for m in report.methods:
         for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True):
             yield ["time", m.name, "", m.question, n, error, "relative", pairs, "sine-cosine pairs", m.kind]
@@ -120,10 +135,30 @@ def _pencil(report: Report) -> TextTable:
     ]
     note = (
         f"The greatest error of the displacement, of the lift, drawn by many hands that are off by {SIGMA} mm in every "
-        "projection and every chord: the number of parts at which its mean is least, that floor, and the range of nine "
-        "hands in ten. Under a law that the method draws exactly the fewest parts are the best."
+        "line, every setting and at the edge of the protractor: the number of parts at which its mean is least, that "
+        "floor, and the range of nine hands in ten. Under a law that the method draws exactly the fewest parts are the "
+        "best."
     )
     return TextTable("Error of the hand", note, ("law", "best number of parts", "floor", "nine in ten hands"), rows)
+
+
+def _budgets(report: Report) -> TextTable:
+    rows: list[list[str]] = []
+    for b in report.budgets:
+        largest = sorted(b.parts.items(), key=lambda part: -part[1])
+        brought = ", ".join(f"{kind} {100 * part:.0f}" for kind, part in largest if part >= LEAST_SHARE)
+        rows.append([b.follower, f"{b.construction}: {b.reading}", f"{b.deviation:.3g}", brought])
+    note = (
+        f"By hands that are off by {SIGMA} mm, 12 parts a phase: the standard deviation in mm of paper (of an angle "
+        "that is measured itself, in radians), and what part of its variance the acts of each kind bring, in percent; "
+        "together is what errors of several kinds bring only together."
+    )
+    columns = ("follower", "reading", "scatter", "brought by, %")
+    return TextTable("Error budget of the hand", note, columns, rows, 4, False)
+
+
+LEAST_SHARE = 0.01
+"""A part of the variance that is told."""
 
 
 def _methods(report: Report) -> TextTable:

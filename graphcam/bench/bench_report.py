@@ -8,7 +8,7 @@ from typing import Any
 
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.exact_rows import EXACT
-from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
+from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, Hands, bands, budgets, by_hand
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
@@ -80,6 +80,7 @@ class Report:
     pair : the time of one sine and one cosine on this machine [s], the unit of all times
     bands : between which relative errors nine hands in ten stay, by the question of the methods
     rows : figures and goals, by the keys of the sections
+    budgets : what makes the readings of every follower scatter
     rendering : times of laying out and rendering the sheet of the built-in task, in pairs
     """
 
@@ -87,6 +88,7 @@ class Report:
     series: tuple[Series, ...]
     hands: tuple[Hands, ...]
     bands: Mapping[str, tuple[float, float]]
+    budgets: tuple[BudgetRow, ...]
     methods: tuple[Method, ...]
     rows: Mapping[str, tuple[Row, ...]]
     peers: tuple[Peer, ...]
@@ -106,6 +108,7 @@ class Report:
                     for h in self.hands
                 ],
                 "pencil_bands": dict(self.bands),
+                "error_budgets": [asdict(b) for b in self.budgets],
                 "error_against_time": [asdict(m) for m in self.methods],
                 **{key: [_without_seconds(row) for row in rows] for key, rows in self.rows.items()},
                 "peers": [asdict(p) for p in self.peers],
@@ -125,7 +128,7 @@ def measure(
     series = tuple(convergence(effort.parts, effort.laws))
     progress("error of the hand")
     hands = tuple(by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws)
-    bands_of_hands = bands(LAW, effort.hands)
+    hands_of = bands(LAW, effort.hands), tuple(budgets(LAW))
     progress("error against time")
     methods = tuple(tradeoff(effort.sizes, timer, pair))
     gauge = Gauge(timer, effort.law_stations, effort.cam_stations)
@@ -139,7 +142,7 @@ def measure(
     drawing = tuple(drawing_times(timer, pair))
     progress("rendering")
     rendered = {name: seconds / pair for name, seconds in rendering(timer).items()}
-    return Report(pair, series, hands, bands_of_hands, methods, rows, others, drawing, rendered)
+    return Report(pair, series, hands, *hands_of, methods, rows, others, drawing, rendered)
 
 
 def _without_seconds(row: Row) -> dict[str, Any]:

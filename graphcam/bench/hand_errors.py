@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.bench.convergence import distance_from_profile
-from graphcam.bench.scenes import LIFT, TestScene, free_scene, motion_of, scene
+from graphcam.bench.scenes import FOLLOWERS, LIFT, TestScene, free_scene, motion_of, scene
+from graphcam.comparison.error_budget import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 
 SIGMA = 0.2
-"""Position of a sharp line [mm]."""
+"""What a hand is off in a line, in a setting and at the edge of the protractor [mm]."""
 PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
 QUANTILES = (5.0, 95.0)
 """Between these percentages lies a band of hands."""
@@ -56,7 +57,7 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
     """Draw one rise on a base of 120 mm, with an ordinate of 50 mm and poles of 40 mm."""
     fixed = scene("translating", law)
     where = replace(fixed, board=replace(fixed.board, motion=motion_of(law, LIFT, 120, 60, 120)))
-    pencil = Pencil(line=SIGMA, samples=hands)
+    pencil = Pencil.of(SIGMA, hands)
     errors = np.array([shape_errors(where, n, pencil) for n in parts])
     low, high = np.percentile(errors, QUANTILES, axis=1).tolist()
     method = [float(shape_errors(where, n, Pencil(samples=1))[0]) for n in parts]
@@ -72,9 +73,38 @@ def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     return np.abs(chain["integration"].readings["s"].value[:, rise] - exact).max(axis=1) / LIFT
 
 
+@dataclass(frozen=True)
+class BudgetRow:
+    """What makes one reading of a construction scatter.
+
+    deviation : standard deviation [mm of paper; an angle that was measured itself: rad]
+    parts : of its variance by the kind of act, and what they bring together only
+    """
+
+    follower: str
+    construction: str
+    reading: str
+    deviation: float
+    parts: Mapping[str, float]
+
+
+def budgets(law: str, parts: int = 12) -> list[BudgetRow]:
+    """The error budget of every reading of every follower."""
+    rows: list[BudgetRow] = []
+    for follower in FOLLOWERS:
+        chain = scene(follower, law).chain(parts)
+        budget = ErrorBudget(chain, Pencil.of(SIGMA))
+        for name, drawn in chain.items():
+            for reading in drawn.meaning.readings:
+                shares = budget.of(name, reading)
+                brought = {kind.value: share for kind, share in shares.of.items()} | {"together": shares.together}
+                rows.append(BudgetRow(follower, name, reading, shares.deviation, brought))
+    return rows
+
+
 def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
     """Between which relative errors nine hands in ten stay, in the usual number of parts, by question."""
-    pencil = Pencil(line=SIGMA, samples=hands)
+    pencil = Pencil.of(SIGMA, hands)
     fixed, free = scene("translating", law), free_scene(law)
     least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
     errors = {

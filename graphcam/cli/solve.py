@@ -28,7 +28,7 @@ JSON_ALONE = "Print the solution as JSON alone; write files only with --out."
 OWN_SHEETS = "Each construction on sheets of its own, A3 where the task has A1 or A2."
 BLANK = "A blank sheet to draw on: axes, divisions, and what the task gives."
 HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME."
-BY_HAND = "Draw with a hand that errs by this standard deviation, in mm, in each line and each divider setting."
+BY_HAND = "Draw with a hand of this standard deviation, in mm, in lines, divider settings and at a protractor's edge."
 KINDS = "plain: for every CAD program; cad: with true dimensions and attributes."
 OTHER_LANGUAGE = f"Language of sheet and note, not the task's: {', '.join(languages())}."
 
@@ -78,7 +78,7 @@ def solve(
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
-        hand = None if pencil is None else graphcam.Pencil(line=pencil, dividers=pencil, seed=seed)
+        hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
         solution = solved(given, hand)
         document = solution.to_dict()
         if folder is None:

@@ -45,9 +45,9 @@ class ErrorBudget:
 
     >>> import graphcam as gc
     >>> budget = ErrorBudget(gc.solve(gc.builtin_task()).chain, gc.Pencil.of(0.2))
-    >>> shares = budget.of("curvature", "rho")
+    >>> shares = budget.of("integration", "max_v")
     >>> max(shares.of, key=shares.of.get).value
-    'project'
+    'parallel'
     """
 
     drawn: Redrawable

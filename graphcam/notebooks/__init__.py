@@ -11,7 +11,7 @@ The drawings are those of :mod:`graphcam.sheets`: the same marks, the same rende
 from graphcam.notebooks.explore import Slider, changed, explore
 from graphcam.notebooks.picture import Picture, chart, picture_of, picture_of_page
 from graphcam.notebooks.question import Question
-from graphcam.notebooks.shown_tables import compared, table
+from graphcam.notebooks.shown_tables import compared, error_budget, table
 from graphcam.notebooks.stages import drawing, player, show_steps
 
 __all__ = [
@@ -22,6 +22,7 @@ __all__ = [
     "chart",
     "compared",
     "drawing",
+    "error_budget",
     "explore",
     "picture_of",
     "picture_of_page",

@@ -14,6 +14,7 @@ from graphcam.report.note import (
     against_exact,
     constructions,
     drawn_how,
+    errors_of_the_hand,
     heading,
     markdown_table,
     told_jumps,
@@ -115,6 +116,7 @@ def arcs_note(solution: ArcsSolution) -> str:
         (say("Kind of impact"), f"{tell(IMPACT)} {jumps}"),
         (say("Values at the stations"), _stations(solution)),
         (say("Drawn against exact"), against_exact(solution)),
+        *errors_of_the_hand(solution),
     ]
     return whole_note(head, chapters, solution)
 

@@ -11,6 +11,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
+from graphcam.report.budget_table import budget_table
 from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
@@ -43,6 +44,7 @@ def note(solution: Solution) -> str:
         (say("Values at the stations"), at_stations(solution)),
         (say("Polar coordinates"), polar_coordinates(solution)),
         (say("Drawn against exact"), against_exact(solution)),
+        *errors_of_the_hand(solution),
     ]
     return whole_note(_head(solution), chapters, solution)
 
@@ -268,6 +270,22 @@ def against_exact(solution: AnySolution) -> str:
         sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)], " "),
         tell=tell,
     )
+
+
+def errors_of_the_hand(solution: AnySolution) -> list[tuple[Caption, str]]:
+    """The chapter on what the acts of each kind bring to the scatter, where the hand errs."""
+    pencil = solution.chain.pencil
+    if pencil.perfect:
+        return []
+    meaning = say(
+        "The scatter is the standard deviation on the paper over {count} drawings with the same pencil, of several "
+        "values that of the one that scatters most. Beside it stands what part of its variance, in percent, the acts "
+        "of each kind bring. Together stands for what errors of several kinds bring only together, as where they make "
+        "the eye choose another place.",
+        count=pencil.samples or HANDS,
+    )
+    told = table(*budget_table(solution.chain, pencil), solution.tell)
+    return [(say("Where the errors of the hand come from"), blocks(meaning, told, tell=solution.tell))]
 
 
 def _verdict(solution: AnySolution) -> list[Caption]:

@@ -20,7 +20,7 @@ from graphcam.bench.convergence import (
     fitted_order,
     nearest_angles,
 )
-from graphcam.bench.hand_errors import by_hand
+from graphcam.bench.hand_errors import budgets, by_hand
 from graphcam.bench.rivals import (
     INTEGRATORS,
     arm_lines,
@@ -97,8 +97,20 @@ def test_the_order_is_fitted_to_a_power_exactly():
 def test_the_hand_has_a_best_number_of_parts():
     hands = by_hand("cycloidal", 400, (4, 12, 96))
     assert hands.best == 12
-    assert 100 * hands.floor == pytest.approx(0.85, rel=0.15)  # percent, in 12 parts
+    # In 12 parts lines alone leave 0.85 %; every setting of the dividers and every upright comes to it.
+    assert 100 * hands.floor == pytest.approx(1.25, rel=0.15)
     assert hands.low[1] < hands.mean[1] < hands.high[1]
+
+
+def test_the_error_budget_names_what_makes_every_reading_scatter():
+    rows = budgets("3-4-5")
+    assert {row.follower for row in rows} == {"translating", "arm", "flat"}
+    for row in rows:
+        assert row.deviation > 0, row
+        assert sum(row.parts.values()) == pytest.approx(1.0)
+    largest = {(row.construction, row.reading): max(row.parts, key=lambda kind: row.parts[kind]) for row in rows[:20]}
+    assert largest["acceleration", "base"] == "lay off"  # the only act that it takes
+    assert largest["integration", "closing_s"] == "parallel"  # chord after chord
 
 
 def test_the_exact_side_is_right_to_four_eps():
@@ -178,12 +190,12 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     with (tmp_path / "report" / "bench.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert {row["section"] for row in rows} == {
-        "convergence", "pencil", "time", "exact", "peers", "readings", "steps", "rendering"
+        "convergence", "pencil", "budget", "time", "exact", "peers", "readings", "steps", "rendering"
     }  # fmt: skip
     markdown = (tmp_path / "report" / "bench.md").read_text()
     tables = [line for line in markdown.splitlines() if line.startswith("|")]
     assert len(tables) > 60
-    assert markdown.count("\n## ") == 5 + len(reports.SECTIONS)
+    assert markdown.count("\n## ") == 6 + len(reports.SECTIONS)
     printed = result.output[result.output.index("\nError against the number") :].splitlines()[:-1]
     assert len(printed) > 120
     assert max(map(len, printed)) <= 80

@@ -99,6 +99,13 @@ def test_the_bound_of_a_perfect_pencil_is_too_narrow_for_a_hand():
     assert len(beyond) > 10
 
 
+def test_the_least_radius_of_a_hand_s_arm_is_not_bound_as_if_it_were_exact():
+    """Its distance is given, and the start is one crossing: still the circles and the protractor err."""
+    arm = solve(builtin_task("arm"), Pencil.of(0.2)).comparison.quantities["minimum_prime_radius"]
+    assert abs(arm.error_paper) > 1e-3
+    assert 0.5 < arm.tolerance_paper < 5.0
+
+
 WIDE = 20.0
 """A bound that is so many times the error still says something."""
 
