@@ -82,25 +82,10 @@ def sweep_to_folder(
     place = SharedFolder.reached(folder)
     manifest = _manifest(place, space)
     parts: list[Record] = manifest["parts"]
-    done = sum(part["stop"] - part["first"] for part in parts if part["whole"])
-    missing = [k for k, part in enumerate(parts) if not part["whole"]]
-    jobs = ((k, parts[k]["file"], parts[k]["first"], parts[k]["stop"]) for k in missing)
     save = partial(_save, place, manifest)
     save()
-    due = 0.0
     try:
-        with closing(results(pool, partial(write_part, space, place, __version__), jobs, batch=1)) as found:
-            for (k, _, first, stop), record in found:
-                if record is None:
-                    continue
-                if isinstance(record, str):
-                    raise OutputError(folder, record, "mend that and start again: what is whole stays")
-                parts[k] |= record | {"whole": True}
-                done += stop - first
-                if progress:
-                    progress(done)
-                if time.monotonic() >= due:
-                    due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
+        _compute_missing(space, place, parts, pool, save, progress or (lambda done: None))
     finally:
         save()
     if lost := sum(not part["whole"] for part in parts):
@@ -112,6 +97,30 @@ def sweep_to_folder(
     manifest |= {"whole": True, "summary": asdict(summary)}
     save()
     return summary
+
+
+def _compute_missing(
+    space: Space,
+    place: SharedFolder,
+    parts: list[Record],
+    pool: WorkerPool,
+    save: Callable[[], float],
+    progress: Callable[[int], object],
+) -> None:
+    """Let the workers write what is not whole, and record it as it comes."""
+    done, due = sum(part["stop"] - part["first"] for part in parts if part["whole"]), 0.0
+    jobs = ((k, part["file"], part["first"], part["stop"]) for k, part in enumerate(parts) if not part["whole"])
+    with closing(results(pool, partial(write_part, space, place, __version__), jobs, batch=1)) as found:
+        for (k, _, first, stop), record in found:
+            if record is None:
+                continue
+            if isinstance(record, str):
+                raise OutputError(place.url, record, "mend that and start again: what is whole stays")
+            parts[k] |= record | {"whole": True}
+            done += stop - first
+            progress(done)
+            if time.monotonic() >= due:
+                due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
 
 
 def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | str:
