@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
+from graphcam.given.ranges import bounded
 
 MM_PER_M = 1000.0
 Values = tuple[Floats, Floats, Floats, Floats]
@@ -50,6 +51,7 @@ class SpringLoad:
             value = getattr(self, quantity)
             if not (math.isfinite(value) and value >= 0):
                 raise DesignError(quantity, value, f"a finite number of 0 {unit} or more")
+        bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
             if not math.isfinite(value := getattr(self, quantity)):
                 raise DesignError(quantity, value, f"a finite number of {unit}")

@@ -17,10 +17,13 @@ from graphcam.given.measured import (
     integrated_motion,
     measured_motion,
 )
+from graphcam.given.ranges import REMEDY, SENSIBLE
 
 Column = Literal["s_mm", "s_deg", "a"]
 ANGLES = "phi_deg"
 _HEADERS = ", ".join(f"'{ANGLES},{column}'" for column in get_args(Column))
+_MOST = {"s_mm": SENSIBLE["mm"][1], "s_deg": SENSIBLE["degrees"][1], "a": SENSIBLE["mm/rad^2"][1]}
+"""The greatest magnitude of a value."""
 _FIRST_ROW = 2
 """Line of the first row, below the header."""
 
@@ -107,6 +110,8 @@ def _row(path: Path, number: int, line: str, column: Column) -> tuple[float, flo
         limit = f"two finite numbers, {ANGLES} and {column}"
         remedy = "write decimals with a point, and a comma between the numbers"
         raise TaskError(str(path), f"line {number}", _short(line), limit, remedy)
+    if abs(value) > _MOST[column]:
+        raise TaskError(str(path), f"line {number}: {column}", value, f"at most {_MOST[column]:.15g}", REMEDY)
     return phi, value
 
 

@@ -1,4 +1,4 @@
-"""The profile that can be cut as one clamped cubic B-spline, for programs that know no cams.
+"""The profile as one clamped cubic B-spline, for programs that know no cams; of an undercut cam what can be cut.
 
 Over its own arc length the profile is as smooth as its curvature is.  So the spline is
 
@@ -26,12 +26,14 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.complete_spline import closed_spline_through, spline_through
 from graphcam.mechanism.envelope import GAUSS_NODES, GAUSS_WEIGHTS, Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.mechanism.undercut import kept_arcs, lost_parts
+from graphcam.mechanism.undercut import Lost, kept_arcs, lost_parts
 
 DEVIATION = 0.001
 """How far the spline may lie from the exact profile [mm]."""
 LEAST_DEVIATION = 1e-9
-"""Nearer than this [mm] rounding would be approximated."""
+"""Nearer than this [mm] rounding would be approximated ..."""
+LEAST_PART = 1e-12
+"""... or than this part of the cam."""
 ROUNDS = 40
 """Of taking more knots where the deviation was missed."""
 LEAST_GROWTH = 1.02
@@ -71,12 +73,16 @@ class ProfileSpline:
         return BSpline(self.knots, self.control, 3)(np.asarray(at, dtype=np.float64), nu=derivative)
 
 
-def profile_spline(cam: Cam, deviation: float = DEVIATION) -> ProfileSpline:
-    """The profile that can be cut, no farther than ``deviation`` mm from the exact one.
+def profile_spline(cam: Cam, deviation: float = DEVIATION, *, trimmed: bool = False) -> ProfileSpline:
+    """The profile, no farther than ``deviation`` mm from the exact one.
+
+    trimmed : of an undercut cam what can be cut is wanted, without what is lost, as :meth:`Cam.trimmed_profile` tells
+        it in points
 
     Raises
     ------
-    DesignError : the deviation is smaller than can be told from rounding, or as for :meth:`Cam.undercuts`
+    DesignError : the cam is undercut, and ``trimmed`` is not given; the deviation is smaller than can be told from
+        rounding; or as for :meth:`Cam.undercuts`
 
     >>> from math import radians
     >>> import graphcam as gc
@@ -86,10 +92,16 @@ def profile_spline(cam: Cam, deviation: float = DEVIATION) -> ProfileSpline:
     >>> len(spline.control), spline.deviation < 0.001, spline(0).round(4).tolist()
     (43, True, [7.6, 37.2322])
     """
-    if not deviation >= LEAST_DEVIATION:
-        raise DesignError("deviation", deviation, f"{LEAST_DEVIATION:g} mm or more")
+    least = max(LEAST_DEVIATION, LEAST_PART * (cam.prime_radius + cam.motion.lift))
+    if not deviation >= least:
+        raise DesignError("deviation", deviation, f"{least:g} mm or more")
     envelope = cam.envelope
-    stretches, joints = _stretches(envelope)
+    lost = lost_parts(envelope)
+    if lost and not trimmed:
+        where = " and ".join(f"from {math.degrees(part.begin):.2f} to {math.degrees(part.end):.2f}" for part in lost)
+        remedy = "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
+        raise DesignError("profile", f"undercut {where} degrees", "without undercut", remedy)
+    stretches, joints = _stretches(envelope, lost)
     closed = not joints
     splines = [_fitted(envelope, stretch, deviation, periodic=closed) for stretch in stretches]
     return _joined(splines, [True] if closed else joints)
@@ -101,12 +113,12 @@ Span = tuple[float, float, int]
 """Cam angles between which the profile has all derivatives, and its piece."""
 
 
-def _stretches(envelope: Envelope) -> tuple[list[list[Span]], list[bool]]:
+def _stretches(envelope: Envelope, lost: list[Lost]) -> tuple[list[list[Span]], list[bool]]:
     """Stretches of continuous curvature, in order, and whether the tangent is continuous at the end of each.
 
     No joints and one stretch if the curvature is continuous all around.
     """
-    spans, joints = _spans(envelope)
+    spans, joints = _spans(envelope, lost)
     ends = [k for k, joint in enumerate(joints) if joint is not None]
     if not ends:
         return [spans], []
@@ -121,12 +133,12 @@ def _stretches(envelope: Envelope) -> tuple[list[list[Span]], list[bool]]:
     return stretches[:-1], [joint for joint in joints if joint is not None]
 
 
-def _spans(envelope: Envelope) -> tuple[list[Span], list[bool | None]]:
+def _spans(envelope: Envelope, lost: list[Lost]) -> tuple[list[Span], list[bool | None]]:
     """The spans in order; at the end of each True for a jump of the curvature, False for a corner, else None."""
     corners = envelope.touching
     spans: list[Span] = []
     joints: list[bool | None] = []
-    for begin, end in kept_arcs(envelope, lost_parts(envelope)):
+    for begin, end in kept_arcs(envelope, lost):
         cuts = sorted({begin, end, *(x for x in (*envelope.edges.tolist(), *corners) if begin < x < end)})
         spans += [(low, high, int(envelope.piece((low + high) / 2))) for low, high in pairwise(cuts)]
         joints += [False if cut in corners else None for cut in cuts[1:-1]] + [False]

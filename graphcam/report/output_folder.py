@@ -50,7 +50,7 @@ def write_profile(cam: Cam, folder: Path, kinds: Collection[str] = tuple(NAMES))
     wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
     if not wanted:
         return {}
-    cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam)
+    cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam, trimmed=True)
     if "profile_dxf" in wanted:
         write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile")
     if "profile_csv" in wanted:

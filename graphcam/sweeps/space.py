@@ -16,6 +16,7 @@ from graphcam.errors import DesignError, nearest
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
+from graphcam.given.ranges import bounded, positive
 from graphcam.sweeps.designs import Designs, Kind
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
@@ -25,6 +26,8 @@ ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise"
 """What a file gives and gets in degrees."""
 MOST = 10**12
 """Designs; nobody waits for more."""
+MOST_VALUES = 10**6
+"""Of one size."""
 _RANGE = ("start", "stop", "count")
 _ALLOWED = "a number, a list of numbers, or { start = 40, stop = 60, count = 21 }"
 Columns = dict[str, NDArray[Any]]
@@ -178,8 +181,12 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
     values: list[Any] = value if isinstance(value, list) else [value]
     if not values:
         raise DesignError(name, "an empty list", _ALLOWED)
-    if not all(isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x) for x in values):
+    if not all(isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < math.inf for x in values):
         raise DesignError(name, value, _ALLOWED)
+    unit = "(mm; degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
+    for x in values:
+        # An offset may be next to nothing; a size that is negative or zero makes no cam, which its row tells.
+        (positive if x > 0 and name != "offset" else bounded)(name, x, unit)
     return np.array(values, dtype=np.float64)
 
 
@@ -191,9 +198,9 @@ def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
         if key not in value:
             raise DesignError(f"{name}.{key}", "missing", "given", "a range has start, stop and count")
     count = value["count"]
-    if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= MOST:
-        raise DesignError(f"{name}.count", count, "a whole number of 1 or more")
-    ends = number_axis(f"{name}.start", value["start"]), number_axis(f"{name}.stop", value["stop"])
+    if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= MOST_VALUES:
+        raise DesignError(f"{name}.count", count, f"a whole number from 1 to {MOST_VALUES}")
+    ends = number_axis(name, value["start"]), number_axis(name, value["stop"])
     if ends[0].size > 1 or ends[1].size > 1:
         raise DesignError(name, value, _ALLOWED)
     return np.linspace(ends[0][0], ends[1][0], count)

@@ -6,9 +6,10 @@ from typing import Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
+from graphcam.given.ranges import bounded, positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import by_parts
-from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain, positive
+from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain
 
 MOST_PARTS = 200
 """Parts of an arc; more cannot be drawn apart."""
@@ -34,6 +35,10 @@ class ArcsTable:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
             raise DesignError("dwell", self.dwell, "at least 0 and less than 360 degrees")
         self()
+        positive("rho1", self.rho1, "mm")
+        for name in ("D", "G", "A", "C1", "C2"):
+            for coordinate in getattr(self, name) or ():
+                bounded(name, coordinate, "mm")
 
     def __call__(self) -> ThreeArcs:
         """The data."""
@@ -49,6 +54,7 @@ class RollerTable:
 
     def __post_init__(self) -> None:
         self()
+        positive("roller radius", self.roller_radius or None, "mm")
 
     def __call__(self) -> Translating:
         """The follower."""

@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar, Literal
 from graphcam.errors import DesignError
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
+from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
-from graphcam.tasks.sheet_tables import positive
 
 ANGLE_CLOSURE = 1e-9
 """How far the phase angles of a file may miss 360 degrees."""
@@ -108,6 +108,7 @@ class MotionTable:
         if self.tolerance is not None and self.table is None:
             left_out = "left out where there is no table"
             raise DesignError("tolerance", self.tolerance, left_out, "phases are kept exactly")
+        bounded("tolerance", self.tolerance, "(mm; degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             off = f"{abs(360 - turn):.10g} deg"

@@ -1,7 +1,6 @@
 """What every task file has: the tables about the sheet, and how values are checked and written back."""
 
 import dataclasses
-import math
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, get_args
 
@@ -13,12 +12,6 @@ from graphcam.words import Tell
 Format = Literal["A1", "A2", "A3", "A4"]
 Frame = Literal["gost", "iso"]
 Orientation = Literal["landscape", "portrait"]
-
-
-def positive(quantity: str, value: float | None, unit: str) -> None:
-    """Check a number that may be left out."""
-    if value is not None and not (math.isfinite(value) and value > 0):
-        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}")
 
 
 def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:

@@ -15,11 +15,12 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
+from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.showing import WIDTH, in_lines
 from graphcam.tasks.motion_tables import ByKind, MotionTable
-from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain, positive
+from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
@@ -69,6 +70,8 @@ class TranslatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
+        bounded("offset", self.offset, "mm")
+        positive("roller radius", self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -103,6 +106,9 @@ class OscillatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
+        positive("arm", self.arm, "mm")
+        positive("centre distance", self.distance, "mm")
+        positive("roller radius", self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
         one_of("lift", self.lift, ("angle", "arc"))
 
@@ -166,6 +172,8 @@ class LimitsTable:
     def __post_init__(self) -> None:
         positive("least radius of curvature", self.min_curvature_radius, "mm")
         self()
+        for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
+            positive(f"permitted pressure angle on the {name}", permitted, "degrees permitted")
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
@@ -192,6 +200,7 @@ class SpringTable:
         positive("stiffness", self.stiffness, "N/mm")
         if self.preload is not None and not (math.isfinite(self.preload) and self.preload >= 0):
             raise DesignError("preload", self.preload, "a finite number of 0 N or more")
+        bounded("preload", self.preload, "N")
 
     def __call__(self, speed_rpm: float) -> SpringLoad:
         """The load at a speed; an open preload is 0 in it."""

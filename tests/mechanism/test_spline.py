@@ -39,7 +39,7 @@ def along(spline: ProfileSpline) -> np.ndarray:
 @pytest.mark.parametrize("seed", range(20))
 def test_random_profiles_are_met_within_a_micrometre_by_few_control_points(seed):
     cam = random_cam(seed)
-    spline = profile_spline(cam)
+    spline = profile_spline(cam, trimmed=True)
     exact = cam.trimmed_profile(200_000)
     measured = greatest_distance(along(spline), exact)
     assert measured <= 0.001
@@ -52,7 +52,7 @@ def test_random_profiles_are_met_within_a_micrometre_by_few_control_points(seed)
 
 @pytest.mark.parametrize("seed", range(20))
 def test_it_is_one_clamped_closed_cubic(seed):
-    spline = profile_spline(random_cam(seed))
+    spline = profile_spline(random_cam(seed), trimmed=True)
     knots, control = spline.knots, spline.control
     assert len(knots) == len(control) + 4
     assert np.all(np.diff(knots) >= 0)
@@ -108,7 +108,9 @@ def test_only_where_the_acceleration_jumps_are_knots_double():
 def test_a_corner_is_met_exactly(excess):
     cam = one_loop("3-4-5", "ccw", excess)
     (loop,) = cam.undercuts()
-    spline = profile_spline(cam)
+    with pytest.raises(DesignError, match=r"profile is 'undercut from .* degrees'.*without undercut.*trimmed=True"):
+        profile_spline(cam)
+    spline = profile_spline(cam, trimmed=True)
     assert_allclose(spline(0.0), loop.crossing[2:], atol=1e-12)  # the seam is at the corner
     assert greatest_distance(along(spline), cam.trimmed_profile(200_000)) <= 0.001
 

@@ -162,8 +162,8 @@ def phase_tables(draw: st.DrawFn) -> tuple[RiseTable | DwellTable | ReturnTable,
 
 limits = st.builds(LimitsTable, st.none() | st.floats(1, 89), st.none() | st.floats(1, 89), rest=st.booleans())
 rollers = st.one_of(
-    st.builds(TranslatingTable, st.none() | st.floats(-9, 9), st.none() | st.floats(0, 9)),
-    st.builds(OscillatingTable, lengths, lengths, st.none() | st.floats(0, 9)),
+    st.builds(TranslatingTable, st.none() | st.floats(-9, 9), st.none() | st.floats(0.001, 9)),
+    st.builds(OscillatingTable, lengths, lengths, st.none() | st.floats(0.001, 9)),
 )
 flat_limits = st.builds(LimitsTable, min_curvature_radius=st.none() | lengths)
 tasks = st.one_of(

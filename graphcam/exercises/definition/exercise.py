@@ -13,8 +13,9 @@ from graphcam.drafting.marks import Points
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError
+from graphcam.given.ranges import positive
 from graphcam.language import ENGLISH, language, languages
-from graphcam.tasks.sheet_tables import one_of, positive
+from graphcam.tasks.sheet_tables import one_of
 from graphcam.words import Tell, Words
 
 Kind = Literal["number", "points", "curve"]

@@ -1,0 +1,57 @@
+"""What sizes, speeds and loads are sensible: beyond, a slip of the unit or of a digit is likelier than such a cam.
+
+The exact side knows no such bounds.  Files do, so that whatever they let pass can be computed, drawn and written.
+"""
+
+import math
+
+from graphcam.errors import DesignError
+
+SENSIBLE = {
+    "mm": (1e-3, 1e5),
+    "(mm; degrees for an arm)": (1e-3, 1e5),
+    "mm on paper": (1e-2, 1e4),
+    "mm/rad^2": (0.0, 1e9),
+    "degrees": (1e-3, 360.0),
+    "degrees permitted": (1.0, 90.0),
+    "rpm": (1e-3, 1e6),
+    "kg": (1e-6, 1e6),
+    "N/mm": (1e-6, 1e9),
+    "N": (0.0, 1e9),
+}
+"""The least and the greatest size by its unit; zero is none."""
+REMEDY = "check its unit and its digits"
+
+
+def positive(quantity: str, value: float | None, unit: str) -> None:
+    """Check a number that may be left out.
+
+    Raises
+    ------
+    DesignError : it is not positive, or beyond what is sensible
+
+    >>> positive("lift", 1e30, "mm")
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: lift is 1e+30, but must be from 0.001 to 100000 mm; check its unit and its digits
+    """
+    if value is None:
+        return
+    if not 0 < value < math.inf:
+        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}".rstrip())
+    least, most = SENSIBLE.get(unit, (0.0, math.inf))
+    if not least <= value <= most:
+        raise DesignError(quantity, value, f"from {least:g} to {most:.15g} {unit}", REMEDY)
+
+
+def bounded(quantity: str, value: float | None, unit: str) -> None:
+    """Check the magnitude of a number that may be left out, zero or negative.
+
+    Raises
+    ------
+    DesignError : it is beyond what is sensible
+
+    >>> bounded("offset", -1e-17, "mm")
+    """
+    _, most = SENSIBLE[unit]
+    if value is not None and not abs(value) <= most:
+        raise DesignError(quantity, value, f"at most {most:.15g} {unit} in magnitude", REMEDY)
