@@ -7,7 +7,7 @@ cells, and what the place itself costs, is least.
 import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
-from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ FORBIDDEN, ON_MEDIUM, ON_THIN, ON_HATCH = 200.0, 6.0, 1.5, 0.4
 """Cost of a cell with another text or a bold line in it, or with a lighter line."""
 AROUND_TEXT = 0.8
 """Free margin in the hatching around a text, mm."""
-TOGETHER = 1, 24
+NEAR = 24
 """So many places of a text are looked at before the further ones."""
 LEADER_SHARES = np.linspace(0.1, 0.95, 24)
 """Where along a leader it is looked at what it crosses."""
@@ -50,7 +50,7 @@ class Occupancy:
         self.cells: NDArray[np.float32] = np.full(shape, FORBIDDEN, dtype=np.float32)
         self.cells[1:-1, 1:-1] = 0.0
 
-    def _where(self, x: Floats, y: Floats) -> NDArray[np.intp]:
+    def _where(self, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> NDArray[np.intp]:
         """The numbers of the cells, row after row, that places lie in; those outside lie in the ring."""
         (rows, columns), corner = self.cells.shape, self.corner
         return _within(y - corner.imag, rows) * columns + _within(x - corner.real, columns)
@@ -85,7 +85,7 @@ class Occupancy:
             self.take(sampled(*linework(alike), 0.7 * CELL), cost)
 
 
-def _within(along: Floats, count: int) -> NDArray[np.intp]:
+def _within(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
     """In which of ``count`` cells of a row places lie, the first and the last of them beyond the ends."""
     return np.minimum(np.maximum(np.floor(along / CELL), -1), count - 2).astype(np.intp) + 1
 
@@ -123,9 +123,9 @@ def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> 
 
 
 def _choose(writing: Writing, paper: Occupancy) -> int:
-    """The cheapest place.  The best is tried first, then the near ones: most texts need no other."""
+    """The cheapest place.  The near ones are tried first: most texts need no other."""
     best, least = 0, math.inf
-    for start, end in pairwise((0, *TOGETHER, len(writing.centres))):
+    for start, end in ((0, NEAR), (NEAR, len(writing.centres))):
         part = start + np.flatnonzero(writing.cost[start:end] < least)
         if part.size:
             cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
