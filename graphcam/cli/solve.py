@@ -132,4 +132,4 @@ def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
         # Adding zero makes a positive zero of what rounds to a negative one.
         rows.append([name, row["unit"], *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers)])
     columns = ("quantity", "unit", "drawn", "exact", "error", "bound")
-    print_table(columns, rows, words=2, caption="error and bound in mm on paper")
+    print_table(columns, rows, words=2, caption="error and estimated bound in mm on paper")
