@@ -93,6 +93,18 @@ def _laws(unit: Unit, timer: Timer) -> Iterator[Row]:
         growing, mixed = timer.seconds(partial(law(name), u)), timer.seconds(partial(law(name), _mixed(u)))
         yield unit.row(f"law {name}", what, growing, goal, _law_error(name))
         yield _in_any_order(f"law {name}", mixed, growing)
+    yield unit.row(
+        "law, any order, floor", "seven sizes of a piece looked up", timer.seconds(partial(_looked_up, unit.n))
+    )
+
+
+def _looked_up(n: int) -> None:
+    """What places in any order take on top: the number of each one's piece, its origin, length, base and factors."""
+    places, sizes, out = np.random.default_rng(2).random(CHUNK), np.ones(2), np.empty(CHUNK)
+    for _ in range(0, n, CHUNK):
+        number = (places >= 0.5).astype(np.intp)
+        for _ in range(7):
+            sizes.take(number, out=out, mode="clip")
 
 
 def _mixed(places: Floats) -> Floats:

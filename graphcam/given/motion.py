@@ -261,7 +261,7 @@ class Motion(Shown):
             edges = self._edges[index[here]]
             passed = edges <= u[:, None] if side == "right" else edges < u[:, None]
             piece = self.first_piece[index[here]] + np.count_nonzero(passed, axis=1)
-            self._piecewise.gather(piece, u, self._ends, out[:, here])
+            self._piecewise.gather(piece, np.where(self._from_end[piece], 1 - u, u), out[:, here])
         s, v, a, j = out.reshape(4, *shape)
         return s, v, a, j
 
@@ -307,10 +307,9 @@ class Motion(Shown):
         return edges
 
     @cached_property
-    def _ends(self) -> Floats:
-        """(2, p) the end of its phase that a piece is seen from, 0 or 1, and the way from there."""
-        ways = np.sign([piece.length for piece in self._piecewise.pieces])
-        return np.array([ways < 0, ways], dtype=np.float64)
+    def _from_end(self) -> NDArray[np.bool_]:
+        """(p,) whether a piece is seen from the end of its phase."""
+        return np.array([piece.length < 0 for piece in self._piecewise.pieces])
 
 
 def _in_words(phase: Phase) -> str:

@@ -1,9 +1,10 @@
 """Functions made of pieces: a formula a piece, written as the piece looks from the nearer end of its phase.
 
 Angles that grow, as a turn's do, are cut at the breaks into slices of one piece each, which cost a dozen passes of the
-processor and no sorting.  Angles in any other order, and few of them, are gathered by their formula, which many pieces
-share: both halves of a law, and the same law's rise and return.  They are not sorted either: comparing them with every
-start tells their pieces.  Both ways do the same arithmetic to every value.
+processor and no sorting.  Few angles are gathered by their formula, which many pieces share: both halves of a law, and
+the same law's rise and return.  Of many in any other order comparing them with every start tells the pieces.  Where all
+that moves has one formula they are computed as they stand, with the sizes of each one's piece beside it; else a radix
+sort of the pieces' numbers brings them into order, and back.  Every way does the same arithmetic to every value.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -22,10 +23,6 @@ CHUNK = 16_384
 """Values that are computed at a time: their arrays stay in the processor's cache, and bound the memory."""
 LONG = 512
 """From so many values a piece on it is quicker to slice than to gather."""
-ORDERED = 2048
-"""From so many values a piece on it is quicker to bring them into the pieces' order than to gather them by formula."""
-COMPARED = 64
-"""Up to so many pieces it is quicker to compare every value with every start than to search for its place."""
 
 
 class Piece(NamedTuple):
@@ -89,8 +86,10 @@ class Piecewise:
     """those that differ"""
     _formula_of: NDArray[np.intp] = field(init=False)
     """(p,) the number of each piece's formula"""
-    _alike: bool = field(init=False)
-    """whether all that moves has one formula"""
+    _moves: NDArray[np.bool_] = field(init=False)
+    """(p,) whether a piece is not at rest"""
+    _alike: Formula | None = field(init=False)
+    """that of all pieces that move, if they have one"""
     _places: Floats = field(init=False)
     """(2, p) origins and lengths"""
     _units: Floats = field(init=False)
@@ -103,7 +102,9 @@ class Piecewise:
         object.__setattr__(self, "starts", np.array(starts))
         object.__setattr__(self, "_formulas", distinct)
         object.__setattr__(self, "_formula_of", np.array([number[formula] for formula in formulas]))
-        object.__setattr__(self, "_alike", len({*distinct} - {at_rest}) == 1)
+        moving = [formula for formula in distinct if formula is not at_rest]
+        object.__setattr__(self, "_moves", np.array([formula is not at_rest for formula in formulas]))
+        object.__setattr__(self, "_alike", moving[0] if len(moving) == 1 else None)
         object.__setattr__(self, "_places", np.array([origins, lengths]))
         object.__setattr__(self, "_units", np.array([bases, *zip(*factors, strict=True)], dtype=np.float64))
 
@@ -118,60 +119,66 @@ class Piecewise:
             if t.size >= LONG * len(met):
                 _slice(met, t, out)
                 return
-        number = self._numbers(t, side)
-        if self._alike or t.size < ORDERED * len(self.pieces):
-            self.gather(number.astype(np.intp), t, self._places, out)
+        if t.size < LONG * len(self.pieces):
+            number = self.starts[1:].searchsorted(t, side=side)
+            origins, lengths = self._places
+            self.gather(number, (t - origins[number]) / lengths[number], out)
+        else:
+            number, compare = np.zeros(t.shape, dtype=np.uint8), np.greater_equal if side == "right" else np.greater
+            for start in self.starts[1:].tolist():
+                number += compare(t, start).view(np.uint8)
+            if self._alike:
+                self._look_up(self._alike, number.astype(np.intp), t, out)
+            else:
+                self._bring_in_order(number, t, out)
+            if np.isnan(np.min(t)):
+                out[:, np.isnan(t)] = np.nan  # even where a constant took its place
+
+    def gather(self, number: NDArray[np.intp], x: Floats, out: Floats) -> None:
+        """Write the values at the distances x in the pieces of those numbers, (n,) each, into ``out``, (4, n)."""
+        formula_of = self._formula_of[number]
+        for k, count in enumerate(np.bincount(formula_of).tolist()):
+            if count:
+                here = slice(None) if count == number.size else (formula_of == k).nonzero()[0]
+                base, *factors = self._units.take(number[here], axis=1)
+                for row, value, factor in zip(out, self._formulas[k](x[here]), factors, strict=True):
+                    row[here] = factor * value
+                out[0, here] += base
+        out += 0.0 * x  # so that zero is +0, and NaN stays NaN even where a constant takes its place
+
+    def _look_up(self, formula: Formula, number: NDArray[np.intp], t: Floats, out: Floats) -> None:
+        """Write the values at t, of one formula or at rest."""
+        if self._moves.all():
+            self._write_alike(formula, number, t, out)
             return
+        self._units[0].take(number, out=out[0], mode="clip")
+        out[1:] = 0.0
+        moving = np.flatnonzero(self._moves.take(number))
+        part = np.empty((4, moving.size))
+        self._write_alike(formula, number.take(moving), t.take(moving), part)
+        for row, values in zip(out, part, strict=True):
+            row[moving] = values
+
+    def _write_alike(self, formula: Formula, number: NDArray[np.intp], t: Floats, out: Floats) -> None:
+        """Write the values of one formula, each in the units of its own piece."""
+        origins, lengths = self._places
+        x = t - origins.take(number)
+        x /= lengths.take(number)
+        _write(out, formula(x), (unit.take(number) for unit in self._units))
+
+    def _bring_in_order(self, number: NDArray[np.uint8], t: Floats, out: Floats) -> None:
+        """Write the values at t, a piece at a time."""
         order = np.argsort(number, kind="stable")
         place, ordered = np.empty_like(order), np.empty_like(out)
         place[order] = np.arange(t.size)
-        met = self._met(np.searchsorted(number[order], np.arange(1, len(self.pieces))), t.size)
-        _slice(met, t[order], ordered)
+        _slice(self._met(np.searchsorted(number[order], np.arange(1, len(self.pieces))), t.size), t[order], ordered)
         for row, values in zip(out, ordered, strict=True):
             values.take(place, out=row, mode="clip")
-        _keep_missing(t, out)
 
     def _met(self, cuts: NDArray[np.intp], n: int) -> list[tuple[Piece, slice]]:
         """The pieces that n values in order lie in, and which of them lie in each."""
         ends = pairwise([0, *cuts.tolist(), n])
         return [(piece, slice(*here)) for piece, here in zip(self.pieces, ends, strict=True) if here[0] < here[1]]
-
-    def _numbers(self, t: Floats, side: Side) -> NDArray[Any]:
-        """(n,) the number of the piece that each t lies in; of few pieces in a byte, for which sorting is by radix."""
-        if len(self.pieces) > COMPARED:
-            return self.starts[1:].searchsorted(t, side=side)
-        number, compare = np.zeros(t.shape, dtype=np.uint8), np.greater_equal if side == "right" else np.greater
-        for start in self.starts[1:].tolist():
-            number += compare(t, start).view(np.uint8)
-        return number
-
-    def gather(self, number: NDArray[np.intp], t: Floats, places: Floats, out: Floats) -> None:
-        """Write the values in the pieces of those numbers, (n,), into ``out``, (4, n).
-
-        t : (n,) from which the distances x follow;  places : (2, p) origins and lengths for it
-        """
-        if len(self._formulas) == 1:
-            self._write_one(0, number, t, places, out)
-        else:
-            self._units[0].take(number, out=out[0], mode="clip")
-            out[1:] = 0.0
-            formula_of = self._formula_of.take(number)
-            met = np.zeros(len(self._formulas), dtype=bool)
-            met[formula_of] = True
-            for k in np.flatnonzero(met).tolist():
-                if self._formulas[k] is not at_rest:
-                    here = np.flatnonzero(formula_of == k)
-                    part = np.empty((4, here.size))
-                    self._write_one(k, number.take(here), t.take(here), places, part)
-                    for row, values in zip(out, part, strict=True):
-                        row[here] = values
-        _keep_missing(t, out)
-
-    def _write_one(self, formula: int, number: NDArray[np.intp], t: Floats, places: Floats, out: Floats) -> None:
-        """Write the values of a formula, each in the units of its own piece."""
-        x = t - places[0].take(number)
-        x /= places[1].take(number)
-        _write(out, self._formulas[formula](x), (unit.take(number) for unit in self._units))
 
 
 def _slice(met: list[tuple[Piece, slice]], t: Floats, out: Floats) -> None:
@@ -183,12 +190,6 @@ def _slice(met: list[tuple[Piece, slice]], t: Floats, out: Floats) -> None:
             x = t[here] - origin
             x /= length
             _write(out[:, here], formula(x), (base, *factors))
-
-
-def _keep_missing(t: Floats, out: Floats) -> None:
-    """NaN for NaN, even where a constant took its place."""
-    if np.isnan(np.min(t, initial=0.0)):
-        out[:, np.isnan(t)] = np.nan
 
 
 def _write(out: Floats, values: Sequence[Floats | float], units: Iterable[Floats | float]) -> None:

@@ -12,7 +12,7 @@ from reference import EPS
 
 from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.given.pieces import CHUNK, sine_cosine
+from graphcam.given.pieces import CHUNK, LONG, sine_cosine
 
 LONG_ENOUGH = 5 * CHUNK + 37
 """So many angles over a turn are cut into slices, a piece each."""
@@ -43,6 +43,30 @@ def test_a_law_too(name):
     u, the_law = np.linspace(-0.1, 1.1, 2 * CHUNK), law(name)
     order = np.random.default_rng(2).permutation(u.size)
     assert_array_equal(np.array(the_law(u[order])), np.array(the_law(u))[:, order])
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_what_is_outside_of_a_phase_has_no_value_whatever_its_order(name):
+    """Constants of a piece too: the acceleration of the rectangular law, the jerk of many others."""
+    u = np.random.default_rng(3).permutation(np.linspace(-0.1, 1.1, 2 * CHUNK))
+    u[::1000] = np.nan
+    inside = (u >= 0) & (u <= 1)
+    for row in law(name)(u):
+        assert_array_equal(np.isfinite(row), inside)
+        assert_array_equal(np.isnan(row), ~inside)
+
+
+@pytest.mark.parametrize("phases", [4, 2 * CHUNK // LONG])
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_of_few_pieces_and_of_many_each_place_has_its_own(phases, side):
+    """Places in any order, breaks among them, against every one alone; two laws, or one in dozens of phases."""
+    names = ("trapezoidal", "cosine") if phases == 4 else ("cosine",)
+    parts = [(Rise, Return)[k % 2](1.0, FULL_TURN / phases, names[k % len(names)]) for k in range(phases)]
+    motion, rng = Motion(parts), np.random.default_rng(4)
+    phi = rng.permutation(np.concatenate([rng.random(CHUNK) * FULL_TURN, np.repeat(motion.breaks, 3)]))
+    values = np.array(motion(phi, side))
+    for k in [*rng.integers(phi.size, size=40), *np.flatnonzero(np.isin(phi, motion.breaks))[:80]]:
+        assert_array_equal(values[:, k], np.array(motion(phi[k], side)))
 
 
 def test_many_turns_in_growing_order_are_wrapped_one_by_one():
