@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.integrate import cumulative_simpson, cumulative_trapezoid
@@ -109,9 +109,9 @@ def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
 
 def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
     """The same with the half-planes as scipy's linear constraints."""
-    normals, heights = lines
     size = math.hypot(*start)
-    kept = LinearConstraint(normals, heights / size, np.inf)
+    normals, least = lines[0], cast(Any, lines[1] / size)
+    kept = LinearConstraint(normals, least, np.inf)
     found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
     return size * float(np.hypot(*found.x))
 
