@@ -177,7 +177,7 @@ def by_stations(designs: Designs, n: int) -> Floats:
     columns = [designs.column(name).tolist() for name in ("lift", "rise_angle", "return_angle", "prime_radius")]
     places = [designs.column(name).tolist() for name in ("offset", "arm", "distance")]
     (up, up1, up2), (back, back1, back2) = (law(x.item())(u, 2) for x in (designs.rise_law, designs.return_law))
-    seen = _seen_by_arm if designs.follower == "oscillating" else _seen_by_stem
+    seen = _seen_by_arm if np.any(designs.arm) else _seen_by_stem
     for k, (lift, rise, fall, r0, *place) in enumerate(zip(*columns, *places, strict=True)):
         sharpest = 0.0
         for side, angle, s, v, a in ((0, rise, up, up1, up2), (1, fall, 1 - back, -back1, -back2)):
