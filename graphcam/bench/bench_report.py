@@ -12,6 +12,7 @@ from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, 
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
+from graphcam.bench.sweep_curve import SIZES as SWEPT, curve_rows
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
@@ -48,7 +49,7 @@ PAIR_STATIONS = 100_000
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured: numbers of parts, hands, stations, and seconds for every measurement of a time."""
+    """How much is measured: parts, hands, stations, seconds for every measurement of a time, designs of sweeps."""
 
     parts: tuple[int, ...]
     laws: tuple[str, ...]
@@ -58,6 +59,7 @@ class Effort:
     law_stations: int
     cam_stations: int
     budget: float
+    swept: tuple[int, ...] = ()
 
 
 STEP_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
@@ -67,10 +69,11 @@ CORNERS = (24, 96, 360, 1440, 5760, 23040)
 FULL = Effort(
     *(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS),
     TimedSizes(STEP_BY_FOUR, STEP_BY_FOUR[:7], STEP_BY_FOUR, STEP_BY_THREE, STEP_BY_THREE[:4], CORNERS),
-    *(100_000, 1_000_000, 0.2),
+    *(100_000, 1_000_000, 0.2, SWEPT),
 )
 FEWER = replace(FULL.sizes, graphical=STEP_BY_FOUR[:8], profile=STEP_BY_FOUR[:6], integrators=STEP_BY_FOUR[:9])
-QUICK = replace(FULL, hands=1000, budget=0.02, sizes=replace(FEWER, half_planes=STEP_BY_THREE[:6], buffer=CORNERS[:5]))
+FEWEST = replace(FEWER, half_planes=STEP_BY_THREE[:6], buffer=CORNERS[:5])
+QUICK = replace(FULL, hands=1000, budget=0.02, swept=(), sizes=FEWEST)
 
 
 @dataclass(frozen=True)

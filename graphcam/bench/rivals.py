@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.integrate import cumulative_simpson, cumulative_trapezoid
@@ -109,9 +109,9 @@ def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
 
 def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
     """The same with the half-planes as scipy's linear constraints."""
-    normals, heights = lines
     size = math.hypot(*start)
-    kept = LinearConstraint(normals, heights / size, np.inf)
+    normals, least = lines[0], cast(Any, lines[1] / size)
+    kept = LinearConstraint(normals, least, np.inf)
     found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
     return size * float(np.hypot(*found.x))
 
@@ -177,7 +177,7 @@ def by_stations(designs: Designs, n: int) -> Floats:
     columns = [designs.column(name).tolist() for name in ("lift", "rise_angle", "return_angle", "prime_radius")]
     places = [designs.column(name).tolist() for name in ("offset", "arm", "distance")]
     (up, up1, up2), (back, back1, back2) = (law(x.item())(u, 2) for x in (designs.rise_law, designs.return_law))
-    seen = _seen_by_arm if designs.follower == "oscillating" else _seen_by_stem
+    seen = _seen_by_arm if np.any(designs.arm) else _seen_by_stem
     for k, (lift, rise, fall, r0, *place) in enumerate(zip(*columns, *places, strict=True)):
         sharpest = 0.0
         for side, angle, s, v, a in ((0, rise, up, up1, up2), (1, fall, 1 - back, -back1, -back2)):

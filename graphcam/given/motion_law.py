@@ -138,7 +138,8 @@ class Law:
         k = (bisect_right if side == "right" else bisect_left)(self.edges, u)
         _, _, origin, length, base, (c0, c1, c2, c3) = self.pieces[k]
         f, f1, f2, f3 = self._of_number[k]((u - origin) / length)
-        return [base + c0 * float(f), c1 * float(f1), c2 * float(f2), c3 * float(f3)]
+        # Added to 0, so that zero is +0.
+        return [base + c0 * float(f), 0.0 + c1 * float(f1), 0.0 + c2 * float(f2), 0.0 + c3 * float(f3)]
 
     @cached_property
     def _of_number(self) -> list[_OfNumber]:

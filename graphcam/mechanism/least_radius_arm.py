@@ -186,10 +186,9 @@ def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[list[HalfPlan
         if line.touch:
             side, leg, w, low, high, *_ = line.touch
             place = higher(line, point, low, high)
-            step = abs(place - w)
-            if step > longest * place:
-                longest = step / place
-            if step > SAME_PLACE * place:
+            step = abs(place - w) / (max(place, w) or 1.0)
+            longest = max(longest, step)
+            if step > SAME_PLACE:
                 line = side.line(leg, place, low, high)
         moved.append(line)
     return moved, longest

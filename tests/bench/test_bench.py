@@ -20,6 +20,7 @@ from graphcam.bench.convergence import (
     fitted_order,
     nearest_angles,
 )
+from graphcam.bench.exact_rows import designs
 from graphcam.bench.hand_errors import budgets, by_hand
 from graphcam.bench.rivals import (
     INTEGRATORS,
@@ -27,11 +28,13 @@ from graphcam.bench.rivals import (
     by_half_planes,
     by_optimiser,
     by_pressure_angles,
+    by_stations,
     integrated_error,
     translating_lines,
 )
 from graphcam.bench.rows import Row
 from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
+from graphcam.bench.sweep_curve import swept_file
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import (
     INSIDE,
@@ -42,6 +45,8 @@ from graphcam.bench.tradeoff import (
 )
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT, table_lines
+from graphcam.sweeps.sweep import sweep
+from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 SMOOTH = ("cycloidal", "3-4-5")
 SECOND_ORDER = ("displacement", "velocity", "greatest acceleration", "pitch curve", "working profile")
@@ -147,6 +152,26 @@ def test_a_sampled_least_radius_of_an_arm_is_too_small():
     arm = scene("arm", "3-4-5")
     lines = arm_lines(arm.board.motion, arm.board.limits.rise, ARM, 360)
     assert -1e-4 < by_optimiser(lines, (20.0, 90.0)) / arm.least().prime_radius - 1 < 0
+
+
+def test_a_loop_over_stations_misses_the_extremes_of_a_sweep_with_the_second_order():
+    for follower, law in (("translating", "cycloidal"), ("arm", "3-4-5")):
+        some = designs(follower, law, 40)
+        swept = sweep(some, QUANTITIES[:3])
+        exact = np.stack([swept[name] for name in QUANTITIES[:3]], axis=1)
+        # It sees angles that are too small, and radii that are too large.
+        missed = [(by_stations(some, n) / exact - 1) * [-1, -1, 1] for n in (181, 721)]
+        assert min(m.min() for m in missed) > -1e-12
+        assert 1e-6 < missed[0].max() < 1e-3
+        assert missed[1].max() < missed[0].max() / 8
+
+
+def test_a_sweep_into_a_file_tells_what_it_took():
+    run = swept_file(1000, workers=2)
+    assert run.processor_seconds > 0
+    assert run.rate * run.seconds == pytest.approx(1000)
+    if sys.platform == "linux":
+        assert run.peak_bytes > 2**25  # an interpreter with NumPy alone has as much
 
 
 def test_the_distance_from_the_profile_is_that_along_its_normal():

@@ -434,3 +434,28 @@ def test_a_built_in_law_and_its_reverse_would_pass_the_check_that_they_are_spare
         assert replace(built).pieces == built.pieces
     with pytest.raises(gc.DesignError, match="given max f'"):
         replace(law, peaks=(3.0, law.peak_acceleration))
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_an_arm_of_the_least_radius_just_keeps_its_limits(law):
+    motion = gc.Motion([gc.Rise(0.35, 1.6, law), gc.Dwell(0.7), gc.Return(0.35, 1.3, law), gc.Dwell(2 * PI - 3.6)])
+    for distance in (None, 140.0):
+        least = gc.minimum_radius(motion, gc.Oscillating(100, distance), rise=PI / 4, return_=PI / 3)
+        extremes = gc.Cam(motion, gc.Oscillating(100, least.distance), least.prime_radius).extremes()
+        angles = extremes.pressure_angle_rise[0] / (PI / 4), extremes.pressure_angle_return[0] / (PI / 3)
+        assert max(map(abs, angles)) == pytest.approx(1, abs=1e-13)
+
+
+def only_of_arrays(u):
+    f = np.empty((4, u.size))
+    f[:] = smooth(u)
+    return f
+
+
+@pytest.mark.parametrize("law", [*LAWS.values(), gc.Law("of arrays", only_of_arrays), *map(gc.law, gc.LAWS)])
+def test_a_law_at_one_place_is_that_at_many(law):
+    u = np.array([0.0, 1e-9, 0.01, *law.edges, 0.3, 0.77, 1 - 1e-9, 1.0])
+    for side in ("left", "right"):
+        many = np.array(law(u, side=side))
+        one = np.array([law.at(x, side) for x in u.tolist()]).T
+        np.testing.assert_allclose(one, many, rtol=1e-14, atol=1e-15)

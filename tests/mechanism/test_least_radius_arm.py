@@ -244,6 +244,26 @@ def test_a_cam_of_the_least_radius_keeps_its_limits(motion, rotation):
         assert max(reached) == pytest.approx(1, abs=1e-13)
 
 
+def test_arms_of_random_motions_and_limits_just_keep_them():
+    """Several laws, limits of 1 to 86 degrees, distances free and given: lines touch at starts, breaks and inside."""
+    random, sized = np.random.default_rng(7), 0
+    for _ in range(150):
+        turns = random.uniform(0.3, 1.5, 3)
+        swing, (up, down) = random.uniform(0.02, 0.6), random.choice(LAWS, 2).tolist()
+        phases = [Rise(swing, turns[0], up), Return(swing, turns[1], down), Dwell(FULL_TURN - turns[0] - turns[1])]
+        rise, back = random.uniform(0.02, 1.5, 2)
+        distance = float(random.uniform(60, 300)) if random.random() < 0.5 else None
+        try:
+            found = minimum_radius(Motion(phases), Oscillating(ARM, distance), "cw", rise, back)
+        except DesignError:
+            continue
+        sized += 1
+        extremes = Cam(Motion(phases), Oscillating(ARM, found.distance), found.prime_radius, "cw").extremes()
+        reached = extremes.pressure_angle_rise[0] / rise, extremes.pressure_angle_return[0] / back
+        assert max(map(abs, reached)) == pytest.approx(1, abs=1e-12)
+    assert sized > 80
+
+
 @pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
 def test_the_motion_backwards_on_the_disk_turned_back_has_the_same_least_radius(motion):
     mirrored = {"rise": Return, "return": Rise}
