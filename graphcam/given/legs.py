@@ -1,29 +1,28 @@
-"""What a table of displacements does over the turn: where it rests, where it turns, and the legs between.
-
-A rest is a run of rows that keep to one level for longer than a turning point would; a rise or return of less than the
-tolerance hides is no leg.
-"""
+"""What a table of displacements does over the turn: where it rests, where it turns, and the legs between."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.rests import find_stop
 
-LEVEL = 0.7
-"""The rows of a rest differ by at most this fraction of the tolerance."""
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
-LONGER_THAN_TURNING = 1.5
-"""A rest is at least so many times longer than an eccentric, which turns slowest, keeps to a level so."""
-OUTSIDE = 1.5
-"""An end row of a rest belongs to it if it is off by no more than so many times what the rows in its middle are."""
+SPREAD = 10.0
+"""The rows of a rest differ by less than this [sd of the noise], and ..."""
+OFF = 6.0
+"""... are off their level by less than this."""
+SEEN, PART = 100.0, 0.15
+"""A stop is judged by rows that are off its level by no more than this [sd of the noise], and this part of the leg."""
+FEWEST = 5
+"""Rows on either side of a stop, that it is judged by."""
+SLOW = 3.0
+"""On its way a motion may rest where it is so many times slower than on average."""
 
 
 @dataclass(frozen=True)
@@ -46,145 +45,129 @@ class Leg:
 
 
 @dataclass(frozen=True)
-class _Stop:
-    """A row, or the rows of a rest: cam angles [rad] and displacement."""
+class _Flat:
+    """Rows first .. last that keep to a level, where the motion may rest or turn."""
 
-    start: float
-    end: float
+    first: int
+    last: int
     level: float
 
-    @property
-    def rest(self) -> bool:
-        return self.end > self.start
 
-    @property
-    def a_turn_later(self) -> _Stop:
-        return replace(self, start=self.start + FULL_TURN, end=self.end + FULL_TURN)
-
-
-def find_legs(phi: Floats, s: Floats, tolerance: float) -> list[Leg]:
-    """The legs of a table over one turn, in order.
-
-    phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
-
-    Raises
-    ------
-    DesignError : the displacement moves by no more than the tolerance hides
-
-    >>> phi = np.radians(np.arange(0, 360, 10))
-    >>> legs = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01)
-    >>> [(round(leg.end - leg.start, 3), leg.direction, leg.to_rest) for leg in legs]
-    [(3.142, 1, False), (3.142, -1, False)]
-    """
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[list[Leg], float]:
     lift = float(np.ptp(s))
     if not lift > DEPTH * tolerance:
         limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
         remedy = "give the table of a motion, or a smaller tolerance"
         raise DesignError("the table's lift", f"{lift:.4g}", limit, remedy)
-    # Begun where it moves fastest, the table has no rest across its ends.
-    steepness = np.abs(np.roll(s, -1) - s) / ((np.roll(phi, -1) - phi) % FULL_TURN)
-    first = (int(np.argmax(steepness)) + 1) % s.size
-    phi, s = np.concatenate([phi[first:], phi[:first] + FULL_TURN]), np.roll(s, -first)
-    stops = _stops(phi, s, tolerance, lift)
-    lowest = min(range(len(stops)), key=lambda k: stops[k].level)
-    around = [*stops[lowest:], *(stop.a_turn_later for stop in stops[: lowest + 1])]
-    turnings = _turnings(around, DEPTH * tolerance)
-    # The places where a leg ends are the turnings and, within a rise or a return, the rests.
-    ends = [k for k, stop in enumerate(around) if stop.rest or k in turnings]
-    places = [around[k] if around[k].rest else _turning_point(around, k) for k in ends]
-    places[-1] = places[0].a_turn_later
-    directions = np.sign(np.diff([around[k].level for k in ends]))
-    return [
-        Leg(a.end, b.start, int(direction), a.rest, b.rest)
-        for (a, b), direction in zip(pairwise(places), directions, strict=True)
-    ]
+    n = s.size
+    # Three turns of rows, so that nothing begins or ends within the middle one.
+    around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
+    turnings = [k + n for k in _turnings(s, DEPTH * tolerance)]
+    flats = [_flat(rows, k, noise) for k in turnings]
+    flats = _with_rests_between(around, rows, flats, n, noise, DEPTH * tolerance)
+    gap = FULL_TURN / n
+    stops = []
+    worst = 0.0
+    m = len(flats)
+    for k, here in enumerate(flats):
+        before, after = flats[k - 1], flats[(k + 1) % m]
+        lo = before.last - (n if k == 0 else 0)
+        hi = after.first + (n if k == m - 1 else 0)
+        lifts = before.level - here.level, after.level - here.level
+        first, last = _window(rows, here, (lo, hi), lifts, noise)
+        centre = (around[here.first] + around[here.last]) / 2
+        x, y = around[first : last + 1] - centre, rows[first : last + 1] - here.level
+        directions = tuple(int(np.sign(l)) for l in lifts)
+        reach = centre - around[here.first - 1], around[here.last + 1] - centre
+        stop = find_stop(x, y, directions, reach, noise, gap)
+        worst = max(worst, stop.misfit)
+        turns = directions[0] == directions[1]
+        if turns or stop.end > stop.start:
+            wide = [gap / 2 * (p == 2) * (stop.end > stop.start) for p in stop.powers]
+            stops.append((centre + stop.start + wide[0], centre + stop.end - wide[1], here.level, stop))
+    legs = []
+    for k, (a, b) in enumerate(zip(stops, [*stops[1:], stops[0]], strict=True)):
+        later = FULL_TURN if k == len(stops) - 1 else 0.0
+        legs.append(Leg(a[1], b[0] + later, int(np.sign(b[2] - a[2])), a[1] > a[0], b[1] > b[0]))
+    return legs, worst
 
 
-def _stops(phi: Floats, s: Floats, tolerance: float, lift: float) -> list[_Stop]:
-    """The rows in order, those of a rest as one."""
-    # An eccentric's s = lift/2 (1 - cos phi) is lift phi^2/4 near its turning point.
-    shortest = LONGER_THAN_TURNING * 4 * math.sqrt(LEVEL * tolerance / lift)
-    stops: list[_Stop] = []
-    row = 0
-    while row < s.size:
-        # The run of rows from here on whose displacements differ by no more than those of a rest.
-        spread = np.maximum.accumulate(s[row:]) - np.minimum.accumulate(s[row:])
-        last = row + int(np.searchsorted(spread, LEVEL * tolerance, side="right")) - 1
-        first, last, level = _trimmed(s, row, last)
-        if last - first < 2 or phi[last] - phi[first] < shortest:
-            first, last, level = row, row, float(s[row])
-        stops += [_Stop(float(phi[k]), float(phi[k]), float(s[k])) for k in range(row, first)]
-        start = -_left(-phi[: last + 1][::-1], s[: last + 1][::-1], last - first, level, tolerance)
-        stops.append(_Stop(start, _left(phi[first:], s[first:], last - first, level, tolerance), level))
-        row = last + 1
-    return _merged(stops, tolerance)
-
-
-def _trimmed(s: Floats, first: int, last: int) -> tuple[int, int, float]:
-    """A run without the rows at its ends where the motion has begun, and its level."""
-    quarter = (last - first) // 4
-    middle = s[first + quarter : last + 1 - quarter]
-    level = float(np.median(middle))
-    off = OUTSIDE * float(np.max(np.abs(middle - level)))
-    inside = np.flatnonzero(np.abs(s[first : last + 1] - level) <= off)
-    return first + int(inside[0]), first + int(inside[-1]), level
-
-
-def _left(phi: Floats, s: Floats, last: int, level: float, tolerance: float) -> float:
-    """The cam angle where a rest, from the first of the rows to the ``last`` at most, is left.
-
-    What leaves it as x^3 is off by eight times as much at twice the distance.  What leaves it as x^2 does so a little
-    later than told, which does no harm: the spline stays level where it may move.
-    """
-    off = np.abs(s - level)
-    near, far = (int(np.argmax(off > limit)) for limit in (tolerance, 8 * tolerance))
-    if last == 0 or not 0 < near <= far:
-        return float(phi[last])
-    crossings = [
-        np.interp(limit, off[k - 1 : k + 1], phi[k - 1 : k + 1])
-        for k, limit in ((near, tolerance), (far, 8 * tolerance))
-    ]
-    # At a row, because phases mostly begin where a table has one.
-    row = int(np.argmin(np.abs(phi - (2 * crossings[0] - crossings[1]))))
-    return float(phi[min(max(row, last // 2 + 1), last)])
-
-
-def _merged(stops: list[_Stop], tolerance: float) -> list[_Stop]:
-    """The stops, with rests that noise has parted joined again."""
-    joined: list[_Stop] = []
-    for stop in stops:
-        latest = next((k for k in reversed(range(len(joined))) if joined[k].rest), None) if stop.rest else None
-        if latest is not None and all(abs(other.level - stop.level) <= tolerance for other in joined[latest:]):
-            joined[latest:] = [_Stop(joined[latest].start, stop.end, joined[latest].level)]
-        else:
-            joined.append(stop)
-    return joined
-
-
-def _turnings(stops: list[_Stop], depth: float) -> set[int]:
-    """Which stops are lowest or highest between swings of more than ``depth``; the first and last are lowest."""
-    found = {0, len(stops) - 1}
-    direction, best = 1, 0
-    for k, stop in enumerate(stops):
-        gain = direction * (stop.level - stops[best].level)
-        # Among levels that noise may have parted a rest is the turning.
-        if gain > (depth if stops[best].rest else 0.0) or (stop.rest and not stops[best].rest and gain > -depth):
+def _turnings(s: Floats, depth: float) -> list[int]:
+    """The rows of extremes between which the displacement swings by more than depth, in order, from the lowest on."""
+    lowest = int(np.argmin(s))
+    values = np.roll(s, -lowest).tolist()
+    found, best, direction = [0], 0, 1
+    for k, value in enumerate([*values, values[0]]):
+        if direction * (value - values[best % len(values)]) > 0:
             best = k
-        elif gain < -depth:
-            found.add(best)
-            direction, best = -direction, k
-    return found
+        elif direction * (values[best % len(values)] - value) > depth:
+            found.append(best)
+            best, direction = k, -direction
+    return [lowest + k for k in dict.fromkeys(found) if k < len(values)]
 
 
-def _turning_point(stops: list[_Stop], k: int) -> _Stop:
-    """The top of the parabola through a turning row and its neighbours, kept between these."""
-    row = stops[k]
-    # The first and the last stop are the same one, a turn apart.
-    before = stops[k - 1] if k else _Stop(stops[-2].start - FULL_TURN, stops[-2].end - FULL_TURN, stops[-2].level)
-    after = stops[k + 1] if k + 1 < len(stops) else stops[1].a_turn_later
-    left, right = before.end - row.start, after.start - row.start
-    slope_left, slope_right = (before.level - row.level) / left, (after.level - row.level) / right
-    bend = (slope_right - slope_left) / (right - left)
-    top = -(slope_left - bend * left) / (2 * bend) if bend else 0.0
-    top = row.start + min(max(float(top), left / 2), right / 2)
-    return _Stop(top, top, row.level)
+def _flat(rows: Floats, k: int, noise: float) -> _Flat:
+    """The rows about an extreme that keep to its level as far as noise can tell."""
+    first, last = _run(rows, k, rows[k], 2 * OFF * noise)
+    quarter = (last - first) // 4
+    level = float(np.median(rows[first + quarter : last + 1 - quarter]))
+    middle = (first + last) // 2
+    if abs(rows[middle] - level) > OFF * noise:
+        return _Flat(k, k, float(rows[k]))
+    first, last = _run(rows, middle, level, OFF * noise)
+    return _Flat(first, last, level)
+
+
+def _run(rows: Floats, k: int, level: float, off: float) -> tuple[int, int]:
+    outside = np.abs(rows - level) > off
+    after, before = outside[k:], outside[k::-1]
+    return k - (int(np.argmax(before)) - 1), k + int(np.argmax(after)) - 1
+
+
+def _with_rests_between(around, rows, flats, n, noise, depth):
+    found = list(flats)
+    m = len(flats)
+    for k, a in enumerate(flats):
+        b = flats[(k + 1) % m]
+        later = n if k == m - 1 else 0
+        first, last, top = a.last + 1, b.first + later - 1, b.level
+        if last - first < 2 * FEWEST:
+            continue
+        direction = np.sign(top - a.level)
+        here = direction * rows[first : last + 1]
+        x = around[first : last + 1]
+        slope = (here[-1] - here[0]) / (x[-1] - x[0])
+        # From each row on, how long the rows stay within what noise spreads.
+        ahead = np.maximum.accumulate(here)
+        ends = np.searchsorted(ahead, here + SPREAD * noise, side="right") - 1
+        length = x[ends] - x
+        usual = SPREAD * noise / slope
+        while True:
+            i = int(np.argmax(length))
+            j = int(ends[i])
+            if j - i < FEWEST or length[i] < SLOW * usual or length[i] <= 0:
+                break
+            level = float(np.median(here[i : j + 1]))
+            if level - here[0] > depth and here[-1] - level > depth:
+                inner = np.flatnonzero(np.abs(here[i : j + 1] - level) <= OFF * noise)
+                found.append(_Flat(first + i + int(inner[0]), first + i + int(inner[-1]), direction * level))
+            near = (np.arange(here.size) <= j) & (ends >= i)
+            length[near] = 0.0
+    found = [f if f.first < 2 * n else _Flat(f.first - n, f.last - n, f.level) for f in found]
+    return sorted(found, key=lambda f: f.first)
+
+
+def _window(rows, here, limits, lifts, noise):
+    ends = []
+    for k, (lift, limit) in enumerate(zip(lifts, limits, strict=True)):
+        edge = (here.first, here.last)[k]
+        step = (-1, 1)[k]
+        off = min(SEEN * noise, PART * abs(lift))
+        j = edge + step
+        while j != limit and abs(rows[j] - here.level) <= off:
+            j += step
+        far = edge + step * FEWEST
+        j = min(j, far) if k == 0 else max(j, far)
+        j = max(j, limit) if k == 0 else min(j, limit)
+        ends.append(j)
+    return ends

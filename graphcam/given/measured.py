@@ -114,11 +114,12 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     phi, s = check_rows(phi, s, tolerance)
-    legs = find_legs(phi, s, tolerance)
+    noise = _noise(phi, s, tolerance)
+    legs, _ = find_legs(phi, s, tolerance, noise)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise)
     phases, zero, level = _phases(fitted, legs)
     return MeasuredMotion(phases, zero, phi, s - level, tolerance)
 
@@ -194,6 +195,25 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
 
 def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.10g} degrees"
+
+
+def _noise(phi, s, tolerance):
+    return max(min(tolerance / 4.5, _scatter(phi, s)), 3e-6 * float(np.ptp(s)))
+
+
+def _scatter(phi, s):
+    n = s.size
+    k = np.arange(7)
+    x = np.concatenate([phi, phi[:6] + FULL_TURN])
+    y = np.concatenate([s, s[:6]])
+    X = np.lib.stride_tricks.sliding_window_view(x, 7)
+    Y = np.lib.stride_tricks.sliding_window_view(y, 7)
+    d = X[:, :, None] - X[:, None, :] + np.eye(7)
+    w = 1 / np.prod(d / (X[:, -1:, None] - X[:, :1, None]), axis=2)
+    w /= np.linalg.norm(w, axis=1, keepdims=True)
+    r = np.abs(np.sum(w * Y, axis=1)) / 0.6745
+    parts = max(n // 30, 1)
+    return max(float(np.median(part)) for part in np.array_split(r, parts))
 
 
 # --- from the spline to phases ---------------------------------------------------------------------------------------

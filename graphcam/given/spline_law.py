@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
@@ -17,7 +15,7 @@ from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Floats
 
 if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
+    from scipy.interpolate import BSpline, PPoly
 
 MEASURED = "measured"
 """The name of the law of a measured motion."""
@@ -37,31 +35,43 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     The pieces of the first half are series about their starts, those of the second about their ends, so that a small
     lift and a small missing lift keep their digits.
     """
+    from scipy.interpolate import PPoly
+
     angle = end - start
     slack = SAME_KNOT * angle
     inner = fit.knots[(fit.knots > start + slack) & (fit.knots < end - slack)]
     u = np.concatenate([[0.0], (inner - start) / angle, [1.0]])
-    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
     level, top = (float(s) for s in fit.spline([start, end]))
     lift = top - level
-    first: list[Polynomial] = []
-    second: list[Polynomial] = []
-    for a, b in pairwise(u):
-        # Derivatives may jump at knots, so they are taken in the middle.
-        middle = (a + b) / 2
-        derivatives = [float(fit.spline(start + angle * middle, nu=n)) for n in range(DEGREE + 1)]
-        series = Polynomial([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
-        first.append(series(Polynomial([a - middle, 1.0])) - level / lift)
-        second.append(top / lift - series(Polynomial([b - middle, -1.0])))
-    first[0].coef[: contact[0]] = 0.0
-    second[-1].coef[: contact[1]] = 0.0
-    begins, pieces = (*u[:half], *(1.0 - u[half + 1 :])), (*first[:half], *second[half:])
-    formulas = [
-        partial(_polynomial, start=float(x), coefficients=tuple(piece.coef.tolist()))
-        for x, piece in zip(begins, pieces, strict=True)
-    ]
-    velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    return lift, Law(MEASURED, formulas, u[1:-1].tolist(), middle=float(u[half]), peaks=(velocity, acceleration))
+    # Derivatives may jump at knots, so they are taken in the middle.
+    half_width, middle = np.diff(u) / 2, start + angle * (u[:-1] + u[1:]) / 2
+    taylor = np.array([fit.spline(middle, nu=n) * angle**n / math.factorial(n) / lift for n in range(DEGREE + 1)])
+    ahead, back = _about(taylor, -half_width), -_about(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None]
+    ahead[0] -= level / lift
+    back[0] += top / lift
+    ahead[: contact[0], 0] = back[: contact[1], -1] = 0.0
+    first, second = PPoly(ahead[::-1], u), PPoly(back[::-1, ::-1], (1.0 - u)[::-1])
+    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
+    formulas = [partial(_spline, spline=first)] * half + [partial(_spline, spline=second)] * (u.size - 1 - half)
+    edges, middle_edge = u[1:-1].tolist(), float(u[half])
+    return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=_peaks(first), trusted=True)
+
+
+def _about(taylor: Floats, shift: Floats) -> Floats:
+    """(6, p) the Taylor coefficients about places that are off by ``shift``."""
+    return np.array([
+        sum(math.comb(m, n) * taylor[m] * shift ** (m - n) for m in range(n, DEGREE + 1)) for n in range(DEGREE + 1)
+    ])  # fmt: skip
+
+
+def _peaks(f: PPoly) -> tuple[float, float]:
+    """The greatest |f'| and |f''|."""
+    found: list[float] = []
+    for order in (1, 2):
+        turning = f.derivative(order + 1).roots(extrapolate=False)
+        places = np.concatenate([turning[np.isfinite(turning)], f.x])
+        found.append(float(np.abs(f(places, nu=order)).max()))
+    return found[0], found[1]
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
@@ -104,21 +114,6 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist())
 
 
-def _spline(u: Floats, *, spline: BSpline):
+def _spline(u: Floats, *, spline: BSpline | PPoly):
     """A spline and its first three derivatives."""
     return [spline(u, nu=order) for order in range(4)]
-
-
-def _polynomial(x: Floats, *, start: float, coefficients: tuple[float, ...]):
-    """A polynomial of x - start, and its first three derivatives."""
-    f = Polynomial(coefficients)
-    t = x - start
-    return f(t), f.deriv(1)(t), f.deriv(2)(t), f.deriv(3)(t)
-
-
-def _greatest(polynomial: Polynomial, length: float) -> float:
-    """The greatest |value| between 0 and ``length``."""
-    turning = polynomial.deriv().roots()
-    turning = turning[np.isreal(turning)].real
-    inside = turning[(turning > 0) & (turning < length)]
-    return float(np.max(np.abs(polynomial(np.concatenate([inside, [0.0, length]])))))
