@@ -1,26 +1,29 @@
-"""What a table of displacements does over the turn: where it rests, where it turns, and the legs between."""
+"""What a table of displacements does over the turn: where it rests, where it turns, and the legs between.
+
+A rise or return of less than the tolerance hides is no leg.  What keeps to a level as far as the noise can tell is
+looked at once, as a whole; so no leg begins between two rests that noise cannot tell apart.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.rests import find_stop
+from graphcam.given.rests import Stop, Surroundings, find_stop
 
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
-SPREAD = 10.0
-"""The rows of a rest differ by less than this [sd of the noise], and ..."""
 OFF = 6.0
-"""... are off their level by less than this."""
+"""The rows of a rest are off their level by less than this [sd of the noise]."""
 SEEN, PART = 100.0, 0.15
-"""A stop is judged by rows that are off its level by no more than this [sd of the noise], and this part of the leg."""
+"""A stop is judged by rows that are off its level by no more than this [sd of the noise], and this part of the leg, ..."""
 FEWEST = 5
-"""Rows on either side of a stop, that it is judged by."""
+"""... but by no fewer rows on either side."""
 SLOW = 3.0
 """On its way a motion may rest where it is so many times slower than on average."""
 
@@ -52,122 +55,143 @@ class _Flat:
     last: int
     level: float
 
+    def moved(self, rows: int) -> _Flat:
+        """The same so many rows on."""
+        return replace(self, first=self.first + rows, last=self.last + rows)
+
 
 def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[list[Leg], float]:
-    lift = float(np.ptp(s))
-    if not lift > DEPTH * tolerance:
+    """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
+
+    phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
+    noise : the standard deviation of the displacements
+
+    Raises
+    ------
+    DesignError : the displacement moves by no more than the tolerance hides
+
+    >>> phi = np.radians(np.arange(0, 360, 10))
+    >>> legs, _ = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01, noise=0.001)
+    >>> [(round(leg.end - leg.start, 3), leg.direction, leg.to_rest) for leg in legs]
+    [(3.142, 1, False), (3.142, -1, False)]
+    """
+    if not np.ptp(s) > DEPTH * tolerance:
         limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
         remedy = "give the table of a motion, or a smaller tolerance"
-        raise DesignError("the table's lift", f"{lift:.4g}", limit, remedy)
-    n = s.size
+        raise DesignError("the table's lift", f"{np.ptp(s):.4g}", limit, remedy)
     # Three turns of rows, so that nothing begins or ends within the middle one.
     around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
-    turnings = [k + n for k in _turnings(s, DEPTH * tolerance)]
-    flats = [_flat(rows, k, noise) for k in turnings]
-    flats = _with_rests_between(around, rows, flats, n, noise, DEPTH * tolerance)
-    gap = FULL_TURN / n
-    stops = []
-    worst = 0.0
-    m = len(flats)
-    for k, here in enumerate(flats):
-        before, after = flats[k - 1], flats[(k + 1) % m]
-        lo = before.last - (n if k == 0 else 0)
-        hi = after.first + (n if k == m - 1 else 0)
-        lifts = before.level - here.level, after.level - here.level
-        first, last = _window(rows, here, (lo, hi), lifts, noise)
-        centre = (around[here.first] + around[here.last]) / 2
-        x, y = around[first : last + 1] - centre, rows[first : last + 1] - here.level
-        directions = tuple(int(np.sign(l)) for l in lifts)
-        reach = centre - around[here.first - 1], around[here.last + 1] - centre
-        stop = find_stop(x, y, directions, reach, noise, gap)
-        worst = max(worst, stop.misfit)
-        turns = directions[0] == directions[1]
-        if turns or stop.end > stop.start:
-            wide = [gap / 2 * (p == 2) * (stop.end > stop.start) for p in stop.powers]
-            stops.append((centre + stop.start + wide[0], centre + stop.end - wide[1], here.level, stop))
-    legs = []
-    for k, (a, b) in enumerate(zip(stops, [*stops[1:], stops[0]], strict=True)):
-        later = FULL_TURN if k == len(stops) - 1 else 0.0
-        legs.append(Leg(a[1], b[0] + later, int(np.sign(b[2] - a[2])), a[1] > a[0], b[1] > b[0]))
-    return legs, worst
+    flats = [_flat(rows, k + s.size, noise) for k in _turnings(s, DEPTH * tolerance)]
+    flats = _with_rests_between(around, rows, flats, noise, DEPTH * tolerance)
+    gap = FULL_TURN / s.size
+    neighbours = zip([flats[-1].moved(-s.size), *flats], flats, [*flats[1:], flats[0].moved(s.size)], strict=False)
+    found = [_stop(around, rows, near, noise, gap) for near in neighbours]
+    # On a leg's way a stop without a rest is none.
+    stops = [(flat, stop) for flat, (stop, turns) in zip(flats, found, strict=True) if turns or stop.end > stop.start]
+    ends = [(flat.level, *_ends(stop, gap)) for flat, stop in stops]
+    first = ends[0]
+    legs = [
+        Leg(end, start, 1 if above > below else -1, end > begin, finish > start)
+        for (below, begin, end), (above, start, finish) in pairwise(
+            [*ends, (first[0], first[1] + FULL_TURN, first[2] + FULL_TURN)]
+        )
+    ]
+    return legs, float(np.sqrt(max(stop.misfit for stop, _ in found)))
 
 
 def _turnings(s: Floats, depth: float) -> list[int]:
-    """The rows of extremes between which the displacement swings by more than depth, in order, from the lowest on."""
+    """The rows of extremes, between which the displacement swings by more than ``depth``, from the lowest one on."""
     lowest = int(np.argmin(s))
     values = np.roll(s, -lowest).tolist()
     found, best, direction = [0], 0, 1
-    for k, value in enumerate([*values, values[0]]):
-        if direction * (value - values[best % len(values)]) > 0:
+    for k, value in enumerate([*values[1:], values[0]], 1):
+        gain = direction * (value - values[best])
+        if gain > 0 and k < s.size:
             best = k
-        elif direction * (values[best % len(values)] - value) > depth:
+        elif gain < -depth:
             found.append(best)
-            best, direction = k, -direction
-    return [lowest + k for k in dict.fromkeys(found) if k < len(values)]
+            best, direction = k % s.size, -direction
+    return [lowest + k for k in found]
 
 
 def _flat(rows: Floats, k: int, noise: float) -> _Flat:
     """The rows about an extreme that keep to its level as far as noise can tell."""
-    first, last = _run(rows, k, rows[k], 2 * OFF * noise)
-    quarter = (last - first) // 4
+    first, last = _run(rows, k, float(rows[k]), 2 * OFF * noise)
+    quarter, middle = (last - first) // 4, (first + last) // 2
     level = float(np.median(rows[first + quarter : last + 1 - quarter]))
-    middle = (first + last) // 2
     if abs(rows[middle] - level) > OFF * noise:
         return _Flat(k, k, float(rows[k]))
-    first, last = _run(rows, middle, level, OFF * noise)
-    return _Flat(first, last, level)
+    return _Flat(*_run(rows, middle, level, OFF * noise), level)
 
 
 def _run(rows: Floats, k: int, level: float, off: float) -> tuple[int, int]:
+    """The first and the last row about k that are off the level by no more than ``off``."""
     outside = np.abs(rows - level) > off
-    after, before = outside[k:], outside[k::-1]
-    return k - (int(np.argmax(before)) - 1), k + int(np.argmax(after)) - 1
+    return k + 1 - int(np.argmax(outside[k::-1])), k - 1 + int(np.argmax(outside[k:]))
 
 
-def _with_rests_between(around, rows, flats, n, noise, depth):
-    found = list(flats)
-    m = len(flats)
-    for k, a in enumerate(flats):
-        b = flats[(k + 1) % m]
-        later = n if k == m - 1 else 0
-        first, last, top = a.last + 1, b.first + later - 1, b.level
-        if last - first < 2 * FEWEST:
-            continue
-        direction = np.sign(top - a.level)
-        here = direction * rows[first : last + 1]
-        x = around[first : last + 1]
-        slope = (here[-1] - here[0]) / (x[-1] - x[0])
-        # From each row on, how long the rows stay within what noise spreads.
-        ahead = np.maximum.accumulate(here)
-        ends = np.searchsorted(ahead, here + SPREAD * noise, side="right") - 1
-        length = x[ends] - x
-        usual = SPREAD * noise / slope
-        while True:
-            i = int(np.argmax(length))
-            j = int(ends[i])
-            if j - i < FEWEST or length[i] < SLOW * usual or length[i] <= 0:
-                break
-            level = float(np.median(here[i : j + 1]))
-            if level - here[0] > depth and here[-1] - level > depth:
-                inner = np.flatnonzero(np.abs(here[i : j + 1] - level) <= OFF * noise)
-                found.append(_Flat(first + i + int(inner[0]), first + i + int(inner[-1]), direction * level))
-            near = (np.arange(here.size) <= j) & (ends >= i)
-            length[near] = 0.0
-    found = [f if f.first < 2 * n else _Flat(f.first - n, f.last - n, f.level) for f in found]
-    return sorted(found, key=lambda f: f.first)
+def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise: float, depth: float) -> list[_Flat]:
+    """The extremes' flats, and between them those that a rise or a return may have on its way."""
+    n = rows.size // 3
+    found: list[_Flat] = []
+    for a, b in pairwise([*flats, flats[0].moved(n)]):
+        found.append(a)
+        between = slice(a.last + 1, b.first)
+        direction = 1.0 if b.level > a.level else -1.0
+        for flat in _slow(around[between], direction * rows[between], noise, depth):
+            found.append(replace(flat, level=direction * flat.level).moved(between.start))
+    return found
 
 
-def _window(rows, here, limits, lifts, noise):
-    ends = []
-    for k, (lift, limit) in enumerate(zip(lifts, limits, strict=True)):
-        edge = (here.first, here.last)[k]
-        step = (-1, 1)[k]
-        off = min(SEEN * noise, PART * abs(lift))
-        j = edge + step
-        while j != limit and abs(rows[j] - here.level) <= off:
-            j += step
-        far = edge + step * FEWEST
-        j = min(j, far) if k == 0 else max(j, far)
-        j = max(j, limit) if k == 0 else min(j, limit)
-        ends.append(j)
-    return ends
+def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
+    """Where rows that rise are slow for long, and more than ``depth`` above the first and below the last; in order."""
+    found: list[_Flat] = []
+    if y.size < 2 * FEWEST:
+        return found
+    spread = 2 * OFF * noise
+    usual = spread * (x[-1] - x[0]) / (y[-1] - y[0])
+    # From each row on, as far as the rows have not risen by more than what noise may.
+    ends = np.searchsorted(np.maximum.accumulate(y), y + spread, side="right") - 1
+    length = x[ends] - x
+    while length.max() > SLOW * usual:
+        first = int(np.argmax(length))
+        last = int(ends[first])
+        level = float(np.median(y[first : last + 1]))
+        if last - first >= FEWEST and level - y[0] > depth and y[-1] - level > depth:
+            inside = first + np.flatnonzero(np.abs(y[first : last + 1] - level) <= OFF * noise)
+            found.append(_Flat(int(inside[0]), int(inside[-1]), level))
+        length[(ends >= first) & (np.arange(y.size) <= last)] = 0.0
+    return sorted(found, key=lambda flat: flat.first)
+
+
+def _stop(
+    around: Floats, rows: Floats, near: tuple[_Flat, _Flat, _Flat], noise: float, gap: float
+) -> tuple[Stop, bool]:
+    """The stop at a flat between two others, and whether the motion turns there."""
+    before, here, after = near
+    lifts = before.level - here.level, after.level - here.level
+    first = _edge(rows, here.first, before.last, here.level, min(SEEN * noise, PART * abs(lifts[0])))
+    last = _edge(rows, here.last, after.first, here.level, min(SEEN * noise, PART * abs(lifts[1])))
+    centre = float(around[here.first] + around[here.last]) / 2
+    reach = centre - float(around[here.first - 1]), float(around[here.last + 1]) - centre
+    directions = 1 if lifts[0] > 0 else -1, 1 if lifts[1] > 0 else -1
+    x, y = around[first : last + 1] - centre, rows[first : last + 1] - here.level
+    stop = find_stop(Surroundings(x, y, directions, reach, noise), gap)
+    moved = replace(stop, start=centre + stop.start, end=centre + stop.end)
+    return moved, directions[0] == directions[1]
+
+
+def _edge(rows: Floats, edge: int, limit: int, level: float, off: float) -> int:
+    """The first row after (or before) the edge of a flat that is off its level by more, not beyond the next flat."""
+    step = 1 if limit > edge else -1
+    outside = np.abs(rows[edge + step : limit : step] - level) > off
+    way = 1 + (int(np.argmax(outside)) if outside.any() else outside.size)
+    return edge + step * min(max(way, FEWEST), abs(limit - edge))
+
+
+def _ends(stop: Stop, gap: float) -> tuple[float, float]:
+    """Where a stop begins and ends; a rest half a gap sooner where the acceleration jumps, which the spline rounds."""
+    if stop.end == stop.start:
+        return stop.start, stop.end
+    sooner, later = (gap / 2 if power == 2 else 0.0 for power in stop.powers)
+    return stop.start + sooner, stop.end - later

@@ -24,6 +24,16 @@ WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
 SAMPLES = 50
 """Places of a leg among which one is sought where it moves fast."""
+TOLERANCE_OF_NOISE = 4.5
+"""The tolerance is at least so many standard deviations of the noise; one row in 150,000 is off by more."""
+LEAST_NOISE = 3e-6
+"""Of the lift: what the spline itself, whose acceleration cannot jump, may be off."""
+MISFIT = 7.0
+"""Stops that are off by more than so many times the noise are not explained by it."""
+WINDOW, ROWS_OF_A_PART = 7, 30
+"""Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
+MEDIAN = 0.6745
+"""The median of |x| for a normal distribution of standard deviation 1."""
 ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
 
@@ -114,8 +124,13 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     phi, s = check_rows(phi, s, tolerance)
-    noise = _noise(phi, s, tolerance)
-    legs, _ = find_legs(phi, s, tolerance, noise)
+    most = tolerance / TOLERANCE_OF_NOISE
+    noise = min(max(_scatter(phi, s), LEAST_NOISE * float(np.ptp(s))), most)
+    legs, misfit = find_legs(phi, s, tolerance, noise)
+    if misfit > MISFIT and noise < most:
+        # The rows err in other ways than each for itself, so the tolerance must say by how much.
+        noise = most
+        legs, _ = find_legs(phi, s, tolerance, noise)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
@@ -197,23 +212,19 @@ def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.10g} degrees"
 
 
-def _noise(phi, s, tolerance):
-    return max(min(tolerance / 4.5, _scatter(phi, s)), 3e-6 * float(np.ptp(s)))
+def _scatter(phi: Floats, s: Floats) -> float:
+    """The standard deviation of the rows, from what a polynomial of the fifth degree through every seven leaves.
 
-
-def _scatter(phi, s):
-    n = s.size
-    k = np.arange(7)
-    x = np.concatenate([phi, phi[:6] + FULL_TURN])
-    y = np.concatenate([s, s[:6]])
-    X = np.lib.stride_tricks.sliding_window_view(x, 7)
-    Y = np.lib.stride_tricks.sliding_window_view(y, 7)
-    d = X[:, :, None] - X[:, None, :] + np.eye(7)
-    w = 1 / np.prod(d / (X[:, -1:, None] - X[:, :1, None]), axis=2)
-    w /= np.linalg.norm(w, axis=1, keepdims=True)
-    r = np.abs(np.sum(w * Y, axis=1)) / 0.6745
-    parts = max(n // 30, 1)
-    return max(float(np.median(part)) for part in np.array_split(r, parts))
+    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts' is taken, because
+    rounding, and much else, is smaller where the follower rests.
+    """
+    rows = np.arange(s.size)[:, None] + np.arange(WINDOW)
+    x = phi[rows % s.size] + FULL_TURN * (rows // s.size)
+    apart = (x[:, :, None] - x[:, None, :]) / (x[:, -1:, None] - x[:, :1, None]) + np.eye(WINDOW)
+    weights = 1 / np.prod(apart, axis=2)
+    left = np.sum(weights * s[rows % s.size], axis=1) / np.linalg.norm(weights, axis=1)
+    parts = np.array_split(np.abs(left), max(s.size // ROWS_OF_A_PART, 1))
+    return max(float(np.median(part)) for part in parts) / MEDIAN
 
 
 # --- from the spline to phases ---------------------------------------------------------------------------------------
