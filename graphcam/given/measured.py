@@ -252,11 +252,11 @@ def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
     """The cam angle [rad] between two legs where the velocity changes its sign."""
     from scipy.optimize import brentq
 
-    v = fitted.spline.derivative()
+    v = fitted.velocity
     before = np.linspace(leg.start, leg.end, SAMPLES)
     after = np.linspace(leg.end, following.end, SAMPLES)
     fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
-    return brentq(v, *fastest, xtol=ROUNDING**2)  # pyright: ignore[reportReturnType]
+    return brentq(v, *fastest, xtol=ROUNDING**1.5)  # pyright: ignore[reportReturnType]
 
 
 def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:

@@ -51,9 +51,13 @@ PULLS, PULL = 12, 4.0
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A periodic spline s(phi), and its knots [rad], over three turns of which the first leg begins the middle one."""
+    """A periodic spline s(phi), its derivative, whose digits do not come from differences of s, and its knots [rad].
+
+    They reach over three turns, of which the first leg begins the middle one.
+    """
 
     spline: BSpline
+    velocity: BSpline
     knots: Floats
 
 
@@ -158,11 +162,14 @@ class _Likelihood:
         n = self.knots.size
         velocity = self.velocity(z)
         velocity[self.forbidden * velocity < 0] = 0.0
-        rises = velocity * self._width(DEGREE) / DEGREE
-        up, down = rises > 0, rises < 0
-        rises[down] *= np.sum(rises[up]) / -np.sum(rises[down])
-        c = z[self.index[0]] - rises[0] + np.cumsum(rises)
-        return Fit(BSpline(self.turns, c[np.arange(3 * n - DEGREE - 1) % n], DEGREE), np.unique(self.turns))
+        # The coefficients of s are sums of those of v: c_i = c_(i-1) + v_i (t_(i+5) - t_i)/5.
+        widths = self._width(DEGREE) / DEGREE
+        rises = velocity * widths
+        velocity[rises < 0] *= np.sum(rises[rises > 0]) / -np.sum(rises[rises < 0])
+        c = z[self.index[0]] + np.cumsum(velocity * widths) - velocity[0] * widths[0]
+        turn = np.arange(3 * n)
+        s = BSpline(self.turns, c[turn[: -DEGREE - 1] % n], DEGREE)
+        return Fit(s, BSpline(self.turns, velocity[turn[:-DEGREE] % n], DEGREE - 1), np.unique(self.turns))
 
     def _unknowns(self, legs: list[Leg]) -> NDArray[np.intp]:
         """Which unknown each coefficient is: counted around the turn, then from both ends by turns.

@@ -15,13 +15,14 @@ import numpy as np
 
 from graphcam.given.laws import Floats
 
-POWERS = np.array([2, 3, 4])
+POWERS, USUAL = np.array([2, 3, 4]), 3
+"""Most laws leave their rest with the third power, so another one must take more than :data:`SNAP` from the squares."""
 PLACES, ROUNDS = 13, 7
 """So many places are tried at a time; so often they then close in on the best one and its neighbours."""
 EVIDENCE = 16.0
 """A rest takes at least so much from the sum of squares [variances of the noise] that a turning leaves."""
 SNAP = 4.0
-"""A rest ends at a row if that adds no more than this to the sum of squares."""
+"""A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
 NO_WAY, SINGULAR = 1e-9, 1e-12
 """Less way than this [rad] is none; a determinant of less than this beside its terms says that rows are missing."""
 
@@ -127,7 +128,7 @@ def _rest(rows: Surroundings) -> tuple[float, list[float], tuple[int, int]]:
             places = np.linspace(low[side], high[side], PLACES)
             flat = places.ravel()
             squares = rows.leaving(side, flat, np.zeros(flat.size), np.tile(POWERS, PLACES))
-            at_level = squares.at(level).reshape(places.shape)
+            at_level = squares.at(level).reshape(places.shape) + SNAP * rows.noise**2 * (POWERS != USUAL)
             best = at_level.argmin(axis=0)
             low[side], centre, high[side] = _closer(places, best)
             k = int(np.argmin(at_level.min(axis=0)))

@@ -45,7 +45,8 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     lift = top - level
     # Derivatives may jump at knots, so they are taken in the middle.
     half_width, middle = np.diff(u) / 2, start + angle * (u[:-1] + u[1:]) / 2
-    taylor = np.array([fit.spline(middle, nu=n) * angle**n / math.factorial(n) / lift for n in range(DEGREE + 1)])
+    derivatives = fit.spline(middle), *(fit.velocity(middle, nu=n) for n in range(DEGREE))
+    taylor = np.array([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
     ahead, back = _about(taylor, -half_width), -_about(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None]
     ahead[0] -= level / lift
     back[0] += top / lift
