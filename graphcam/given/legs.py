@@ -21,10 +21,10 @@ DEPTH = 2.0
 OFF = 6.0
 """The rows of a rest are off their level by less than this [sd of the noise]."""
 SEEN, PART = 100.0, 0.15
-"""A stop is judged by rows that are off its level by no more than this [sd of the noise], and this part of the leg, ..."""
+"""A stop is judged by rows that are off its level by no more than this [sd of the noise] and part of the leg, ..."""
 FEWEST = 5
 """... but by no fewer rows on either side."""
-SLOW = 3.0
+SLOW = 2.0
 """On its way a motion may rest where it is so many times slower than on average."""
 
 

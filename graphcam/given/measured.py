@@ -34,6 +34,8 @@ WINDOW, ROWS_OF_A_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 MEDIAN = 0.6745
 """The median of |x| for a normal distribution of standard deviation 1."""
+SHARPEST = 1e-15
+"""Where a motion turns is sought until it is known to this [rad]; slow where the velocity is flat."""
 ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
 
@@ -215,8 +217,8 @@ def _degrees(angle: float) -> str:
 def _scatter(phi: Floats, s: Floats) -> float:
     """The standard deviation of the rows, from what a polynomial of the fifth degree through every seven leaves.
 
-    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts' is taken, because
-    rounding, and much else, is smaller where the follower rests.
+    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts is taken,
+    because rounding is smaller where the follower rests.
     """
     rows = np.arange(s.size)[:, None] + np.arange(WINDOW)
     x = phi[rows % s.size] + FULL_TURN * (rows // s.size)
@@ -256,7 +258,7 @@ def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
     before = np.linspace(leg.start, leg.end, SAMPLES)
     after = np.linspace(leg.end, following.end, SAMPLES)
     fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
-    return brentq(v, *fastest, xtol=ROUNDING**1.5)  # pyright: ignore[reportReturnType]
+    return brentq(v, *fastest, xtol=SHARPEST, maxiter=1000)  # pyright: ignore[reportReturnType]
 
 
 def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
 
-POWERS, USUAL = np.array([2, 3, 4]), 3
-"""Most laws leave their rest with the third power, so another one must take more than :data:`SNAP` from the squares."""
+POWERS, RARER = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
+"""Of ten laws three, six and one leave their rest so; less twice the logarithm of it, beside the most usual."""
 PLACES, ROUNDS = 13, 7
 """So many places are tried at a time; so often they then close in on the best one and its neighbours."""
 EVIDENCE = 16.0
@@ -120,7 +121,8 @@ def _turning(rows: Surroundings) -> tuple[float, float, tuple[int, int]]:
 def _rest(rows: Surroundings) -> tuple[float, list[float], tuple[int, int]]:
     """The least sum of squares of a motion that rests at 0, how long before and after, and its powers."""
     level = float(rows.y[np.argmin(np.abs(rows.x))])
-    low, high = [np.zeros(POWERS.size)] * 2, [np.full(POWERS.size, far) for far in rows.reach]
+    low: list[Floats] = [np.zeros(POWERS.size)] * 2
+    high: list[Floats] = [np.full(POWERS.size, far) for far in rows.reach]
     found: list[tuple[float, float, float, int]] = []
     for _ in range(ROUNDS):
         found = []
@@ -128,19 +130,19 @@ def _rest(rows: Surroundings) -> tuple[float, list[float], tuple[int, int]]:
             places = np.linspace(low[side], high[side], PLACES)
             flat = places.ravel()
             squares = rows.leaving(side, flat, np.zeros(flat.size), np.tile(POWERS, PLACES))
-            at_level = squares.at(level).reshape(places.shape) + SNAP * rows.noise**2 * (POWERS != USUAL)
+            at_level = squares.at(level).reshape(places.shape) + (RARER * rows.noise**2)
             best = at_level.argmin(axis=0)
             low[side], centre, high[side] = _closer(places, best)
             k = int(np.argmin(at_level.min(axis=0)))
             pick = best[k] * POWERS.size + k
-            found.append((squares.weight[pick], squares.level[pick], float(centre[k]), int(POWERS[k])))
+            found.append((float(squares.weight[pick]), float(squares.level[pick]), float(centre[k]), int(POWERS[k])))
         weights, levels, _, _ = zip(*found, strict=True)
         level = float(np.average(levels, weights=weights))
     ends = [_at_row(rows, side, end, power, level) for side, (_, _, end, power) in enumerate(found)]
     return sum(cost for cost, _ in ends), [end for _, end in ends], (found[0][3], found[1][3])
 
 
-def _closer(places: Floats, best: Floats) -> tuple[Floats, Floats, Floats]:
+def _closer(places: Floats, best: NDArray[np.intp]) -> tuple[Floats, Floats, Floats]:
     """The best of the places in every column, and its neighbours on both sides."""
     column = np.arange(places.shape[1])
     low, high = np.maximum(best - 1, 0), np.minimum(best + 1, PLACES - 1)
@@ -148,7 +150,7 @@ def _closer(places: Floats, best: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def _at_row(rows: Surroundings, side: int, end: float, power: int, level: float) -> tuple[float, float]:
-    """The sum of squares, and an end of a rest: at a row if it may be, because phases mostly end where a table has one."""
+    """The sum of squares, and an end of a rest: at a row if it may be, because most phases end where a table has one."""
     x = np.abs(rows.x[rows.x * (side - 0.5) > 0])
     places = np.array([end, x[np.argmin(np.abs(x - end))]])
     squares = rows.leaving(side, places, np.zeros(2), np.full(2, power)).at(level)
