@@ -9,6 +9,7 @@ from typing import Any
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.exact_rows import ExactRow, exact_rows
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, Hands, bands, by_hand
+from graphcam.bench.measured_rows import measured_rows
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
@@ -125,7 +126,7 @@ def measure(
     progress("error against time")
     methods = tuple(tradeoff(effort.sizes, timer, pair))
     progress("the exact side")
-    rows = tuple(exact_rows(effort.law_stations, effort.cam_stations, timer))
+    rows = (*exact_rows(effort.law_stations, effort.cam_stations, timer), *measured_rows(timer))
     progress("other packages")
     others = tuple(peers(timer))
     progress("readings and steps")

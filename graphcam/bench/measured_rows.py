@@ -1,23 +1,20 @@
-"""Measured motions against the motions they were sampled from: random ones, with noise, and what noise permits at best."""
+"""Measured motions against those they were sampled from: random ones, with noise, and what noise permits at best."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.bench.exact_rows import ExactRow
+from graphcam.bench.timing import Timer
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
-
-if TYPE_CHECKING:
-    from graphcam.bench.exact_rows import ExactRow
-    from graphcam.bench.timing import Timer
 
 NOISES = 0.0, 0.003, 0.01, 0.03
 """Standard deviations of the displacements [mm]."""
@@ -32,12 +29,34 @@ RATIOS = 0.5, 2.0
 JUMPING = "rectangular", "cosine", "2-3"
 """Laws whose acceleration jumps."""
 CERTAIN = 4.0
-"""A motion is told from another if their difference is twice so many times the noise: the best test errs 1 in 30,000."""
+"""Motions that differ by twice so many times the noise are told apart: the best test errs 1 in 30,000."""
 TWO_ROWS = 2 * FULL_TURN / ROWS
 PEAKS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
 """Goals of max |a| by noise: of laws whose acceleration is continuous, and of those whose jumps."""
+MOTIONS = 100
+"""Of the bench; the tests take more."""
 JERK = 60.0
 """Of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
+
+
+def measured_rows(timer: Timer) -> Iterator[ExactRow]:
+    """Of random motions with every noise: wrong phases, ends and greatest accelerations, beside what noise permits."""
+    every = list(sampled_motions(MOTIONS))
+    for noise in NOISES:
+        some = [one for one in every if one.noise == noise]
+        name, first = f"measured, noise {noise:g} mm", some[0]
+        tolerance = TOLERANCE_OF_NOISE * noise or DEFAULT_TOLERANCE
+        seconds = timer.seconds(partial(measured_motion, first.phi, first.s, tolerance))
+        wrong, end = sum(not one.phases_right for one in some), max(one.end_error for one in some)
+        yield ExactRow(name, "phases wrong", wrong, f"of {len(some)}", "0", None, seconds)
+        yield ExactRow(name, "ends off, beside two rows or what noise hides", end, "greatest", "<= 1", None, seconds)
+        for jumps, what in enumerate(("continuous", "jumps")):
+            of_these = [one for one in some if one.jumps == bool(jumps)]
+            off = 100 * max(abs(one.peak_error) for one in of_these)
+            best = 100 * math.sqrt(np.mean([one.least_scatter**2 for one in of_these])) if noise else 0.0
+            what = f"max |a| off, acceleration {what}; sd of the best linear estimate {best:.1f} %"
+            goal = "" if math.isinf(PEAKS[noise][jumps]) else f"<= {100 * PEAKS[noise][jumps]:g} %"
+            yield ExactRow(name, what, off, "%", goal, None, seconds)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,9 @@ from graphcam.given.rests import Stop, Surroundings, find_stop
 
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
+MOST_TURNINGS = 24
+"""What turns more often is noise."""
+LESS_NOISE = "give a greater tolerance, or a table with less noise"
 OFF = 6.0
 """The rows of a rest are off their level by less than this [sd of the noise]."""
 SEEN, PART = 100.0, 0.15
@@ -68,7 +71,7 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
 
     Raises
     ------
-    DesignError : the displacement moves by no more than the tolerance hides
+    DesignError : the displacement moves by no more than the tolerance hides, or turns too often
 
     >>> phi = np.radians(np.arange(0, 360, 10))
     >>> legs, _ = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01, noise=0.001)
@@ -79,9 +82,13 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
         limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
         remedy = "give the table of a motion, or a smaller tolerance"
         raise DesignError("the table's lift", f"{np.ptp(s):.4g}", limit, remedy)
+    turnings = _turnings(s, DEPTH * tolerance)
+    if len(turnings) > MOST_TURNINGS:
+        limit = f"greater than the noise that turns the table {len(turnings)} times"
+        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
     # Three turns of rows, so that nothing begins or ends within the middle one.
     around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
-    flats = [_flat(rows, k + s.size, noise) for k in _turnings(s, DEPTH * tolerance)]
+    flats = [_flat(rows, k + s.size, noise) for k in turnings]
     flats = _with_rests_between(around, rows, flats, noise, DEPTH * tolerance)
     gap = FULL_TURN / s.size
     neighbours = zip([flats[-1].moved(-s.size), *flats], flats, [*flats[1:], flats[0].moved(s.size)], strict=False)

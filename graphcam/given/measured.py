@@ -101,8 +101,13 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     """The motion through measured displacements, smooth to the third derivative.
 
     Where the rows keep to one level the motion rests; else it rises or falls from each rest or turning point to the
-    next.  Between these it is a quintic spline with as few knots as keep every row to the tolerance, so a tolerance of
-    several times what the table is rounded to, or scatters by, keeps noise out of the acceleration.
+    next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
+
+    The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
+    and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
+    noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
+    noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
+    as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
-from graphcam.given.legs import Leg
+from graphcam.given.legs import LESS_NOISE, Leg
 from graphcam.given.motion import FULL_TURN
 
 if TYPE_CHECKING:
@@ -37,15 +37,12 @@ if TYPE_CHECKING:
 DEGREE = 5
 FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
 """A leg is divided into so many intervals for each of its rows, but into no fewer and no more than these."""
-MOST_LEGS = 24
-"""What rises and falls more often is noise."""
-LESS_NOISE = "give a greater tolerance, or a table with less noise"
 JERKS = 20.0
 """The usual step of the jerk over a part of a leg, in h/F^3 times the root of the part."""
 SWAYS, SWAYS_OF_NOISE = 0.1, 12.0
-"""The usual step of the acceleration, in h/F^2; and the same for each root of noise/h, if that is less."""
+"""The usual step of the acceleration in h/F^2, and the same for each root of noise/h, if that is less."""
 NEAR = 7
-"""A coefficient is judged by the greatest of the usual steps of so many neighbours: near a fast leg a slow one may be."""
+"""A coefficient is judged by the greatest usual step of so many neighbours: beside a fast leg a slow one may bend."""
 ONE_WAY = 1e3
 """A velocity of the wrong sign counts so many times what the noise of a row would, were it to last over the leg."""
 SPREAD_AT_FIRST = 0.1
@@ -54,8 +51,8 @@ LITTLE = 1e-2
 """Steps of the acceleration below this part of the usual one count as this."""
 ROUNDS, SETTLED = 40, 0.02
 """The weights are made anew so often, or until no row moves by so many standard deviations of the noise."""
-PULLS, PULL = 12, 4.0
-"""A row that is off by more than the tolerance counts so many times more, so often."""
+PULLS, PULL = 3, 4.0
+"""The spline is sought so often; each time a row that is off by more than the tolerance counts so many times more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,11 +76,8 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float)
 
     Raises
     ------
-    DesignError : there are too many legs, or no spline that rises and falls so keeps to the tolerance
+    DesignError : no spline that rises and falls so keeps to the tolerance
     """
-    if len(legs) > MOST_LEGS:
-        limit = f"greater than the noise that turns the table {len(legs)} times"
-        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
     circle, counts, off = _circle(phi, legs), np.ones(s.size), np.zeros(s.size)
     likelihood = _likelihood(circle, phi, s, legs, noise)
     for _ in range(PULLS):

@@ -150,7 +150,10 @@ def _closer(places: Floats, best: NDArray[np.intp]) -> tuple[Floats, Floats, Flo
 
 
 def _at_row(rows: Surroundings, side: int, end: float, power: int, level: float) -> tuple[float, float]:
-    """The sum of squares, and an end of a rest: at a row if it may be, because most phases end where a table has one."""
+    """The sum of squares, and an end of a rest: at a row if it may be, because most phases end where a table has one.
+
+    level : of the rest
+    """
     x = np.abs(rows.x[rows.x * (side - 0.5) > 0])
     places = np.array([end, x[np.argmin(np.abs(x - end))]])
     squares = rows.leaving(side, places, np.zeros(2), np.full(2, power)).at(level)
