@@ -145,8 +145,8 @@ def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise:
         found.append(a)
         between = slice(a.last + 1, b.first)
         direction = 1.0 if b.level > a.level else -1.0
-        for flat in _slow(around[between], direction * rows[between], noise, depth):
-            found.append(replace(flat, level=direction * flat.level).moved(between.start))
+        slow = _slow(around[between], direction * rows[between], noise, depth)
+        found += [replace(flat, level=direction * flat.level).moved(between.start) for flat in slow]
     return found
 
 
