@@ -40,7 +40,7 @@ class TextTable:
 
 def tables(report: Report) -> list[TextTable]:
     """All tables of a report, in order."""
-    figures = [_figures(section, report.rows[section.key]) for section in SECTIONS]
+    figures = [_figures(section, report.rows[section.key]) for section in SECTIONS if report.rows[section.key]]
     of_hands = [_pencil(report), _budgets(report)]
     return [_convergence(report), *of_hands, _methods(report), *figures, _peers(report), _drawing(report)]
 
@@ -84,18 +84,8 @@ def _without_goals(report: Report) -> Iterator[list[Cell]]:
             yield ["pencil", "translating", h.law, "displacement", n, mean, "of the lift", None, "", remark]
     for b in report.budgets:
         for kind, part in b.parts.items():
-            yield [
-                "budget",
-                b.follower,
-                "",
-                f"{b.construction}: {b.reading}",
-                None,
-                part,
-                "of the variance",
-                None,
-                "",
-                kind,
-            ]
+            named = f"{b.construction}: {b.reading}"
+            yield ["budget", b.follower, "", named, None, part, "of the variance", None, "", kind]
     for m in report.methods:
         for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True):
             yield ["time", m.name, "", m.question, n, error, "relative", pairs, "sine-cosine pairs", m.kind]

@@ -6,17 +6,20 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
 
+from graphcam.bench.bound_rows import BOUNDS
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.exact_rows import EXACT
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, Hands, bands, budgets, by_hand
+from graphcam.bench.measured_rows import MEASURED
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
-from graphcam.bench.sweep_curve import SIZES as SWEPT, curve_rows
+from graphcam.bench.solve_rows import WAITING
+from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
-SECTIONS: tuple[Section, ...] = (EXACT,)
+SECTIONS: tuple[Section, ...] = (EXACT, BOUNDS, MEASURED, WAITING, CURVE)
 """The tables of measured figures and goals, in order."""
 DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
 
@@ -134,7 +137,7 @@ def measure(
     hands_of = bands(LAW, effort.hands), tuple(budgets(LAW))
     progress("error against time")
     methods = tuple(tradeoff(effort.sizes, timer, pair))
-    gauge = Gauge(timer, effort.law_stations, effort.cam_stations)
+    gauge = Gauge(timer, effort.law_stations, effort.cam_stations, effort.swept)
     rows: dict[str, tuple[Row, ...]] = {}
     for section in SECTIONS:
         progress(section.title.lower())

@@ -72,11 +72,13 @@ class Gauge:
 
     stations : of the motion laws
     points : of the cam
+    swept : designs of sweeps into files
     """
 
     timer: Timer
     stations: int
     points: int
+    swept: tuple[int, ...] = ()
 
     def unit(self, n: int) -> Unit:
         """The time of n sines and cosines, measured now."""

@@ -1,8 +1,4 @@
-"""What a user waits for: a task solved with all its files, and one view of it drawn anew after a size was changed.
-
-A whole run is told by what it takes beyond the loading of the libraries that draw, which depends on the disk and on
-their versions; everything else in milliseconds of the processor on this machine.
-"""
+"""What a user waits for: a task solved with all its files, and one view of it drawn anew after a size was changed."""
 
 import os
 import subprocess
@@ -13,8 +9,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.exact_rows import ExactRow
-from graphcam.bench.timing import Timer
+from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.plots.step_board import StepBoard
 from graphcam.report.documents import sheet_of
 from graphcam.report.step_player import player_of
@@ -34,24 +29,24 @@ STARTED = 3
 PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
 
 
-def solve_rows(timer: Timer) -> Iterator[ExactRow]:
+def solve_rows(gauge: Gauge) -> Iterator[Row]:
     """A whole run of the built-in task; of every built-in one layout, step player and the slowest of its views."""
     with TemporaryDirectory() as folder:
         libraries, whole = (_processor_seconds(program, Path(folder)) for program in (LIBRARIES, PROGRAM))
     unit = f"s beyond {TIMES:g} times the libraries"
-    yield ExactRow("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
+    yield Row("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
     for name, task in _tasks().items():
         solution = solve(task)
         drawing = sheet_of(solution)
-        yield _milliseconds("layout", name, timer.seconds(partial(sheet_of, solution)), 250)
-        yield _milliseconds("step player", name, timer.seconds(partial(player_of, solution, drawing)), 150)
-        times = {view: timer.seconds(again) for view, again in _views(solution).items()}
+        yield _milliseconds("layout", name, gauge.timer.seconds(partial(sheet_of, solution)), 250)
+        yield _milliseconds("step player", name, gauge.timer.seconds(partial(player_of, solution, drawing)), 150)
+        times = {view: gauge.timer.seconds(again) for view, again in _views(solution).items()}
         slowest = max(times, key=times.__getitem__)
         yield _milliseconds("view after a size changed", f"{name}, {slowest}", times[slowest], 30)
 
 
-def _milliseconds(name: str, what: str, seconds: float, most: int) -> ExactRow:
-    return ExactRow(name, what, 1e3 * seconds, "ms", f"<= {most}", None, seconds)
+def _milliseconds(name: str, what: str, seconds: float, most: int) -> Row:
+    return Row(name, what, 1e3 * seconds, "ms", f"<= {most}", None, seconds)
 
 
 def _processor_seconds(program: str, folder: Path) -> float:
@@ -108,3 +103,12 @@ def view_svg(task: Task | ArcsTask, view: str, names: Sequence[str]) -> str:
     steps = (step for name in names for step in drawn[name].steps() if step.marks and step.view.name == view)
     page = StepBoard((), tuple(steps)).page()
     return "".join(f'<g id="{group.key}">{group_svg(group, page.height)}</g>' for group in page.groups)
+
+
+WAITING = Section(
+    "waiting",
+    "What a user waits for",
+    "A whole run is told by what it takes beyond the loading of the libraries that draw, which depends on the disk and "
+    "on their versions; everything else in milliseconds of the processor on this machine.",
+    solve_rows,
+)

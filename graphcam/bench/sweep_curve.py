@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.exact_rows import ExactRow
+from graphcam.bench.rows import Gauge, Row, Section
 
 SIZES = (10**5, 10**6, 10**7)
 WORKERS = (1, 2, 4)
@@ -57,20 +57,16 @@ class SweptFile:
         return self.designs / self.seconds
 
 
-def curve_rows(sizes: Sequence[int] = SIZES) -> Iterator[ExactRow]:
-    """The curve as rows of the report.
-
-    >>> list(curve_rows(()))
-    []
-    """
-    for run in sweep_curve(sizes):
+def curve_rows(gauge: Gauge) -> Iterator[Row]:
+    """The curve as rows of the report."""
+    for run in sweep_curve(gauge.swept):
         memory = "" if run.peak_bytes is None else f", {run.peak_bytes / 2**20:.0f} MiB at most"
         what = f"{run.designs:.0e} designs, workers: {run.workers}; {run.processor_seconds:.1f} s of processors{memory}"
-        yield ExactRow("sweep to Parquet", what, run.rate, "designs/s", "", None, run.seconds)
+        yield Row("sweep to Parquet", what, run.rate, "designs/s", "", None, run.seconds)
 
 
 def sweep_curve(
-    sizes: Sequence[int] = SIZES, workers: Sequence[int] = WORKERS, longest: float = LONGEST
+    sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST
 ) -> Iterator[SweptFile]:
     """Every number of designs with every number of workers, the small ones first.
 
@@ -124,3 +120,12 @@ def _memory_of_tree(process: int) -> int:
         return 0  # it has ended, or this is no Linux
     own = sum(int(line.split()[1]) for line in told.splitlines() if line.startswith("Pss:")) * 1024
     return own + sum(_memory_of_tree(int(child)) for child in " ".join(begun).split())
+
+
+CURVE = Section(
+    "workers",
+    "Sweeps into files",
+    "Runs of graphcam sweep into one Parquet file. Designs a second are by the clock, so other work on the machine "
+    "counts; peak memory is that of all processes together.",
+    curve_rows,
+)

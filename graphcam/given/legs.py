@@ -1,12 +1,11 @@
 """What a table of displacements does over the turn: where it rests, where it turns, and the legs between.
 
-A rest is a run of rows that keep to one level for longer than a turning point would; a rise or return of less than the
-tolerance hides is no leg.
+A rise or return of less than the tolerance hides is no leg.  What keeps to a level as far as the noise can tell is
+looked at once, as a whole; so no leg begins between two rests that noise cannot tell apart.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -15,15 +14,21 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.rests import Stop, Surroundings, find_stop
 
-LEVEL = 0.7
-"""The rows of a rest differ by at most this fraction of the tolerance."""
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
-LONGER_THAN_TURNING = 1.5
-"""A rest is at least so many times longer than an eccentric, which turns slowest, keeps to a level so."""
-OUTSIDE = 1.5
-"""An end row of a rest belongs to it if it is off by no more than so many times what the rows in its middle are."""
+MOST_TURNINGS = 24
+"""What turns more often is noise."""
+LESS_NOISE = "give a greater tolerance, or a table with less noise"
+OFF = 6.0
+"""The rows of a rest are off their level by less than this [sd of the noise]."""
+SEEN, PART = 100.0, 0.15
+"""A stop is judged by rows that are off its level by no more than this [sd of the noise] and part of the leg, ..."""
+FEWEST = 5
+"""... but by no fewer rows on either side."""
+SLOW = 2.0
+"""On its way a motion may rest where it is so many times slower than on average."""
 
 
 @dataclass(frozen=True)
@@ -46,145 +51,154 @@ class Leg:
 
 
 @dataclass(frozen=True)
-class _Stop:
-    """A row, or the rows of a rest: cam angles [rad] and displacement."""
+class _Flat:
+    """Rows first .. last that keep to a level, where the motion may rest or turn."""
 
-    start: float
-    end: float
+    first: int
+    last: int
     level: float
 
-    @property
-    def rest(self) -> bool:
-        return self.end > self.start
-
-    @property
-    def a_turn_later(self) -> _Stop:
-        return replace(self, start=self.start + FULL_TURN, end=self.end + FULL_TURN)
+    def moved(self, rows: int) -> _Flat:
+        """The same so many rows on."""
+        return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(phi: Floats, s: Floats, tolerance: float) -> list[Leg]:
-    """The legs of a table over one turn, in order.
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[list[Leg], float]:
+    """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
+    noise : the standard deviation of the displacements
 
     Raises
     ------
-    DesignError : the displacement moves by no more than the tolerance hides
+    DesignError : the displacement moves by no more than the tolerance hides, or turns too often
 
     >>> phi = np.radians(np.arange(0, 360, 10))
-    >>> legs = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01)
+    >>> legs, _ = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01, noise=0.001)
     >>> [(round(leg.end - leg.start, 3), leg.direction, leg.to_rest) for leg in legs]
     [(3.142, 1, False), (3.142, -1, False)]
     """
-    lift = float(np.ptp(s))
-    if not lift > DEPTH * tolerance:
+    if not np.ptp(s) > DEPTH * tolerance:
         limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
         remedy = "give the table of a motion, or a smaller tolerance"
-        raise DesignError("the table's lift", f"{lift:.4g}", limit, remedy)
-    # Begun where it moves fastest, the table has no rest across its ends.
-    steepness = np.abs(np.roll(s, -1) - s) / ((np.roll(phi, -1) - phi) % FULL_TURN)
-    first = (int(np.argmax(steepness)) + 1) % s.size
-    phi, s = np.concatenate([phi[first:], phi[:first] + FULL_TURN]), np.roll(s, -first)
-    stops = _stops(phi, s, tolerance, lift)
-    lowest = min(range(len(stops)), key=lambda k: stops[k].level)
-    around = [*stops[lowest:], *(stop.a_turn_later for stop in stops[: lowest + 1])]
-    turnings = _turnings(around, DEPTH * tolerance)
-    # The places where a leg ends are the turnings and, within a rise or a return, the rests.
-    ends = [k for k, stop in enumerate(around) if stop.rest or k in turnings]
-    places = [around[k] if around[k].rest else _turning_point(around, k) for k in ends]
-    places[-1] = places[0].a_turn_later
-    directions = np.sign(np.diff([around[k].level for k in ends]))
-    return [
-        Leg(a.end, b.start, int(direction), a.rest, b.rest)
-        for (a, b), direction in zip(pairwise(places), directions, strict=True)
+        raise DesignError("the table's lift", f"{np.ptp(s):.4g}", limit, remedy)
+    turnings = _turnings(s, DEPTH * tolerance)
+    if len(turnings) > MOST_TURNINGS:
+        limit = f"greater than the noise that turns the table {len(turnings)} times"
+        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
+    # Three turns of rows, so that nothing begins or ends within the middle one.
+    around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
+    flats = [_flat(rows, k + s.size, noise) for k in turnings]
+    flats = _with_rests_between(around, rows, flats, noise, DEPTH * tolerance)
+    gap = FULL_TURN / s.size
+    neighbours = zip([flats[-1].moved(-s.size), *flats], flats, [*flats[1:], flats[0].moved(s.size)], strict=False)
+    found = [_stop(around, rows, near, noise, gap) for near in neighbours]
+    # On a leg's way a stop without a rest is none.
+    stops = [(flat, stop) for flat, (stop, turns) in zip(flats, found, strict=True) if turns or stop.end > stop.start]
+    ends = [(flat.level, *_ends(stop, gap)) for flat, stop in stops]
+    first = ends[0]
+    legs = [
+        Leg(end, start, 1 if above > below else -1, end > begin, finish > start)
+        for (below, begin, end), (above, start, finish) in pairwise(
+            [*ends, (first[0], first[1] + FULL_TURN, first[2] + FULL_TURN)]
+        )
     ]
+    return legs, float(np.sqrt(max(stop.misfit for stop, _ in found)))
 
 
-def _stops(phi: Floats, s: Floats, tolerance: float, lift: float) -> list[_Stop]:
-    """The rows in order, those of a rest as one."""
-    # An eccentric's s = lift/2 (1 - cos phi) is lift phi^2/4 near its turning point.
-    shortest = LONGER_THAN_TURNING * 4 * math.sqrt(LEVEL * tolerance / lift)
-    stops: list[_Stop] = []
-    row = 0
-    while row < s.size:
-        # The run of rows from here on whose displacements differ by no more than those of a rest.
-        spread = np.maximum.accumulate(s[row:]) - np.minimum.accumulate(s[row:])
-        last = row + int(np.searchsorted(spread, LEVEL * tolerance, side="right")) - 1
-        first, last, level = _trimmed(s, row, last)
-        if last - first < 2 or phi[last] - phi[first] < shortest:
-            first, last, level = row, row, float(s[row])
-        stops += [_Stop(float(phi[k]), float(phi[k]), float(s[k])) for k in range(row, first)]
-        start = -_left(-phi[: last + 1][::-1], s[: last + 1][::-1], last - first, level, tolerance)
-        stops.append(_Stop(start, _left(phi[first:], s[first:], last - first, level, tolerance), level))
-        row = last + 1
-    return _merged(stops, tolerance)
-
-
-def _trimmed(s: Floats, first: int, last: int) -> tuple[int, int, float]:
-    """A run without the rows at its ends where the motion has begun, and its level."""
-    quarter = (last - first) // 4
-    middle = s[first + quarter : last + 1 - quarter]
-    level = float(np.median(middle))
-    off = OUTSIDE * float(np.max(np.abs(middle - level)))
-    inside = np.flatnonzero(np.abs(s[first : last + 1] - level) <= off)
-    return first + int(inside[0]), first + int(inside[-1]), level
-
-
-def _left(phi: Floats, s: Floats, last: int, level: float, tolerance: float) -> float:
-    """The cam angle where a rest, from the first of the rows to the ``last`` at most, is left.
-
-    What leaves it as x^3 is off by eight times as much at twice the distance.  What leaves it as x^2 does so a little
-    later than told, which does no harm: the spline stays level where it may move.
-    """
-    off = np.abs(s - level)
-    near, far = (int(np.argmax(off > limit)) for limit in (tolerance, 8 * tolerance))
-    if last == 0 or not 0 < near <= far:
-        return float(phi[last])
-    crossings = [
-        np.interp(limit, off[k - 1 : k + 1], phi[k - 1 : k + 1])
-        for k, limit in ((near, tolerance), (far, 8 * tolerance))
-    ]
-    # At a row, because phases mostly begin where a table has one.
-    row = int(np.argmin(np.abs(phi - (2 * crossings[0] - crossings[1]))))
-    return float(phi[min(max(row, last // 2 + 1), last)])
-
-
-def _merged(stops: list[_Stop], tolerance: float) -> list[_Stop]:
-    """The stops, with rests that noise has parted joined again."""
-    joined: list[_Stop] = []
-    for stop in stops:
-        latest = next((k for k in reversed(range(len(joined))) if joined[k].rest), None) if stop.rest else None
-        if latest is not None and all(abs(other.level - stop.level) <= tolerance for other in joined[latest:]):
-            joined[latest:] = [_Stop(joined[latest].start, stop.end, joined[latest].level)]
-        else:
-            joined.append(stop)
-    return joined
-
-
-def _turnings(stops: list[_Stop], depth: float) -> set[int]:
-    """Which stops are lowest or highest between swings of more than ``depth``; the first and last are lowest."""
-    found = {0, len(stops) - 1}
-    direction, best = 1, 0
-    for k, stop in enumerate(stops):
-        gain = direction * (stop.level - stops[best].level)
-        # Among levels that noise may have parted a rest is the turning.
-        if gain > (depth if stops[best].rest else 0.0) or (stop.rest and not stops[best].rest and gain > -depth):
+def _turnings(s: Floats, depth: float) -> list[int]:
+    """The rows of extremes, between which the displacement swings by more than ``depth``, from the lowest one on."""
+    lowest = int(np.argmin(s))
+    values = np.roll(s, -lowest).tolist()
+    found, best, direction = [0], 0, 1
+    for k, value in enumerate([*values[1:], values[0]], 1):
+        gain = direction * (value - values[best])
+        if gain > 0 and k < s.size:
             best = k
         elif gain < -depth:
-            found.add(best)
-            direction, best = -direction, k
+            found.append(best)
+            best, direction = k % s.size, -direction
+    return [lowest + k for k in found]
+
+
+def _flat(rows: Floats, k: int, noise: float) -> _Flat:
+    """The rows about an extreme that keep to its level as far as noise can tell."""
+    first, last = _run(rows, k, float(rows[k]), 2 * OFF * noise)
+    quarter, middle = (last - first) // 4, (first + last) // 2
+    level = float(np.median(rows[first + quarter : last + 1 - quarter]))
+    if abs(rows[middle] - level) > OFF * noise:
+        return _Flat(k, k, float(rows[k]))
+    return _Flat(*_run(rows, middle, level, OFF * noise), level)
+
+
+def _run(rows: Floats, k: int, level: float, off: float) -> tuple[int, int]:
+    """The first and the last row about k that are off the level by no more than ``off``."""
+    outside = np.abs(rows - level) > off
+    return k + 1 - int(np.argmax(outside[k::-1])), k - 1 + int(np.argmax(outside[k:]))
+
+
+def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise: float, depth: float) -> list[_Flat]:
+    """The extremes' flats, and between them those that a rise or a return may have on its way."""
+    n = rows.size // 3
+    found: list[_Flat] = []
+    for a, b in pairwise([*flats, flats[0].moved(n)]):
+        found.append(a)
+        between = slice(a.last + 1, b.first)
+        direction = 1.0 if b.level > a.level else -1.0
+        slow = _slow(around[between], direction * rows[between], noise, depth)
+        found += [replace(flat, level=direction * flat.level).moved(between.start) for flat in slow]
     return found
 
 
-def _turning_point(stops: list[_Stop], k: int) -> _Stop:
-    """The top of the parabola through a turning row and its neighbours, kept between these."""
-    row = stops[k]
-    # The first and the last stop are the same one, a turn apart.
-    before = stops[k - 1] if k else _Stop(stops[-2].start - FULL_TURN, stops[-2].end - FULL_TURN, stops[-2].level)
-    after = stops[k + 1] if k + 1 < len(stops) else stops[1].a_turn_later
-    left, right = before.end - row.start, after.start - row.start
-    slope_left, slope_right = (before.level - row.level) / left, (after.level - row.level) / right
-    bend = (slope_right - slope_left) / (right - left)
-    top = -(slope_left - bend * left) / (2 * bend) if bend else 0.0
-    top = row.start + min(max(float(top), left / 2), right / 2)
-    return _Stop(top, top, row.level)
+def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
+    """Where rows that rise are slow for long, and more than ``depth`` above the first and below the last; in order."""
+    found: list[_Flat] = []
+    if y.size < 2 * FEWEST:
+        return found
+    spread = 2 * OFF * noise
+    usual = spread * (x[-1] - x[0]) / (y[-1] - y[0])
+    # From each row on, as far as the rows have not risen by more than what noise may.
+    ends = np.searchsorted(np.maximum.accumulate(y), y + spread, side="right") - 1
+    length = x[ends] - x
+    while length.max() > SLOW * usual:
+        first = int(np.argmax(length))
+        last = int(ends[first])
+        level = float(np.median(y[first : last + 1]))
+        if last - first >= FEWEST and level - y[0] > depth and y[-1] - level > depth:
+            inside = first + np.flatnonzero(np.abs(y[first : last + 1] - level) <= OFF * noise)
+            found.append(_Flat(int(inside[0]), int(inside[-1]), level))
+        length[(ends >= first) & (np.arange(y.size) <= last)] = 0.0
+    return sorted(found, key=lambda flat: flat.first)
+
+
+def _stop(
+    around: Floats, rows: Floats, near: tuple[_Flat, _Flat, _Flat], noise: float, gap: float
+) -> tuple[Stop, bool]:
+    """The stop at a flat between two others, and whether the motion turns there."""
+    before, here, after = near
+    lifts = before.level - here.level, after.level - here.level
+    first = _edge(rows, here.first, before.last, here.level, min(SEEN * noise, PART * abs(lifts[0])))
+    last = _edge(rows, here.last, after.first, here.level, min(SEEN * noise, PART * abs(lifts[1])))
+    centre = float(around[here.first] + around[here.last]) / 2
+    reach = centre - float(around[here.first - 1]), float(around[here.last + 1]) - centre
+    directions = 1 if lifts[0] > 0 else -1, 1 if lifts[1] > 0 else -1
+    x, y = around[first : last + 1] - centre, rows[first : last + 1] - here.level
+    stop = find_stop(Surroundings(x, y, directions, reach, noise), gap)
+    moved = replace(stop, start=centre + stop.start, end=centre + stop.end)
+    return moved, directions[0] == directions[1]
+
+
+def _edge(rows: Floats, edge: int, limit: int, level: float, off: float) -> int:
+    """The first row after (or before) the edge of a flat that is off its level by more, not beyond the next flat."""
+    step = 1 if limit > edge else -1
+    outside = np.abs(rows[edge + step : limit : step] - level) > off
+    way = 1 + (int(np.argmax(outside)) if outside.any() else outside.size)
+    return edge + step * min(max(way, FEWEST), abs(limit - edge))
+
+
+def _ends(stop: Stop, gap: float) -> tuple[float, float]:
+    """Where a stop begins and ends; a rest half a gap sooner where the acceleration jumps, which the spline rounds."""
+    if stop.end == stop.start:
+        return stop.start, stop.end
+    sooner, later = (gap / 2 if power == 2 else 0.0 for power in stop.powers)
+    return stop.start + sooner, stop.end - later

@@ -24,6 +24,18 @@ WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
 SAMPLES = 50
 """Places of a leg among which one is sought where it moves fast."""
+TOLERANCE_OF_NOISE = 4.5
+"""The tolerance is at least so many standard deviations of the noise; one row in 150,000 is off by more."""
+LEAST_NOISE = 3e-6
+"""Of the lift: what the spline itself, whose acceleration cannot jump, may be off."""
+MISFIT = 7.0
+"""Stops that are off by more than so many times the noise are not explained by it."""
+WINDOW, ROWS_OF_A_PART = 7, 30
+"""Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
+MEDIAN = 0.6745
+"""The median of |x| for a normal distribution of standard deviation 1."""
+SHARPEST = 1e-15
+"""Where a motion turns is sought until it is known to this [rad]; slow where the velocity is flat."""
 ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
 
@@ -89,8 +101,13 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     """The motion through measured displacements, smooth to the third derivative.
 
     Where the rows keep to one level the motion rests; else it rises or falls from each rest or turning point to the
-    next.  Between these it is a quintic spline with as few knots as keep every row to the tolerance, so a tolerance of
-    several times what the table is rounded to, or scatters by, keeps noise out of the acceleration.
+    next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
+
+    The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
+    and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
+    noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
+    noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
+    as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
 
     Parameters
     ----------
@@ -114,11 +131,17 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     phi, s = check_rows(phi, s, tolerance)
-    legs = find_legs(phi, s, tolerance)
+    most = tolerance / TOLERANCE_OF_NOISE
+    noise = min(max(_scatter(phi, s), LEAST_NOISE * float(np.ptp(s))), most)
+    legs, misfit = find_legs(phi, s, tolerance, noise)
+    if misfit > MISFIT and noise < most:
+        # The rows err in other ways than each for itself, so the tolerance must say by how much.
+        noise = most
+        legs, _ = find_legs(phi, s, tolerance, noise)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise)
     phases, zero, level = _phases(fitted, legs)
     return MeasuredMotion(phases, zero, phi, s - level, tolerance)
 
@@ -196,6 +219,21 @@ def _degrees(angle: float) -> str:
     return f"{math.degrees(angle):.10g} degrees"
 
 
+def _scatter(phi: Floats, s: Floats) -> float:
+    """The standard deviation of the rows, from what a polynomial of the fifth degree through every seven leaves.
+
+    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts is taken,
+    because rounding is smaller where the follower rests.
+    """
+    rows = np.arange(s.size)[:, None] + np.arange(WINDOW)
+    x = phi[rows % s.size] + FULL_TURN * (rows // s.size)
+    apart = (x[:, :, None] - x[:, None, :]) / (x[:, -1:, None] - x[:, :1, None]) + np.eye(WINDOW)
+    weights = 1 / np.prod(apart, axis=2)
+    left = np.sum(weights * s[rows % s.size], axis=1) / np.linalg.norm(weights, axis=1)
+    parts = np.array_split(np.abs(left), max(s.size // ROWS_OF_A_PART, 1))
+    return max(float(np.median(part)) for part in parts) / MEDIAN
+
+
 # --- from the spline to phases ---------------------------------------------------------------------------------------
 
 
@@ -221,11 +259,11 @@ def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
     """The cam angle [rad] between two legs where the velocity changes its sign."""
     from scipy.optimize import brentq
 
-    v = fitted.spline.derivative()
+    v = fitted.velocity
     before = np.linspace(leg.start, leg.end, SAMPLES)
     after = np.linspace(leg.end, following.end, SAMPLES)
     fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
-    return brentq(v, *fastest, xtol=ROUNDING**2)  # pyright: ignore[reportReturnType]
+    return brentq(v, *fastest, xtol=SHARPEST, maxiter=1000)  # pyright: ignore[reportReturnType]
 
 
 def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:

@@ -1,149 +1,252 @@
 """A periodic quintic spline through the rows of a table: it rests where they rest, and rises or falls in between.
 
 The knots are single, and double at the ends of rests, so s is smooth to the fourth derivative, and to the third where
-a rest begins or ends.  A spline changes its sign no more often than its coefficients do (C. de Boor, *A Practical Guide
-to Splines*, 1978, chapter XI), so coefficients of the velocity that are of one sign on every leg, and zero over the
-rests, give a displacement without ripples: no leg turns on its way.  Under that condition the displacements come as
-near to the rows as least squares can bring them (monotone regression splines, J. O. Ramsay 1988).
+a rest begins or ends.  They lie closer than the rows; what keeps the noise of the rows out of the derivatives is what
+is known of motions: acceleration and jerk change little, but where they do, they may jump.  So the coefficients are
+those that make least
+
+    sum (s - rows)^2/(2 noise^2) + sum log(1 + (steps of the jerk/usual)^2) + sum |steps of the acceleration|/usual.
+
+This is the most likely motion for rows with independent Gaussian noise, when steps of the jerk are spread as Cauchy's
+distribution is and those of the acceleration as Laplace's is: many small ones, a few great ones.  It is found by least
+squares with weights that are made anew from the solution before (P. W. Holland, R. E. Welsch 1977).  A spline changes
+its sign no more often than its coefficients do (C. de Boor, *A Practical Guide to Splines*, 1978, chapter XI), so
+coefficients of the velocity that are of one sign on every leg make a motion that turns nowhere on its way.
+
+scipy's smoothing splines have one stiffness for the whole turn: where it lets a jump pass, it lets pass the noise too.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
-from graphcam.given.legs import Leg
+from graphcam.given.legs import LESS_NOISE, Leg
 from graphcam.given.motion import FULL_TURN
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
 DEGREE = 5
-FEWEST, MOST, GROWTH = 6, 100, 1.3
-"""A leg is first divided into so many intervals; where it misses the tolerance their number grows by this factor."""
-PARTS_OF_ROWS = 1.0
-"""A leg has at most so many intervals for each of its rows: more would follow the noise of every row."""
-MOST_LEGS = 24
-"""What rises and falls more often is noise."""
-CLOSING = 1e4
-"""Weight of the closure in the least squares, before it is made exact."""
-LESS_NOISE = "give a greater tolerance, or a table with less noise"
-STIFFNESS = 1e-6
-"""Weight of the spline's stiffness, which settles what the rows leave open."""
+FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
+"""A leg is divided into so many intervals for each of its rows, but into no fewer and no more than these."""
+JERKS = 20.0
+"""The usual step of the jerk over a part of a leg, in h/F^3 times the root of the part."""
+SWAYS, SWAYS_OF_NOISE = 0.1, 12.0
+"""The usual step of the acceleration in h/F^2, and the same for each root of noise/h, if that is less."""
+NEAR = 7
+"""A coefficient is judged by the greatest usual step of so many neighbours: beside a fast leg a slow one may bend."""
+ONE_WAY = 1e3
+"""A velocity of the wrong sign counts so many times what the noise of a row would, were it to last over the leg."""
+SPREAD_AT_FIRST = 0.1
+"""Part of the weights that steps of the usual size would have, with which the jerk begins."""
+LITTLE = 1e-2
+"""Steps of the acceleration below this part of the usual one count as this."""
+ROUNDS, SETTLED = 40, 0.02
+"""The weights are made anew so often, or until no row moves by so many standard deviations of the noise."""
+PULLS, PULL = 3, 4.0
+"""The spline is sought so often; each time a row that is off by more than the tolerance counts so many times more."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A periodic spline s(phi), and its knots [rad], over three turns of which the first leg begins the middle one."""
+    """A periodic spline s(phi), its derivative, whose digits do not come from differences of s, and its knots [rad].
+
+    They reach over three turns, of which the first leg begins the middle one.
+    """
 
     spline: BSpline
+    velocity: BSpline
     knots: Floats
 
 
-def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float) -> Fit:
-    """The spline with the fewest knots that keeps every row to the tolerance.
+def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float) -> Fit:
+    """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
     legs : from :func:`~graphcam.given.legs.find_legs`
+    noise : the standard deviation of the displacements
 
     Raises
     ------
-    DesignError : there are too many legs, or no spline keeps to the tolerance that does not follow every row
+    DesignError : no spline that rises and falls so keeps to the tolerance
     """
-    if len(legs) > MOST_LEGS:
-        limit = f"greater than the noise that turns the table {len(legs)} times"
-        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
-    rows = [np.flatnonzero((phi >= leg.start) & (phi <= leg.end)) for leg in legs]
-    most = [min(math.floor(PARTS_OF_ROWS * here.size), MOST) for here in rows]
-    parts = [FEWEST] * len(legs)
-    while True:
-        knots = np.concatenate([_divided(leg, n) for leg, n in zip(legs, parts, strict=True)])
-        fitted = _least_squares(phi, s, legs, knots)
+    circle, counts, off = _circle(phi, legs), np.ones(s.size), np.zeros(s.size)
+    likelihood = _likelihood(circle, phi, s, legs, noise)
+    for _ in range(PULLS):
+        fitted = _closed(circle, likelihood, _most_likely(likelihood, s, counts))
         off = np.abs(fitted.spline(phi) - s)
         if off.max() <= tolerance:
             return fitted
-        coarse = [k for k, here in enumerate(rows) if here.size and off[here].max() > tolerance]
-        # A rest that is off its level is drawn there by the legs beside it.
-        finer = [k for k in coarse or range(len(legs)) if parts[k] < most[k]]
-        if not finer:
-            limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
-            raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
-        for k in finer:
-            parts[k] = min(math.ceil(parts[k] * GROWTH), most[k])
+        counts[off > tolerance] *= PULL
+    limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
+    raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
 
 
-def _divided(leg: Leg, parts: int) -> Floats:
-    """The knots of a leg, but for the last if the next leg begins there; towards a rest closer, there double."""
-    x = np.linspace(0, 1, parts + 1)
-    if leg.from_rest and leg.to_rest:
-        x = np.sin(np.pi / 2 * x) ** 2
-    elif leg.from_rest:
-        x = 1 - np.cos(np.pi / 2 * x)
-    elif leg.to_rest:
-        x = np.sin(np.pi / 2 * x)
+# --- the coefficients around the turn --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Circle:
+    """The knots and coefficients of one turn; coefficient i is that of the basis function over the knots i .. i + 6.
+
+    knots : (n,) [rad];  turns : (3n,) the same in three turns
+    index : (n,) which unknown each coefficient is; those over a rest are one
+    """
+
+    knots: Floats
+    turns: Floats
+    index: NDArray[np.intp]
+
+    def width(self, knots: int) -> Floats:
+        """(n,) the angle over so many intervals from each knot on."""
+        n = self.knots.size
+        return self.turns[n + knots : 2 * n + knots] - self.knots
+
+    def middles(self, degree: int) -> Floats:
+        """(n,) where the coefficients are about the spline's values (T. N. E. Greville)."""
+        n = self.knots.size
+        return np.mean([self.turns[n + k : 2 * n + k] for k in range(1, degree + 1)], axis=0)
+
+    def derivative(self, factors: Floats, degree: int) -> Floats:
+        """(n, w + 1) the next derivative's coefficients; column k is the factor of the k-th coefficient of s before."""
+        return _steps(factors) * (degree / self.width(degree))[:, None]
+
+    def forms(self, factors: Floats) -> Forms:
+        """The same, of the unknowns."""
+        n, w = factors.shape
+        return Forms(self.index[(np.arange(n)[:, None] - np.arange(w)) % n], factors)
+
+
+def _circle(phi: Floats, legs: list[Leg]) -> _Circle:
+    knots = np.concatenate([_divided(leg, int(np.sum((phi >= leg.start) & (phi <= leg.end)))) for leg in legs])
+    n, same = knots.size, np.zeros(knots.size, dtype=np.bool_)
+    ends = np.searchsorted(knots, [leg.end for leg in legs if leg.to_rest], side="right") - 1
+    same[(ends[:, None] - np.arange(DEGREE)) % n] = True
+    count = n - int(np.sum(same))
+    turns = np.concatenate([knots - FULL_TURN, knots, knots + FULL_TURN])
+    return _Circle(knots, turns, around((np.cumsum(~same) - 1) % count, count))
+
+
+def _divided(leg: Leg, rows: int) -> Floats:
+    """The knots of a leg, but for the last if the next leg begins there; at a rest double."""
+    parts = round(min(max(PARTS_OF_ROWS * rows, FEWEST), MOST))
     # With single knots s would leave its rest as x^5; laws leave it as x^2, x^3 or x^4.
     times = np.ones(parts + 1, dtype=np.intp)
     times[0], times[-1] = 1 + leg.from_rest, 2 * leg.to_rest
-    return np.repeat(leg.start + (leg.end - leg.start) * x, times)
+    return np.repeat(np.linspace(leg.start, leg.end, parts + 1), times)
 
 
-def _least_squares(phi: Floats, s: Floats, legs: list[Leg], knots: Floats) -> Fit:
+def _steps(factors: Floats) -> Floats:
+    """(n, w + 1) each coefficient less the one before."""
+    apart = np.zeros((factors.shape[0], factors.shape[1] + 1))
+    apart[:, :-1] = factors
+    apart[:, 1:] -= np.roll(factors, 1, axis=0)
+    return apart
+
+
+# --- what is most likely ---------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class _Likelihood:
+    """What the unknowns are judged by.
+
+    rows : the displacements at the rows, with the standard deviation ``noise``
+    velocity : the velocity's coefficients; ``one_way`` is the sign that they must have, or 0, ``strictly`` their weight
+    accelerations, jerks : the steps of their coefficients, with the usual ones
+    """
+
+    rows: Forms
+    noise: float
+    velocity: Forms
+    one_way: Floats
+    strictly: Floats
+    accelerations: Forms
+    usual_acceleration: Floats
+    jerks: Forms
+    usual_jerk: Floats
+
+
+def _likelihood(circle: _Circle, phi: Floats, s: Floats, legs: list[Leg], noise: float) -> _Likelihood:
     from scipy.interpolate import BSpline
-    from scipy.optimize import lsq_linear
+    from scipy.ndimage import maximum_filter1d
 
-    n = knots.size
-    # Three turns of knots, so that every spline over the middle one is whole.
-    turns = np.concatenate([knots - FULL_TURN, knots, knots + FULL_TURN])
-    t = turns[n - DEGREE : 2 * n + DEGREE + 1]
-    velocity = np.arange(n + DEGREE - 1) - (DEGREE - 1)  # which of the n velocities each coefficient is, a turn apart
-    lower, upper = _signs(np.append(knots, knots + FULL_TURN), legs)
-    # The coefficients of s are sums of those of v: c_j = c_(j-1) + d_j (t_(j+5) - t_j)/5.
-    steps = (t[DEGREE + 1 : -1] - t[1 : -DEGREE - 1]) / DEGREE
-    sums = np.zeros((n + DEGREE, n + 1))
-    sums[:, 0] = 1.0
-    for j, (step, v) in enumerate(zip(steps, velocity % n, strict=True)):
-        sums[j + 1 :, 1 + v] += step
-    rise = sums[n, 1:] - sums[0, 1:]
-    basis = BSpline.design_matrix(phi, t, DEGREE).toarray() @ sums
-    free = np.flatnonzero(upper > lower)
-    columns = np.append(0, 1 + free)
-    lift = float(np.ptp(s))
-    stiff = STIFFNESS * np.diff(np.eye(n), n=2, axis=0)[:, free]
-    closing, stiffness = CLOSING * np.append(0.0, rise[free]), np.hstack([np.zeros((stiff.shape[0], 1)), stiff])
-    equations = np.vstack([basis[:, columns], closing, stiffness])
-    target = np.concatenate([s, np.zeros(1 + stiff.shape[0])])
-    bounds = np.append(-np.inf, lower[free]), np.append(np.inf, upper[free])
-    solution = lsq_linear(equations, target / lift, bounds, method="bvls").x * lift
-    d = np.zeros(n)
-    d[free] = solution[1:]
-    # The closure to the last digit: the falls are brought to the height of the rises.
-    d[d < 0] *= (rise @ np.maximum(d, 0)) / (rise @ np.maximum(-d, 0))
-    c = sums @ np.append(solution[0], d)
-    around = (np.arange(3 * n - DEGREE - 1) - (n - DEGREE)) % n
-    return Fit(BSpline(turns, c[around], DEGREE), np.unique(turns))
+    n = circle.knots.size
+    basis = BSpline.design_matrix(phi, circle.turns, DEGREE)
+    values: Floats = np.asarray(basis.data, dtype=np.float64).reshape(-1, DEGREE + 1)
+    rows = Forms(circle.index[basis.indices.reshape(-1, DEGREE + 1) % n], values)
+    velocity = circle.derivative(np.ones((n, 1)), DEGREE)
+    acceleration = circle.derivative(velocity, DEGREE - 1)
+    jerk = circle.derivative(acceleration, DEGREE - 2)
+    lift, angle, one_way = _on_legs(phi, s, legs, circle.middles(DEGREE - 1))
+    sways = np.minimum(SWAYS, SWAYS_OF_NOISE * np.sqrt(noise / lift)) * lift / angle**2
+    jerks = maximum_filter1d(JERKS * lift / angle**3.5, NEAR, mode="wrap")
+    part = circle.width(DEGREE - 1) / (DEGREE - 1)
+    return _Likelihood(
+        *(rows, noise, circle.forms(velocity), one_way, (ONE_WAY * angle / noise) ** 2),
+        *(circle.forms(_steps(acceleration)), maximum_filter1d(sways, NEAR, mode="wrap")),
+        *(circle.forms(_steps(jerk)), jerks * np.sqrt(part)),
+    )
 
 
-def _signs(turns: Floats, legs: list[Leg]) -> tuple[Floats, Floats]:
-    """Bounds of the velocities' coefficients: zero over rests, of one sign on a leg, one of any sign at a turning."""
-    n = turns.size // 2  # the knots of this turn and of the next are given
-    reach = np.lib.stride_tricks.sliding_window_view(turns, DEGREE + 1)[:n]
-    middle = reach[:, 1:-1].mean(axis=1)  # where the coefficient is about the velocity (T. N. E. Greville)
-    around = [*legs, *(leg.a_turn_later for leg in legs)]
-    ends = np.array([leg.end for leg in around])
-    on = np.minimum(np.searchsorted(ends, middle), 2 * len(legs) - 1)
-    direction = np.array([leg.direction for leg in around])[on]
-    lower, upper = np.where(direction > 0, 0.0, -np.inf), np.where(direction > 0, np.inf, 0.0)
-    for a, b in pairwise(around):
-        if a.to_rest:
-            over = (reach[:, 0] < b.start) & (reach[:, -1] > a.end)
-            lower[over] = upper[over] = 0.0
-        elif a.direction != b.direction:
-            away = np.abs((middle - a.end + math.pi) % FULL_TURN - math.pi)
-            lower[np.argmin(away)], upper[np.argmin(away)] = -np.inf, np.inf
-    return lower, upper
+def _on_legs(phi: Floats, s: Floats, legs: list[Leg], places: Floats) -> tuple[Floats, Floats, Floats]:
+    """(n,) of the leg at each place: lift, angle, and the sign of its velocity, 0 where it turns."""
+    starts, ends = np.array([(leg.start, leg.end) for leg in legs]).T
+    first = legs[0].start
+    on = np.searchsorted(starts, first + (places - first) % FULL_TURN, side="right") - 1
+    below, above = (np.interp(at, phi, s, period=FULL_TURN) for at in (starts, ends))
+    one_way = np.array([float(leg.direction) for leg in legs])[on]
+    for a, b in pairwise([*legs, legs[0]]):
+        if not a.to_rest and a.direction != b.direction:
+            one_way[np.argmin(np.abs((places - a.end + FULL_TURN / 2) % FULL_TURN - FULL_TURN / 2))] = 0.0
+    return np.maximum(np.abs(above - below), LITTLE * np.ptp(s))[on], (ends - starts)[on], one_way
+
+
+def _most_likely(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
+    """The most likely unknowns, for rows that count so many times."""
+    from scipy.linalg import solveh_banded
+
+    terms = given.rows, given.jerks, given.accelerations, given.velocity
+    size, bands = int(given.velocity.unknowns.max()) + 1, max(term.bands for term in terms)
+    measured = counts / given.noise**2
+    right = given.rows.transposed(s * measured, size)
+    jerk = SPREAD_AT_FIRST / given.usual_jerk**2
+    acceleration = velocity = np.zeros(given.one_way.size)
+    z, before = np.zeros(size), np.full(s.size, np.inf)
+    for _ in range(ROUNDS):
+        weights = measured, jerk, acceleration, velocity
+        band = np.sum([term.squared(w, size, bands) for term, w in zip(terms, weights, strict=True)], axis=0)
+        z = solveh_banded(band, right, lower=True, check_finite=False)
+        now = given.rows(z)
+        if np.abs(now - before).max() < SETTLED * given.noise:
+            break
+        before = now
+        jerk = 2 / (given.usual_jerk**2 + given.jerks(z) ** 2)
+        usual = given.usual_acceleration
+        acceleration = 1 / (usual * np.maximum(np.abs(given.accelerations(z)), LITTLE * usual))
+        velocity = np.where(given.one_way * given.velocity(z) < 0, given.strictly, 0.0)
+    return z
+
+
+def _closed(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
+    """The spline of the unknowns, with velocities of the right sign, and closed, to the last digit."""
+    from scipy.interpolate import BSpline
+
+    velocity = given.velocity(z)
+    velocity[given.one_way * velocity < 0] = 0.0
+    # The coefficients of s are sums of those of v: c_i = c_(i-1) + v_i (t_(i+5) - t_i)/5.
+    widths = circle.width(DEGREE) / DEGREE
+    rises = velocity * widths
+    velocity[rises < 0] *= np.sum(rises[rises > 0]) / -np.sum(rises[rises < 0])
+    c = z[circle.index[0]] + np.cumsum(velocity * widths) - velocity[0] * widths[0]
+    turn = np.arange(circle.turns.size) % circle.knots.size
+    s = BSpline(circle.turns, c[turn[: -DEGREE - 1]], DEGREE)
+    return Fit(s, BSpline(circle.turns, velocity[turn[:-DEGREE]], DEGREE - 1), np.unique(circle.turns))

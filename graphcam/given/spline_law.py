@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.monotone_spline import DEGREE, Fit
-from graphcam.given.motion_law import Law
+from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats
 
 if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
+    from scipy.interpolate import BSpline, PPoly
 
 MEASURED = "measured"
 """The name of the law of a measured motion."""
@@ -37,36 +35,46 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     The pieces of the first half are series about their starts, those of the second about their ends, so that a small
     lift and a small missing lift keep their digits.
     """
+    from scipy.interpolate import PPoly
+
     angle = end - start
     slack = SAME_KNOT * angle
     inner = fit.knots[(fit.knots > start + slack) & (fit.knots < end - slack)]
     u = np.concatenate([[0.0], (inner - start) / angle, [1.0]])
-    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
     level, top = (float(s) for s in fit.spline([start, end]))
     lift = top - level
-    first: list[Polynomial] = []
-    second: list[Polynomial] = []
-    for a, b in pairwise(u):
-        # Derivatives may jump at knots, so they are taken in the middle.
-        middle = (a + b) / 2
-        derivatives = [float(fit.spline(start + angle * middle, nu=n)) for n in range(DEGREE + 1)]
-        series = Polynomial([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
-        first.append(series(Polynomial([a - middle, 1.0])) - level / lift)
-        second.append(top / lift - series(Polynomial([b - middle, -1.0])))
-    first[0].coef[: contact[0]] = 0.0
-    second[-1].coef[: contact[1]] = 0.0
-    begins, pieces = (*u[:half], *(1.0 - u[half + 1 :])), (*first[:half], *second[half:])
-    formulas = [
-        partial(_polynomial, start=float(x), coefficients=tuple(piece.coef.tolist()))
-        for x, piece in zip(begins, pieces, strict=True)
-    ]
-    fourths = [
-        partial(_straight_fourth, start=float(x), value=float(piece.deriv(4)(0.0)), slope=float(piece.deriv(5)(0.0)))
-        for x, piece in zip(begins, pieces, strict=True)
-    ]
-    velocity, acceleration = (max(map(_greatest, (f.deriv(k) for f in first), np.diff(u))) for k in (1, 2))
-    inner, peaks = u[1:-1].tolist(), (velocity, acceleration)
-    return lift, Law(MEASURED, formulas, inner, middle=float(u[half]), peaks=peaks, fourths=fourths)
+    # Derivatives may jump at knots, so they are taken in the middle.
+    half_width, middle = np.diff(u) / 2, start + angle * (u[:-1] + u[1:]) / 2
+    derivatives = fit.spline(middle), *(fit.velocity(middle, nu=n) for n in range(DEGREE))
+    taylor = np.array([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
+    ahead, back = _about(taylor, -half_width), -_about(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None]
+    ahead[0] -= level / lift
+    back[0] += top / lift
+    ahead[: contact[0], 0] = back[: contact[1], -1] = 0.0
+    first, second = PPoly(ahead[::-1], u), PPoly(back[::-1, ::-1], (1.0 - u)[::-1])
+    half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
+    splines = [first] * half + [second] * (u.size - 1 - half)
+    places = np.where(np.arange(u.size - 1) < half, (u[:-1] + u[1:]) / 2, 1.0 - (u[:-1] + u[1:]) / 2)
+    fourths = [_fourth(spline, float(place)) for spline, place in zip(splines, places, strict=True)]
+    formulas = [partial(_spline, spline=spline) for spline in splines]
+    edges, middle_edge = u[1:-1].tolist(), float(u[half])
+    return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=_peaks(first), trusted=True, fourths=fourths)
+
+
+def _about(taylor: Floats, shift: Floats) -> Floats:
+    """(6, p) the Taylor coefficients about places that are off by ``shift``."""
+    orders = range(DEGREE + 1)
+    return np.array([sum(math.comb(m, n) * taylor[m] * shift ** (m - n) for m in orders[n:]) for n in orders])
+
+
+def _peaks(f: PPoly) -> tuple[float, float]:
+    """The greatest |f'| and |f''|."""
+    found: list[float] = []
+    for order in (1, 2):
+        turning = f.derivative(order + 1).roots(extrapolate=False)
+        places = np.concatenate([turning[np.isfinite(turning)], f.x])
+        found.append(float(np.abs(f(places, nu=order)).max()))
+    return found[0], found[1]
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
@@ -106,36 +114,20 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
     spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
     knots = np.unique(spline.t)
-    fifths = np.abs(spline((knots[:-1] + knots[1:]) / 2, nu=DEGREE)).tolist()
-    fourths = [partial(_fourth_of_spline, spline=spline, fifth=fifth) for fifth in fifths]
+    fourths = [_fourth(spline, float(place)) for place in (knots[:-1] + knots[1:]) / 2]
     return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist(), fourths=fourths)
 
 
-def _spline(u: Floats, *, spline: BSpline):
+def _spline(u: Floats, *, spline: BSpline | PPoly):
     """A spline and its first three derivatives."""
     return [spline(u, nu=order) for order in range(4)]
 
 
-def _fourth_of_spline(u: Floats, *, spline: BSpline, fifth: float) -> tuple[Floats, float]:
+def _fourth(spline: BSpline | PPoly, place: float) -> Fourth:
+    """The fourth derivative of the piece that a place lies in."""
+    return partial(_fourth_of_spline, spline=spline, fifth=abs(float(spline(place, nu=DEGREE))))
+
+
+def _fourth_of_spline(u: Floats, *, spline: BSpline | PPoly, fifth: float) -> tuple[Floats, float]:
     """A quintic spline's fourth derivative, and the magnitude of its fifth between two knots."""
     return spline(u, nu=4), fifth
-
-
-def _straight_fourth(x: Floats, *, start: float, value: float, slope: float) -> tuple[Floats, float]:
-    """The same of a quintic polynomial of x - start, whose fourth derivative is a straight line."""
-    return value + slope * (x - start), abs(slope)
-
-
-def _polynomial(x: Floats, *, start: float, coefficients: tuple[float, ...]):
-    """A polynomial of x - start, and its first three derivatives."""
-    f = Polynomial(coefficients)
-    t = x - start
-    return f(t), f.deriv(1)(t), f.deriv(2)(t), f.deriv(3)(t)
-
-
-def _greatest(polynomial: Polynomial, length: float) -> float:
-    """The greatest |value| between 0 and ``length``."""
-    turning = polynomial.deriv().roots()
-    turning = turning[np.isreal(turning)].real
-    inside = turning[(turning > 0) & (turning < length)]
-    return float(np.max(np.abs(polynomial(np.concatenate([inside, [0.0, length]])))))

@@ -220,7 +220,7 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     markdown = (tmp_path / "report" / "bench.md").read_text()
     tables = [line for line in markdown.splitlines() if line.startswith("|")]
     assert len(tables) > 60
-    assert markdown.count("\n## ") == 6 + len(reports.SECTIONS)
+    assert markdown.count("\n## ") == 6 + len(reports.SECTIONS) - 1  # no sweeps into files when it must be quick
     printed = result.output[result.output.index("\nError against the number") :].splitlines()[:-1]
     assert len(printed) > 120
     assert max(map(len, printed)) <= 80

@@ -98,14 +98,14 @@ def test_the_derivatives_are_derivatives(law):
     """By the theorem of the calculus: from knot to knot v, a, j integrate to s, v, a (Gauss, exact for a quintic)."""
     measured = measured_motion(DEGREES, table(LAWS[law]))
     nodes, weights = np.polynomial.legendre.leggauss(4)
+    scales = np.max(np.abs(measured(DENSE)), axis=1)
     for start, end in pairwise([*measured._piecewise.starts, FULL_TURN]):
         phi = (start + end) / 2 + (end - start) / 2 * nodes
         inside = measured(phi)
         begin, finish = measured(start), measured(end, "left")
         for k in range(3):
             change = (end - start) / 2 * weights @ inside[k + 1]
-            scale = np.max(np.abs(measured(DENSE)[k]))
-            assert float(finish[k] - begin[k]) == pytest.approx(change, abs=1e-12 * scale)
+            assert float(finish[k] - begin[k]) == pytest.approx(change, abs=1e-12 * scales[k])
 
 
 def test_no_phase_turns_on_its_way():
@@ -166,14 +166,6 @@ def test_unequal_steps_are_as_good():
     phi = np.sort(np.radians(np.arange(0, 360, 1.0) + random.uniform(-0.3, 0.3, 360)))
     measured = measured_motion(phi, table(LAWS["cycloidal"], phi))
     assert_allclose(measured(DENSE - measured.zero)[0], LAWS["cycloidal"](DENSE)[0], atol=0.01)
-
-
-def test_a_smaller_tolerance_is_kept_with_more_knots():
-    s = table(LAWS["3-4-5"], decimals=6)
-    fits = [measured_motion(DEGREES, s, tolerance) for tolerance in (0.1, 0.01, 0.001)]
-    assert [fit.greatest_residual <= fit.tolerance for fit in fits] == [True, True, True]
-    assert fits[0].breaks.size < fits[1].breaks.size < fits[2].breaks.size
-    assert fits[2].rms_residual < fits[1].rms_residual < fits[0].rms_residual
 
 
 def test_the_least_radius_is_the_law_s():
@@ -263,7 +255,6 @@ def test_a_row_that_cannot_be_is_named(phi, s, row, words):
         (DEGREES, S[:-1], 0.01, "one number for each cam angle"),
         (DEGREES, 0 * S, 0.01, "lift is '0', but must be more than 0.02"),
         (DEGREES, np.random.default_rng(1).standard_normal(360), 0.01, "greater than the noise that turns the table"),
-        (DEGREES, S + 0.014 * (-1.0) ** np.arange(360), 0.0145, "what the best spline leaves"),
     ],
 )
 def test_a_table_that_cannot_be_is_refused(phi, s, tolerance, words):

@@ -1,0 +1,258 @@
+"""Measured motions against those they were sampled from: random ones, with noise, and what noise permits at best."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.given.laws import LAWS, Floats
+from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
+
+NOISES = 0.0, 0.003, 0.01, 0.03
+"""Standard deviations of the displacements [mm]."""
+ROWS = 360
+SHORTEST = math.radians(25)
+"""The least angle of a phase [rad]."""
+LOWEST, HIGHEST = 4.0, 40.0
+"""Lifts are between these [mm]."""
+UNEVEN = 0.4, 1.6
+"""Uneven steps are between so many degrees."""
+RATIOS = 0.5, 2.0
+JUMPING = "rectangular", "cosine", "2-3"
+"""Laws whose acceleration jumps."""
+CERTAIN = 4.0
+"""Motions that differ by twice so many times the noise are told apart: the best test errs 1 in 30,000."""
+TWO_ROWS = 2 * FULL_TURN / ROWS
+PEAKS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
+"""Goals of max |a| by noise: of laws whose acceleration is continuous, and of those whose jumps."""
+MOTIONS = 100
+"""Of the bench; the tests take more."""
+JERK = 60.0
+"""Of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
+
+
+def measured_rows(gauge: Gauge) -> Iterator[Row]:
+    """Of random motions with every noise: wrong phases, ends and greatest accelerations, beside what noise permits."""
+    every = list(sampled_motions(MOTIONS))
+    for noise in NOISES:
+        some = [one for one in every if one.noise == noise]
+        name, first = f"measured, noise {noise:g} mm", some[0]
+        tolerance = TOLERANCE_OF_NOISE * noise or DEFAULT_TOLERANCE
+        seconds = gauge.timer.seconds(partial(measured_motion, first.phi, first.s, tolerance))
+        wrong, end = sum(not one.phases_right for one in some), max(one.end_error for one in some)
+        yield Row(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", None, seconds)
+        yield Row(name, "ends off, beside two rows or what noise hides", end, "greatest", "<= 1", None, seconds)
+        for jumps, what in enumerate(("continuous", "jumps")):
+            of_these = [one for one in some if one.jumps == bool(jumps)]
+            off = 100 * max(abs(one.peak_error) for one in of_these)
+            best = 100 * math.sqrt(np.mean([one.least_scatter**2 for one in of_these])) if noise else 0.0
+            what = f"max |a| off, acceleration {what}; sd of the best linear estimate {best:.1f} %"
+            goal = "" if math.isinf(PEAKS[noise][jumps]) else f"<= {100 * PEAKS[noise][jumps]:g} %"
+            yield Row(name, what, off, "%", goal, None, seconds)
+
+
+@dataclass(frozen=True, eq=False)
+class Sampled:
+    """A motion, its table, and the motion that was made of the table.
+
+    noise : the standard deviation with which the displacements scatter [mm]
+    phi, s : (n,) the table, cam angles [rad] and displacements [mm]
+    """
+
+    motion: Motion
+    noise: float
+    phi: Floats
+    s: Floats
+
+    @cached_property
+    def measured(self) -> MeasuredMotion:
+        """What was made of the table, with the tolerance that the noise asks for."""
+        return measured_motion(self.phi, self.s, TOLERANCE_OF_NOISE * self.noise or DEFAULT_TOLERANCE)
+
+    @cached_property
+    def phases_right(self) -> bool:
+        """Whether rises, dwells and returns follow one another as in the motion."""
+        return self._turned is not None
+
+    @cached_property
+    def end_error(self) -> float:
+        """The greatest |error| of an end of a phase, beside two rows or what the noise hides, if that is more."""
+        if self._turned is None:
+            return math.inf
+        away = np.abs((self._turned - self.motion.starts + math.pi) % FULL_TURN - math.pi)
+        return float(np.max(away / np.maximum(TWO_ROWS, self._hidden)))
+
+    @cached_property
+    def ends_beyond(self) -> float:
+        """The part of the ends that are off by more than two rows."""
+        if self._turned is None:
+            return 1.0
+        away = np.abs((self._turned - self.motion.starts + math.pi) % FULL_TURN - math.pi)
+        return float(np.mean(away > TWO_ROWS))
+
+    @cached_property
+    def peak_error(self) -> float:
+        """The relative error of max |a|."""
+        return float(_peaks(self.measured).max() / _peaks(self.motion).max()) - 1
+
+    @cached_property
+    def jumps(self) -> bool:
+        """Whether the acceleration jumps anywhere."""
+        return any(isinstance(phase, Moving) and phase.normalised.name in JUMPING for phase in self.motion.phases)
+
+    @cached_property
+    def least_scatter(self) -> float:
+        """The standard deviation of max |a|, as a part of it, in the best linear estimate; see :func:`best_scatter`."""
+        k = int(_peaks(self.motion).argmax())
+        u = np.linspace(0, 1, 1001)
+        acceleration = np.abs(self.motion.at(k, u)[2])
+        phase, at = self.motion.phases[k], float(self.motion.angle_at(k, u[acceleration.argmax()]))
+        apart = (self.phi - at + math.pi) % FULL_TURN - math.pi
+        near = np.sort(apart[np.abs(apart) <= phase.angle])
+        change = JERK * phase.lift / phase.angle**3
+        return best_scatter(near, self.noise, change**2 / phase.angle) / float(acceleration.max())
+
+    @cached_property
+    def _turned(self) -> Floats | None:
+        """(k,) where the measured phases begin, in the motion's order; None if they are others."""
+        kinds = [phase.kind for phase in self.motion.phases]
+        timing = [(kind, start + self.measured.zero) for kind, start, _ in self.measured.timing]
+        if timing[0][0] == timing[-1][0]:
+            timing = [(timing[0][0], timing[-1][1]), *timing[1:-1]]
+        found = [
+            np.array([start for _, start in [*timing[k:], *timing[:k]]])
+            for k in range(len(timing))
+            if [kind for kind, _ in [*timing[k:], *timing[:k]]] == kinds
+        ]
+        off = [np.abs((starts - self.motion.starts + math.pi) % FULL_TURN - math.pi).max() for starts in found]
+        return found[int(np.argmin(off))] if found else None
+
+    @cached_property
+    def _hidden(self) -> Floats:
+        """(k,) how much later, or sooner, each phase may begin or the one before end, unseen."""
+        step = FULL_TURN / ROWS
+        begin, end = np.array([hidden_angles(phase, self.noise, step) for phase in self.motion.phases]).T
+        return np.maximum(begin, np.roll(end, 1))
+
+
+def hidden_angles(phase: Phase, noise: float, step: float) -> tuple[float, float]:
+    """How much later a phase may begin, and how much sooner it may end [rad], so that no test can tell it.
+
+    The rows of a motion that rests so much longer differ from the phase's, in the root of the sum of squares, by no
+    more than twice :data:`CERTAIN` times the noise: what the best test (J. Neyman, E. S. Pearson 1933) takes to err by
+    as much on either side.
+
+    >>> begins, ends = hidden_angles(Rise(10, 1.0, "4-5-6-7"), 0.01, math.radians(1))
+    >>> round(math.degrees(begins), 1), begins == ends
+    (7.7, True)
+    """
+    if isinstance(phase, Dwell):
+        return 0.0, 0.0
+    u = np.linspace(0, 0.5, 5001)
+    begin, end = (
+        float(np.interp((2 * CERTAIN * noise) ** 2, _squares(phase.lift * law(u)[0], u) * phase.angle / step, u))
+        for law in (phase.normalised, phase.normalised.reversed)
+    )
+    return begin * phase.angle, end * phase.angle
+
+
+def _squares(s: Floats, u: Floats) -> Floats:
+    """The running integral of s^2."""
+    return np.append(0.0, np.cumsum(np.diff(u) * (s[1:] ** 2 + s[:-1] ** 2) / 2))
+
+
+def best_scatter(x: Floats, noise: float, intensity: float) -> float:
+    """The standard deviation of the acceleration at 0 in the best linear unbiased estimate from displacements at x.
+
+    x : (n,) cam angles [rad] that grow, on both sides of 0
+    noise : the standard deviation of the displacements
+    intensity : of the jerk's steps: the mean square by which it changes over an angle, by this angle
+
+    The state is (s, v, a, j), of which nothing is known at first; the jerk is a sum of independent steps.  So s is a
+    cubic plus a process with the covariances below, and the best estimate is that of C. F. Gauss and A. A. Markov.
+
+    >>> x = np.radians(np.arange(-10.0, 11.0))
+    >>> fewer, more = best_scatter(x[::2], 0.01, 0.0), best_scatter(x, 0.01, 0.0)
+    >>> round(fewer / more, 1)
+    1.3
+    """
+    t, at = x - x[0], -float(x[0])
+    apart, less = np.abs(t - t[:, None]), np.minimum(t, t[:, None])
+    rows = less**7 / 7 + apart * less**6 / 2 + 3 * apart**2 * less**5 / 5 + apart**3 * less**4 / 4
+    covariance = intensity / 36 * rows + noise**2 * np.eye(t.size)
+    d = np.abs(t - at)
+    before, after = t**5 / 5 + d * t**4 / 4, at**5 / 5 + 3 * d * at**4 / 4 + d**2 * at**3 + d**3 * at**2 / 2
+    towards = intensity / 6 * np.where(t <= at, before, after)
+    cubic = np.vander(t / t[-1], 4, increasing=True)
+    wanted = np.array([0.0, 0.0, 2.0, 6.0 * at / t[-1]]) / t[-1] ** 2
+    solved = np.linalg.solve(covariance, np.column_stack([cubic, towards]))
+    missing = wanted - cubic.T @ solved[:, 4]
+    unknown = missing @ np.linalg.solve(cubic.T @ solved[:, :4], missing)
+    return math.sqrt(intensity * at**3 / 3 - towards @ solved[:, 4] + unknown)
+
+
+def sampled_motions(n: int, seed: int = 0) -> Iterator[Sampled]:
+    """Random motions of 2 to 6 phases by all laws, their tables at about 1 degree with all noises, even and uneven.
+
+    >>> [len(one.motion.phases) for one in sampled_motions(4)]
+    [6, 4, 6, 4]
+    """
+    for k in range(n):
+        random = np.random.default_rng([seed, k])
+        motion, noise = random_motion(random), NOISES[k % len(NOISES)]
+        steps = np.ones(ROWS) if k // len(NOISES) % 2 == 0 else random.uniform(*UNEVEN, ROWS)
+        phi = (np.cumsum(steps) - steps) * FULL_TURN / np.sum(steps)
+        yield Sampled(motion, noise, phi, motion(phi)[0] + noise * random.standard_normal(ROWS))
+
+
+def random_motion(random: np.random.Generator) -> Motion:
+    """A motion of 2 to 6 phases, in which no two of a kind follow one another.
+
+    >>> random_motion(np.random.default_rng(1)).starts.size
+    4
+    """
+    n = int(random.integers(2, 7))
+    while True:
+        kinds = random.choice([1, -1, 0], n)
+        if np.all(kinds != np.roll(kinds, 1)) and {1, -1} <= set(kinds.tolist()):
+            lifts = np.zeros(n)
+            height = random.uniform(LOWEST, HIGHEST)
+            for kind in (1, -1):
+                lifts[kinds == kind] = height * random.dirichlet(3 * np.ones(np.count_nonzero(kinds == kind)))
+            if lifts[kinds != 0].min() >= LOWEST:
+                break
+    angles = SHORTEST + random.dirichlet(2 * np.ones(n)) * (FULL_TURN - n * SHORTEST)
+    if random.random() < 0.5:
+        angles = np.radians(np.round(np.degrees(angles)))
+        angles[-1] = FULL_TURN - np.sum(angles[:-1])
+    return Motion([_phase(random, *one) for one in zip(kinds.tolist(), lifts.tolist(), angles.tolist(), strict=True)])
+
+
+def _phase(random: np.random.Generator, kind: int, lift: float, angle: float) -> Phase:
+    if not kind:
+        return Dwell(angle)
+    law = str(random.choice(list(LAWS)))
+    ratio = float(random.uniform(*RATIOS)) if law == "rectangular" else 1.0
+    return (Rise if kind > 0 else Return)(lift, angle, law, ratio)
+
+
+def _peaks(motion: Motion) -> NDArray[np.floating]:
+    """(k,) max |a| of every phase."""
+    moving = [phase if isinstance(phase, Moving) else None for phase in motion.phases]
+    return np.array([p.lift / p.angle**2 * p.normalised.peak_acceleration if p else 0.0 for p in moving])
+
+
+MEASURED = Section(
+    "measured",
+    "Measured motions",
+    "Random motions of 2 to 6 phases by all laws, sampled at about 1 degree with noise, against what was sampled. What "
+    "noise hides of an end: motions that no test tells apart. The best linear estimate knows the jerk's usual change.",
+    measured_rows,
+)
