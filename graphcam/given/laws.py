@@ -306,7 +306,7 @@ def _built(name: str, ratio: float) -> Law:
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
         tangents = tangent, tangent
-        return Law(name, formulas, edges, True, 1.0, 1.0, peaks, tangents, _FOURTHS[name], trusted=True)
+        return Law(name, formulas, edges, True, 1.0, 1.0, peaks, tangents, _FOURTHS.get(name, ()), trusted=True)
     # The accelerations follow from the break as the machine has it: else the velocities, both 2 there, would miss each
     # other by what the break is rounded by over the shorter part.
     middle = 1 / (1 + ratio)

@@ -131,8 +131,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     phi, s = check_rows(phi, s, tolerance)
-    most = tolerance / TOLERANCE_OF_NOISE
-    noise = min(max(_scatter(phi, s), LEAST_NOISE * float(np.ptp(s))), most)
+    least = LEAST_NOISE * float(np.ptp(s))
+    most = max(tolerance / TOLERANCE_OF_NOISE, least)
+    noise = min(max(_scatter(phi, s), least), most)
     legs, misfit = find_legs(phi, s, tolerance, noise)
     if misfit > MISFIT and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.

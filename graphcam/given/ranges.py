@@ -8,12 +8,12 @@ import math
 from graphcam.errors import DesignError
 
 SENSIBLE = {
-    "mm": (1e-3, 1e5),
-    "(mm; degrees for an arm)": (1e-3, 1e5),
+    "mm": (1e-9, 1e9),
+    "(mm; degrees for an arm)": (1e-9, 1e9),
     "mm on paper": (1e-2, 1e4),
     "mm/rad^2": (0.0, 1e9),
-    "degrees": (1e-3, 360.0),
-    "degrees permitted": (1.0, 90.0),
+    "degrees": (1e-6, 360.0),
+    "degrees permitted": (0.001, 90.0),
     "rpm": (1e-3, 1e6),
     "kg": (1e-6, 1e6),
     "N/mm": (1e-6, 1e9),
@@ -32,7 +32,7 @@ def positive(quantity: str, value: float | None, unit: str) -> None:
 
     >>> positive("lift", 1e30, "mm")
     Traceback (most recent call last):
-    graphcam.errors.DesignError: lift is 1e+30, but must be from 0.001 to 100000 mm; check its unit and its digits
+    graphcam.errors.DesignError: lift is 1e+30, but must be from 1e-09 to 1000000000 mm; check its unit and its digits
     """
     if value is None:
         return

@@ -5,10 +5,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import count
 
+import numpy as np
+
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
+from graphcam.mechanism.cam import Cam
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
 from graphcam.sheets.layout import Numbered, Part
 from graphcam.sheets.tables import Table
@@ -18,6 +21,8 @@ from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
+MOST_LIFTS = 1000
+"""Of a prime radius: of more, the paper would be as long as a hall."""
 UNNAMED = say("Cam mechanism")
 """The name that a task gives itself if its file gives none."""
 
@@ -73,7 +78,13 @@ class Contents:
 
 
 def motion_contents(solution: Solution) -> Contents:
-    """What stands on its sheets: every construction, the data, the scales, and drawn against exact values."""
+    """What stands on its sheets: every construction, the data, the scales, and drawn against exact values.
+
+    Raises
+    ------
+    DesignError : the lift is too small to be drawn beside the cam
+    """
+    _check_drawable(solution.cam)
     spring, drawn = solution.spring, dict(solution.drawn)
     results = [comparison(solution.comparison.quantities)]
     if spring:
@@ -83,6 +94,16 @@ def motion_contents(solution: Solution) -> Contents:
     return Contents(
         solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)
     )
+
+
+def _check_drawable(cam: Cam) -> None:
+    """The lift and the prime radius are drawn at one scale, where both must be seen."""
+    still = np.zeros(2)
+    low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
+    travel = abs(high - low)
+    if cam.prime_radius > MOST_LIFTS * travel:
+        limit = f"at most {MOST_LIFTS} times the lift of {travel:g} mm, to be drawn at one scale with it"
+        raise DesignError("prime radius", f"{cam.prime_radius:g} mm", limit, "check the units of both")
 
 
 def title_name(title: TitleTable, tell: Tell) -> str:

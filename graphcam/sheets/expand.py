@@ -81,7 +81,8 @@ def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
         case marks.AngleMark():
             return _angle(mark, place, letters.label)
         case marks.Region():
-            return [hatch(place(mark.boundary))], []
+            # Where nothing is permitted nothing is hatched.
+            return [hatch(place(mark.boundary))] if np.size(mark.boundary) else [], []
 
 
 def _line(mark: marks.Line, place: Placement) -> list[Entity]:

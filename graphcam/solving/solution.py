@@ -13,7 +13,6 @@ from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
@@ -21,9 +20,6 @@ from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import less_round, warnings_of
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
-
-MOST_LIFTS = 1000
-"""Of a prime radius: of more, the paper would be as long as a hall."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -123,7 +119,7 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
 
     Raises
     ------
-    DesignError : there is no such cam, its follower is not there yet, or the lift is too small to be drawn beside it
+    DesignError : there is no such cam, or its follower is not there yet
 
     >>> import graphcam as gc
     >>> solution = solve_motion(gc.builtin_task())
@@ -134,16 +130,4 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
     """
     chain = Chain(board_of(task), pencil or Pencil())
     follower = chain.board.follower.built(chain.place, chain.roller_radius)
-    cam = Cam(task.motion(), follower, chain.prime_radius, task.rotation)
-    _check_drawable(cam)
-    return Solution(task, chain, cam)
-
-
-def _check_drawable(cam: Cam) -> None:
-    """The lift and the prime radius are drawn at one scale, where both must be seen."""
-    still = np.zeros(2)
-    low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
-    travel = abs(high - low)
-    if cam.prime_radius > MOST_LIFTS * travel:
-        limit = f"at most {MOST_LIFTS} times the lift of {travel:g} mm, to be drawn at one scale with it"
-        raise DesignError("prime radius", f"{cam.prime_radius:g} mm", limit, "check the units of both")
+    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))

@@ -69,7 +69,7 @@ def threads(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], WorkerPool]:
     def pool(workers: int, *_: str) -> WorkerPool:
         return WorkerPool(partial(ThreadPoolExecutor, workers), workers)
 
-    monkeypatch.setattr(run, "processes", pool)
+    monkeypatch.setattr(run, "worker_pool", lambda workers, *_: pool(workers))
     return pool
 
 

@@ -14,6 +14,7 @@ from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
+import numpy as np
 from mpmath import iv, mp, mpf, pi
 
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
@@ -113,12 +114,15 @@ _WHOLE: dict[str, Callable[[], list[Sum]]] = {
 def law_of_polynomials(law) -> list[Sum]:
     """The pieces of a measured law, from its coefficients."""
     out = []
-    for piece, end in zip(law.pieces, (*law.edges, 1.0), strict=True):
-        start, from_end = mpf(piece.formula.keywords["start"]), piece.length < 0
+    ends = (0.0, *law.edges, 1.0)
+    for piece, begin, end in zip(law.pieces, ends[:-1], ends[1:], strict=True):
+        spline, from_end, middle = piece.formula.keywords["spline"], piece.length < 0, (begin + end) / 2
+        part = int(np.searchsorted(spline.x, 1 - middle if from_end else middle)) - 1
+        start = mpf(float(spline.x[part]))
         powers = [mpf(0)] * 6
         # x - start = u - start, or from the end 1 - u - start
         shift, sign = (1 - start, -1) if from_end else (-start, 1)
-        for n, c in enumerate(piece.formula.keywords["coefficients"]):
+        for n, c in enumerate(spline.c[::-1, part].tolist()):
             for k in range(n + 1):
                 powers[k] += mpf(c) * mp.binomial(n, k) * shift ** (n - k) * sign**k
         if from_end:
