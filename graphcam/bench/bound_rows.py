@@ -43,7 +43,7 @@ def rows_of_law(name: str, parts: int) -> Iterator[Row]:
         estimate = _greatest(comparison.bounds.at_stations("integration", quantity), span) * per_unit
         if error >= EXACT * max(1.0, float(np.abs(exact[power]).max()) * per_unit):
             what = f"{quantity} in {parts} parts: off by {error:.1e}, estimate {estimate / error:.2f} times it"
-            tight = float(bound.max()) / error
+            tight = round(float(bound.max()) / error, 9)  # where it is the error itself, both are rounded
             yield Row(f"proved bound, {name}", what, tight, "times the error", ">= 1", None, math.nan)
 
 

@@ -1,5 +1,6 @@
 """Measured figures beside their goals: what a module of rows gives, and its place in the report."""
 
+import math
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ class Row:
     goal : what it should keep to, "<= 0.7", ">= 10" or "2.00 ± 0.05"; the time itself where a unit of time follows, as
         in "<= 5 µs", else the ratio; "" for none
     error_eps : the rounding, None where it was not held against more digits
-    seconds : on this machine, for the tables alone
+    seconds : on this machine, for the tables alone; NaN where nothing was timed
     """
 
     name: str
@@ -96,10 +97,12 @@ class Section:
 
 
 def spoken_time(seconds: float) -> str:
-    """Three digits of a time, in the unit that it is told in.
+    """Three digits of a time, in the unit that it is told in; nothing of what was not timed.
 
     >>> spoken_time(4.2e-05), spoken_time(0.0432), spoken_time(12.0)
     ('42 µs', '43.2 ms', '12 s')
     """
+    if math.isnan(seconds):
+        return ""
     unit = next((unit for unit, size in SECONDS.items() if seconds < 999.5 * size), "s")
     return f"{seconds / SECONDS[unit]:.3g} {unit}"

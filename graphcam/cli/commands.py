@@ -49,7 +49,7 @@ def notebook(
 
 def bench(
     quick: Annotated[
-        bool, Option("--quick", help="Fewer and shorter measurements: about 20 s of processor time.")
+        bool, Option("--quick", help="Fewer and shorter measurements: about 40 s of processor time.")
     ] = False,
     out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_FOLDER
     / "bench",
