@@ -224,9 +224,7 @@ def _with_views(sheet: Format, runs: Sequence[Run], way: Way, most: float) -> li
             # Aside it leaves more room for tables.
             lone = len(runs) == 1 and not way.within
             preference = middle if lone else _preferred(sheet, views, largest)
-            # The first sheet of a large format is the cam's; only tables go to where there is more room.
-            turn = allowed if sheet.name in ONE_PAGE else _in_turn(allowed, way)
-            found = _find(sheet, turn, run.footprint, preference, more=len(leaves) < most)
+            found = _find(sheet, _views_turn(sheet, allowed, way), run.footprint, preference, more=len(leaves) < most)
         if found is None:
             return None
         _taken(leaves, found[0]).put_views(run, found[1])
@@ -244,6 +242,11 @@ def _with_blocks(
             return None
         _taken(leaves, found[0]).put_block(block, found[1])
     return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
+
+
+def _views_turn(sheet: Format, leaves: Sequence[Leaf], way: Way) -> Sequence[Leaf]:
+    """The same for views: the first sheet of a large format is the cam's, only tables go where there is more room."""
+    return leaves if sheet.name in ONE_PAGE else _in_turn(leaves, way)
 
 
 def _taken(leaves: list[Leaf], leaf: Leaf) -> Leaf:
