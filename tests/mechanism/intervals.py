@@ -29,18 +29,19 @@ TOO_NARROW = mpf(10) ** -25
 
 
 class Sum(NamedTuple):
-    """A piece of a law up to u = end: sum of c_n u^n, and of A sin(k u + p)."""
+    """A piece of a law up to u = end: sum of c_n (u - origin)^n, and of A sin(k u + p)."""
 
     end: mpf
     powers: tuple[mpf, ...] = ()
     sines: tuple[tuple[mpf, mpf, mpf], ...] = ()
+    origin: mpf = mpf(0)
 
     def derivative(self, u, n: int):
         """The n-th derivative on an interval of u."""
         powers, sines = _terms(self, n)
-        total = iv.mpf(0)
+        total, way = iv.mpf(0), u - self.origin
         for c in powers:
-            total = total * u + c
+            total = total * way + c
         for height, k, p in sines:
             total += height * (iv.cos if n % 2 else iv.sin)(k * u + p)
         return total
@@ -119,16 +120,12 @@ def law_of_polynomials(law) -> list[Sum]:
         spline, from_end, middle = piece.formula.keywords["spline"], piece.length < 0, (begin + end) / 2
         part = int(np.searchsorted(spline.x, 1 - middle if from_end else middle)) - 1
         start = mpf(float(spline.x[part]))
-        powers = [mpf(0)] * 6
-        # x - start = u - start, or from the end 1 - u - start
-        shift, sign = (1 - start, -1) if from_end else (-start, 1)
-        for n, c in enumerate(spline.c[::-1, part].tolist()):
-            for k in range(n + 1):
-                powers[k] += mpf(c) * mp.binomial(n, k) * shift ** (n - k) * sign**k
+        # x - start, or from the end 1 - u - start, about its own zero: about u = 0 the terms would be huge and cancel.
+        powers = [mpf(c) * (-1) ** (n * from_end) for n, c in enumerate(spline.c[::-1, part].tolist())]
         if from_end:
             powers = [-c for c in powers]
             powers[0] += 1
-        out.append(Sum(mpf(end), tuple(powers)))
+        out.append(Sum(mpf(end), tuple(powers), origin=1 - start if from_end else start))
     return out
 
 
