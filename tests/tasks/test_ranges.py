@@ -80,7 +80,7 @@ def test_what_is_accepted_of_foul_numbers_is_solved_or_refused_in_one_message(na
         except GraphcamError:
             continue
         solved += 1
-    assert solved >= 5
+    assert solved >= 3
 
 
 @pytest.mark.parametrize("follower", list(SPACES))
