@@ -78,8 +78,7 @@ def solve(
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
-        hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
-        solution = solved(given, hand)
+        solution = solved(given, None if pencil is None else graphcam.Pencil.of(pencil, seed=seed))
         document = solution.to_dict()
         if folder is None:
             # A wrong choice is one even where nothing is drawn by it.

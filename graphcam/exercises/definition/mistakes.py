@@ -50,6 +50,7 @@ def usual(said: Caption, takes: str = "") -> Callable[[M], M]:
     """Enter a function of this module into the catalogue."""
 
     def entered(mistake: M) -> M:
+        """Under its own name."""
         CATALOGUE[mistake.__name__.replace("_", "-")] = CatalogueEntry(said, mistake, takes)
         return mistake
 
@@ -66,6 +67,7 @@ def wrong_law(law: str) -> Change:
         raise DesignError("law", law, "one of the known laws", nearest(law, LAWS))
 
     def by_law(phase: Phase) -> Phase:
+        """The phase by that law; a dwell has none."""
         return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
 
     return lambda chain: _moved_by(chain, [by_law(phase) for phase in chain.board.motion.phases])
@@ -137,6 +139,7 @@ def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
 
     def forgotten(chain: Chain) -> Chain:
+        """The chain with those scales."""
         first, second = chain.board.poles if name == "differentiation" else chain.board.poles[::-1]
         return _wrong_scales(chain, name, (1 / first, 1 / second))
 
@@ -163,6 +166,7 @@ def scale_forgotten(place: str) -> Change:
     name, _, reading = place.partition(".")
 
     def forgotten(chain: Chain) -> Chain:
+        """The chain that goes on from the millimetres themselves."""
         construction = construction_of(chain, name)
         return chain.going_on_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
 

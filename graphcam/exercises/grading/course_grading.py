@@ -211,6 +211,7 @@ def grade_folder(
     found: dict[str, dict[str, Any]] = {}
 
     def unfinished() -> Generator[Submission]:
+        """The hand-ins without a record yet; the records that are there are taken."""
         for student, path in students:
             submission = read_submission(student, path, kept.find(student), assignment.exercise.name)
             if (record := store.find(submission)) is not None:

@@ -199,6 +199,7 @@ def _seconds(seconds: float) -> Generator[None]:
         return
 
     def late(_: int, __: FrameType | None) -> None:
+        """The time is up."""
         raise LateError(seconds)
 
     former = signal.signal(signal.SIGPROF, late)

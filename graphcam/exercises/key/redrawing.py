@@ -87,6 +87,7 @@ def _put_together(effects: Mapping[str, Effect], key: float, own: list[dict[str,
     """The effects, with the rule that comes nearer to what was drawn (rows,) from several own values at once."""
 
     def missed(together: Together) -> float:
+        """How far a rule is off what was drawn, in the unit of the answer: the median."""
         rule = Dependence(effects, together)
         return float(np.nanmedian(np.abs(np.array([rule.expected(key, row) for row in own]) - drawn)))
 

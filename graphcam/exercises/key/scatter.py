@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired
 from graphcam.drafting.marks import Points
+from graphcam.drafting.slips import EVENLY
 from graphcam.exercises.definition.drawn_answers import ask, construction_of, per_mm
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.key.expectation import Expected, Floats, distance_to_curve
@@ -16,8 +17,6 @@ from graphcam.given.motion import FULL_TURN
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
-UNIFORM = 1 / math.sqrt(12)
-"""Standard deviation of a rounding, in its steps."""
 CALCULATED = 1e-3
 """Relative standard deviation of what is only calculated: three figures are carried."""
 NORMAL_95 = 1.959964
@@ -46,8 +45,8 @@ def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float)
 
     length : units of the answer in one mm of paper, NaN for what is not a length
     """
-    read = 0.0 if math.isnan(length) else length * math.hypot(exercise.hand.line, exercise.hand.division * UNIFORM)
-    return max(UNIFORM * 10.0**-asked.decimals, CALCULATED * abs(value), read)
+    read = 0.0 if math.isnan(length) else length * math.hypot(exercise.hand.line, exercise.hand.division * EVENLY)
+    return max(EVENLY * 10.0**-asked.decimals, CALCULATED * abs(value), read)
 
 
 def torn(exercise: Exercise, chain: Chain, hands: Drawn) -> bool:
