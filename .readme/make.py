@@ -21,11 +21,11 @@ COLOURS = 32
 
 
 def player_picture(page_file: Path) -> Image.Image:
-    """The step player in a browser: a step, and the mechanism as it turns."""
+    """The step player in a browser: a part of a step, and the mechanism as it turns."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
         page = browser.new_page(viewport={"width": 1180, "height": 760}, reduced_motion="reduce")
-        page.goto(f"{page_file.as_uri()}#16")
+        page.goto(f"{page_file.as_uri()}#3.2/4")
         shots = [page.screenshot()]
         page.keyboard.press("m")
         page.locator("#phi").fill("40")

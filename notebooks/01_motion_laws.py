@@ -128,7 +128,7 @@ table(("phase", "angle, °", "lift, mm", "law"),
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 solution = gc.solve(task)
 diagram = solution.drawn["acceleration"]
-show_steps(diagram)
+show_steps(diagram, within=solution)
 
 # %% [markdown]
 # The areas above and below the axis are equal in each phase: the velocity that the follower gains it must lose again.

@@ -84,7 +84,7 @@ integration = solution.drawn["integration"]
 # one another. In a phase the chords start on the axis and must come back to it: the follower rests before and after.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(integration, 1, 2, 3)
+show_steps(integration, 1, 2, 3, within=solution)
 
 # %% [markdown]
 # **Second integration, v to s.** The same once more, with the middle ordinates of $v$. They are read from the polygon just
@@ -92,13 +92,13 @@ show_steps(integration, 1, 2, 3)
 # shows whether the ordinates of notebook 1 were right.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(integration, 4, 5, 6)
+show_steps(integration, 4, 5, 6, within=solution)
 
 # %% [markdown]
 # **The scales** come last, and they come from the lift alone:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(integration, 7)
+show_steps(integration, 7, within=solution)
 
 # %% [markdown]
 # ## Try it yourself

@@ -58,7 +58,7 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 #
 # $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad s_0 = \sqrt{r_0^2 - e^2}, $$
 #
-# with $\sigma = +1$ for a counter-clockwise cam and $-1$ for a clockwise one, and $e$ positive to the right.
+# with $\sigma = +1$ for an anticlockwise cam and $-1$ for a clockwise one, and $e$ positive to the right.
 #
 # ## The construction
 #
@@ -68,13 +68,13 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 task = gc.builtin_task()
 solution = gc.solve(task)
 plan = solution.drawn["pressure_angle"]
-show_steps(plan, on=solution.drawn["minimum_radius"])
+show_steps(plan, within=solution, on=solution.drawn["minimum_radius"])
 
 # %% [markdown]
 # Then the angle is found at every station and plotted over the cam angle. The greatest values are what the limits are for.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["angle_diagram"])
+show_steps(solution.drawn["angle_diagram"], within=solution)
 
 # %% [markdown]
 # At the jumps of the acceleration the curve has corners: the angle itself is continuous, its slope is not.
@@ -84,8 +84,8 @@ show_steps(solution.drawn["angle_diagram"])
 # The follower's line may pass the cam centre on either side. On one side the rise gains and the return loses, on the other the
 # reverse. Which one? Look at $\tan\alpha = (v - \sigma e)/(s_0 + s)$: on the rise $v > 0$, and the angle shrinks if $\sigma e > 0$. So
 #
-# > **The favourable offset of the rise lies on the side to which the top of the cam does not run:** right of the centre for a
-# > counter-clockwise cam, left of it for a clockwise one.
+# > **The favourable offset of the rise lies on the side to which the top of the cam does not run:** right of the centre for an
+# > anticlockwise cam, left of it for a clockwise one.
 #
 # Try all four cases on one cam, $r_0 = 45$ mm, $|e| = 10$ mm, with a smooth law:
 
@@ -135,7 +135,7 @@ explore(
 # %% [markdown]
 # ## Try it yourself
 #
-# A cam turns **counter-clockwise**, $r_0 = 50$ mm, $e = +14$ mm. At a station of the rise $s = 12$ mm and $v = 36$ mm/rad. Construct
+# A cam turns **anticlockwise**, $r_0 = 50$ mm, $e = +14$ mm. At a station of the rise $s = 12$ mm and $v = 36$ mm/rad. Construct
 # the angle: $B$ on the follower's line at the height $s_0 + s$ above the centre, $v$ from $B$ to the correct side, the angle of $DA$ with the
 # motion.
 

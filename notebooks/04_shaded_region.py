@@ -60,7 +60,7 @@ from graphcam.notebooks import (
 #
 # $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, $$
 #
-# where $\sigma = +1$ for a cam that turns counter-clockwise and $-1$ for one that turns clockwise. Do not compute it.
+# where $\sigma = +1$ for a cam that turns anticlockwise and $-1$ for one that turns clockwise. Do not compute it.
 # *Look* at it: it is the ratio of a horizontal and a vertical length. So draw a right triangle:
 #
 # - the vertical leg $s_0 + s$ runs from the level of the cam centre $A$ up to the level $s$ of the follower;
@@ -113,7 +113,7 @@ table(
 # **left**. No rule of signs needs to be remembered: turn the arrow of the velocity with the cam.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(region, 1)
+show_steps(region, 1, within=solution)
 
 # %% [markdown]
 # The ends are faired into two curves. At the lowest and at the highest place the follower rests, $v = 0$, and the curves
@@ -121,7 +121,7 @@ show_steps(region, 1)
 # in the middle, where the acceleration jumps, they have a corner.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(region, 2)
+show_steps(region, 2, within=solution)
 
 # %% [markdown]
 # **Then the lines.** Take one end, say $D_3$. From which places $A$ is it seen under *exactly* 30° to the vertical? From
@@ -141,7 +141,7 @@ show_steps(region, 2)
 # it at 30° is the **rest line**.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(region, 3)
+show_steps(region, 3, within=solution)
 
 # %% [markdown]
 # **The region** is what all three lines permit. It is open downwards: the further down, the larger the cam, and a large
@@ -150,7 +150,7 @@ show_steps(region, 3)
 # steeply. That is what a favourable offset means; for a clockwise cam the follower stands to the *left* of the centre.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(region, 4)
+show_steps(region, 4, within=solution)
 
 # %% [markdown]
 # **Last the choice.** The distance from the centre $A$ to the start of the lift is the prime radius, because at the start
@@ -168,7 +168,7 @@ show_steps(region, 4)
 # | a central follower, $e = 0$ | where the line of motion itself enters the region |
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(region, 5)
+show_steps(region, 5, within=solution)
 
 # %% [markdown]
 # In our task the nearest place is the *apex*, where the two tangents cross, and many books always take the apex. That is
@@ -247,11 +247,11 @@ assert abs(exceeded(centre)) < 0.05
 eased = gc.solve(changed(task, {"limits.pressure_angle_rise": 35.0})).drawn["minimum_radius"].readings
 before, r0 = region.readings["prime_radius"], eased["prime_radius"]
 distance = Question(
-    float(r0.paper), 1.5, "mm of paper", "the choice of the centre, step 5",
+    float(r0.paper), 1.5, "mm of paper", "the choice of the centre, step 4.5",
     {"that is already the machine's radius; on paper it is longer": float(r0.value),
      "that is still the centre for 30°": float(before.paper)},
 )
-prime_radius = Question.of(r0, "step 5 and the scale μₛ")
+prime_radius = Question.of(r0, "step 4.5 and the scale μₛ")
 central = Question.of(
     gc.solve(changed(task, {"follower.offset": 0.0})).drawn["minimum_radius"].readings["prime_radius"],
     "the table of the three cases: where does the line of motion enter the region?",
@@ -369,6 +369,6 @@ print(f"one degree more on the rise changes the radius by {per_degree:.2f} mm")
 # 1. Why are the lines of all stations parallel, and why would they not be if the limit differed from station to station?
 # 2. The region is never closed below. What does that say about a cam that is large enough?
 # 3. Which two of the three lines bind in our task? How do you see on the drawing that the third does not matter?
-# 4. The same motion with a cam that turns counter-clockwise: which part of the drawing changes, and how does the sign
+# 4. The same motion with a cam that turns anticlockwise: which part of the drawing changes, and how does the sign
 #    of the best offset?
 # 5. In which case is the nearest point of the region *not* a corner?

@@ -54,7 +54,7 @@ from graphcam.notebooks import Question, Slider, changed, drawing, explore, show
 
 # %%
 solution = gc.solve(gc.builtin_task())
-show_steps(solution.drawn["inversion"])
+show_steps(solution.drawn["inversion"], within=solution)
 
 # %% [markdown]
 # Two mistakes are made again and again:
@@ -66,7 +66,7 @@ show_steps(solution.drawn["inversion"])
 # The working profile comes last: circles of the roller radius about points of the pitch curve, and their inner envelope.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["working_profile"], 1, 2)
+show_steps(solution.drawn["working_profile"], 2, 3, 4, within=solution)
 
 # %% [markdown]
 # ## The oscillating follower
@@ -77,7 +77,7 @@ show_steps(solution.drawn["working_profile"], 1, 2)
 
 # %%
 arm = gc.solve(gc.builtin_task("arm"))
-show_steps(arm.drawn["inversion"])
+show_steps(arm.drawn["inversion"], within=arm)
 
 # %% [markdown]
 # The polar angle of a point of the pitch curve is **not** the cam angle: the trace point moves on an arc about the pivot and drifts
@@ -105,7 +105,7 @@ table(("station", "cam angle φ, °", "polar angle from the start, °", "differe
 
 # %%
 flat = gc.solve(gc.builtin_task("flat"))
-show_steps(flat.drawn["inversion"])
+show_steps(flat.drawn["inversion"], within=flat)
 
 # %% [markdown]
 # The pressure angle of this follower is always zero, so there is nothing to shade with tangents of $v$. What limits the radius is that the
@@ -113,7 +113,7 @@ show_steps(flat.drawn["inversion"])
 # equal scales; the line at 45° that touches the curve from below gives the least radius.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(flat.drawn["minimum_radius"])
+show_steps(flat.drawn["minimum_radius"], within=flat)
 
 # %% [markdown]
 # ## Try it yourself
@@ -138,7 +138,7 @@ your_distance = None  # mm of paper
 distance.check(your_distance)
 
 # %% tags=["try-it"]
-your_sense = None  # +1 if the stations are numbered counter-clockwise, -1 if clockwise
+your_sense = None  # +1 if the stations are numbered anticlockwise, -1 if clockwise
 sense.check(your_sense)
 
 # %% [markdown]

@@ -57,7 +57,7 @@ from graphcam.notebooks import Question, Slider, changed, compared, drawing, exp
 task = gc.builtin_task()
 solution = gc.solve(task)
 curvature = solution.drawn["curvature"]
-show_steps(curvature)
+show_steps(curvature, within=solution)
 
 # %% [markdown]
 # Where is the sharpest place? Not where the curve *looks* pointed at first glance: move the compass along the curve. For this task it lies at
@@ -67,8 +67,8 @@ show_steps(curvature)
 # Then the roller:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["roller"])
-show_steps(solution.drawn["working_profile"], 1, 2)
+show_steps(solution.drawn["roller"], within=solution)
+show_steps(solution.drawn["working_profile"], 1, 2, 3, 4, within=solution)
 
 # %% [markdown]
 # ## Try it yourself

@@ -44,7 +44,7 @@ from graphcam.notebooks import Question, Slider, changed, compared, drawing, exp
 # %%
 task = gc.builtin_arcs_task()
 solution = gc.solve(task)
-show_steps(solution.drawn["three_arcs"])
+show_steps(solution.drawn["three_arcs"], within=solution)
 
 # %% [markdown]
 # **Why two roots?** $\rho_1$ can be laid off from $G$ to either side. One root is a profile; in the other the arcs touch from the wrong side, and the profile would
@@ -64,14 +64,14 @@ table(("root", "C3 x, mm", "C3 y, mm", "can be built", "why"), [
 # mechanism.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["arc_roller"])
+show_steps(solution.drawn["arc_roller"], within=solution)
 
 # %% [markdown]
 # At $G$ and $F$ the rod changes its length in an instant. The velocity does not notice, the **acceleration jumps**: the curvature of the profile jumps there. Three
 # arcs mean four soft impacts a flank.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["arc_diagrams"], 1, 2)
+show_steps(solution.drawn["arc_diagrams"], 1, 2, within=solution)
 
 # %% [markdown]
 # ## Try it yourself

@@ -88,7 +88,7 @@ assert abs(gc.spring_preload(motion, 0.5, 300, 3).preload - 9) < 1e-9
 # is similar to the velocity plan of notebook 3.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(design.force_plan)
+show_steps(design.force_plan, within=solution)
 
 # %% [markdown]
 # The contact force is $F = Q/\cos\alpha$, so a pressure angle of 30° costs 15 %. The guide bears $Q\tan\alpha$: that is what wears it, and with friction what jams it.

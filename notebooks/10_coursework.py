@@ -68,22 +68,23 @@ picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: thr
 # ## Step by step through the decisions
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["integration"], 7)
-show_steps(solution.drawn["minimum_radius"], 5)
+show_steps(solution.drawn["integration"], 7, within=solution)
+show_steps(solution.drawn["minimum_radius"], 5, within=solution)
 
 # %% [markdown]
-# The drawing proposes the least radius; adopted is the next full millimetre. The pressure angle of the adopted cam is then a little better than the limit:
+# The drawing proposes the least radius; adopted is the next full millimetre, with which everything is drawn from here on. The pressure angle of the adopted cam is then a little better than the limit:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["angle_diagram"], 2)
-show_steps(solution.drawn["curvature"], 3)
-show_steps(solution.drawn["roller"])
-show_steps(solution.drawn["working_profile"], 2, 3)
+show_steps(solution.drawn["pressure_angle"], 1, 2, within=solution, on=solution.drawn["minimum_radius"])
+show_steps(solution.drawn["angle_diagram"], 2, within=solution)
+show_steps(solution.drawn["curvature"], 3, 4, within=solution)
+show_steps(solution.drawn["roller"], within=solution)
+show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 
 # %% [markdown]
 # ## Try it yourself
 #
-# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **counter-clockwise**. Which least radius
+# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **anticlockwise**. Which least radius
 # will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -163,7 +164,7 @@ table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s
 # 1. The areas under the acceleration are equal in each phase; velocity and displacement come back to the axis; the closing errors are stated.
 # 2. All scales are on the sheet, with units, and $\mu_\varphi$ in radians.
 # 3. The segments in the combined diagram are in the scale of $s$; the tangents touch; the rest line is there.
-# 4. The follower's line stands on the favourable side; the numbers run against the rotation.
+# 4. The follower's line stands on the favourable side; the numbers run against the rotation of the cam.
 # 5. $s$ is laid off from the prime circle; the dwells are arcs about the centre.
 # 6. The greatest pressure angle *of the adopted cam* is below the limit; the roller keeps the rule.
 # 7. The gauge on a print measures 100 mm.

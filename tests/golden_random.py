@@ -21,7 +21,7 @@ from graphcam.tasks.arcs_task import ArcsDrawingTable, ArcsTable, ArcsTask, Roll
 from graphcam.tasks.task import SpringTable
 
 FILE = Path(__file__).with_name("golden_random.json")
-ARCS = tuple(sound_data(24))
+ARCS = tuple(sound_data(30))
 LEFT_OUT = ((), ("C1",), ("C2",), ("C1", "C2"), ("A",))
 """What the data of three arcs may leave open."""
 TOLERANCE = 1e-12

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 KNOWN = {
     # Points and a function of a Russian school's writing, a file, and who wrote of three arcs.
-    "ABC", "arctg", "csv", "Lanni", "Ceccarelli", "Figliolini",
+    "ABC", "ABD", "arctg", "csv", "Lanni", "Ceccarelli", "Figliolini",
 }  # fmt: skip
 
 

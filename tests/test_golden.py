@@ -78,10 +78,10 @@ def test_a_reading_that_moves_by_more_than_rounding_is_found():
 
 def test_a_mark_that_moves_or_bears_another_word_is_found():
     now = copy.deepcopy(BEFORE["flat"])
-    step = now["constructions"]["inversion"]["steps"][0]
+    step = now["constructions"]["inversion"]["steps"][1]
     step[0] += "."
     line = next(mark for mark in step[3] if mark[0] == "Line")
     line[1][2] += 1e-6
     found = differences(BEFORE["flat"], now, MARKS)
     assert len(found) == 2
-    assert all("/inversion/steps/0/" in line for line in found)
+    assert all("/inversion/steps/1/" in line for line in found)

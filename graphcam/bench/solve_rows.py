@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.plots.step_board import StepBoard
-from graphcam.report.documents import sheet_of
+from graphcam.report.documents import contents_of, drawing_of, sheet_of
 from graphcam.report.step_player import player_of
 from graphcam.sheets.player import group_svg
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -37,9 +37,10 @@ def solve_rows(gauge: Gauge) -> Iterator[Row]:
     yield Row("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
     for name, task in _tasks().items():
         solution = solve(task)
-        drawing = sheet_of(solution)
+        contents = contents_of(solution)
+        drawing = drawing_of(contents)
         yield _milliseconds("layout", name, gauge.timer.seconds(partial(sheet_of, solution)), 250)
-        yield _milliseconds("step player", name, gauge.timer.seconds(partial(player_of, solution, drawing)), 150)
+        yield _milliseconds("step player", name, gauge.timer.seconds(partial(player_of, contents, drawing)), 150)
         times = {view: gauge.timer.seconds(again) for view, again in _views(solution).items()}
         slowest = max(times, key=times.__getitem__)
         yield _milliseconds("view after a size changed", f"{name}, {slowest}", times[slowest], 30)

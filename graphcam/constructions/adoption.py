@@ -1,13 +1,20 @@
 """Adopting sizes as in a design office: round numbers, as far as the drawn region has any."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
+from graphcam.drafting.ink import Caption, Step, View, say
 from graphcam.given.laws import Floats
+from graphcam.words import sequence
 
 ROUNDING_SLACK = 1e-9
 """A reading this close to a multiple, in parts of it, is that multiple."""
+
+
+SAME = 1e-4
+"""A radius that differs by less, in parts of it, is told as the same."""
 
 
 def multiple(count: int, step: float) -> float:
@@ -49,3 +56,71 @@ def nearest_multiple(stretches: Floats, wanted: float, step: float) -> float | N
         if first <= last:
             places.append(multiple(min(max(round(wanted / step), first), last), step))
     return min(places, key=lambda place: abs(place - wanted), default=None)
+
+
+# --- what is told of it ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Adoption:
+    """How the prime radius and the follower's place came about [mm].
+
+    prime_radius, place : as adopted
+    least : the least prime radius at the adopted place, as a hand without error reads it; NaN where it cannot be read
+    found : the place that the region proposes; None where the task gives it
+    given : whether the task gives the prime radius
+    rounding : sizes are adopted in multiples of this
+    """
+
+    prime_radius: float
+    place: float
+    least: float
+    found: float | None
+    given: bool
+    rounding: float
+
+
+def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step:
+    """The decision as a step of its own, before anything is drawn with what it adopts.
+
+    symbol : of the place;  mu : mm of the machine to a millimetre of paper of the view
+    """
+    said: list[Caption] = []
+    if adopted.found is not None:
+        place = say("The place found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
+        said.append(place.where(symbol=symbol, found=adopted.found, place=adopted.place))
+    said.append(_of_the_radius(adopted))
+    on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
+    said.append(on_paper.where(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu))
+    why = say(
+        "Because a round size is easily made and measured, and a larger radius than the least one keeps the limits."
+    )
+    if adopted.given:
+        why = say("Because the limits are kept only if the given radius is not smaller than the least permitted one.")
+    return Step(say("The adopted prime radius"), sequence(said, " "), view, (), why=why)
+
+
+def _of_the_radius(adopted: Adoption) -> Caption:
+    """What is adopted, against the least permitted radius.
+
+    >>> str(_of_the_radius(Adoption(44.0, -10.0, 43.2804, None, False, 1.0)))
+    'Round the least radius, 43.28 mm, up to r₀ = 44 mm.'
+    >>> str(_of_the_radius(Adoption(61.0, 150.0, 32.81, None, True, 1.0)))
+    'The task gives r₀ = 61 mm, which is larger than the least permitted radius, 32.81 mm.'
+    """
+    r0, least = adopted.prime_radius, adopted.least
+    if math.isnan(least):
+        told = say("The task gives r₀ = {r0:g} mm.") if adopted.given else say("Take r₀ = {r0:g} mm.")
+    elif math.isclose(r0, least, rel_tol=SAME):
+        told = say("Take r₀ = {r0:g} mm, the least permitted radius itself.")
+    elif adopted.given and r0 < least:
+        told = say(
+            "The task gives r₀ = {r0:g} mm, smaller than the least permitted radius, {least:.5g} mm: a limit breaks."
+        )
+    elif adopted.given:
+        told = say("The task gives r₀ = {r0:g} mm, which is larger than the least permitted radius, {least:.5g} mm.")
+    elif math.isclose(r0, multiple(steps_up(least, adopted.rounding), adopted.rounding)):
+        told = say("Round the least radius, {least:.5g} mm, up to r₀ = {r0:g} mm.")
+    else:
+        told = say("Take r₀ = {r0:g} mm, a round radius that goes with it; the least one is {least:.5g} mm.")
+    return told.where(r0=r0, least=least)

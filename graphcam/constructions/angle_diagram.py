@@ -5,26 +5,29 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, phi_axes, pieces_of
-from graphcam.constructions.integration import rests
+from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, phi_axes, pieces_of, station_names
+from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Dimension, Label, Role
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import Dimension, Mark, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.given.limits import Limits
+from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
 class AngleDiagramGivens:
-    """The measured angles, and the scale in which they are plotted [rad/mm]."""
+    """The measured angles, the scale in which they are plotted [rad/mm], and what they must keep to."""
 
     measured: MeasuredAngles
     mu_alpha: Scale
+    limits: Limits
 
 
 MEANING = Meaning(
@@ -51,10 +54,12 @@ MEANING = Meaning(
 )
 
 
-def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> Construction[AngleDiagramGivens]:
+def angle_diagram(
+    measured: MeasuredAngles, mu_alpha: Scale, limits: Limits, pencil: Pencil
+) -> Construction[AngleDiagramGivens]:
     """Plot the pressure angles over the cam angle, fair the curve between breaks, and read off the greatest.
 
-    mu_alpha : scale of the pressure angle [rad/mm]
+    mu_alpha : scale of the pressure angle [rad/mm];  limits : the permitted angles, with which they are compared
 
     Readings: besides the greatest angles, with their signs, the candidates (..., 2), highest and lowest.
     """
@@ -72,41 +77,89 @@ def angle_diagram(measured: MeasuredAngles, mu_alpha: Scale, pencil: Pencil) -> 
     places = {f"max_{phase}": hand.take(f"max_{phase}", ends[phase], which=farther[phase])[0] for phase in ends}
     for name, read in (places | {f"{phase}_candidates": both for phase, both in ends.items()}).items():
         hand.read(name, between(origin, read, UP), mu_alpha.per_mm, "rad")
-    return hand.finished(AngleDiagramGivens(measured, mu_alpha), _draw, {"curve": curve, **places})
+    return hand.finished(AngleDiagramGivens(measured, mu_alpha, limits), _draw, {"curve": curve, **places})
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
 
 
 def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
-    integrated, hand = plotted.givens.measured.givens.integrated, showing(plotted)
-    motion, stations, mu_phi = integrated.givens.motion, integrated.givens.stations, integrated.givens.mu_phi
-    curve, ends, extremes = plotted.acts["curve"], phase_ends(motion, mu_phi), ("max_rise", "max_return")
-    tops = [complex(plotted.first(name)) for name in extremes]
-    greatest = [np.degrees(plotted.value(name)) for name in extremes]
-    low = min(0.0, float(np.nanmin(curve.shown.imag))) - 24.0
+    return [_draw_curve(plotted), _draw_greatest(plotted)]
+
+
+def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
+    givens = plotted.givens.measured.givens.integrated.givens
+    motion, stations, mu_phi, curve = givens.motion, givens.stations, givens.mu_phi, plotted.acts["curve"]
+    ends, low = phase_ends(motion, mu_phi), min(0.0, float(np.nanmin(curve.shown.imag))) - 24.0
     axes = (
         *phi_axes(motion, mu_phi, curve.shown.imag, "α"),
         *degree_ticks(mu_phi),
         *(Dimension(a + UP * low, b + UP * low, phase_angle(motion, k)) for k, (a, b) in enumerate(pairwise(ends))),
     )
-    curves = (
-        *axes,
-        curve.dots(Role.CONSTRUCTION),
-        *(hand.fair("α", curve.first, [piece]).line(Role.RESULT) for piece in stations.pieces),
-        *rests(integrated, curve),
-    )
+    met = say("At {first}, where the acceleration jumps, it turns a corner.")
+    drawn, lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
+    degrees, names = np.degrees(plotted.givens.measured.first("alpha")), station_names(stations)
+    set_off = [
+        Part(_SET_OFF[0 if alpha >= 0 else 1].where(name=names[k], alpha=alpha, y=abs(y)), (curve.first[[k]],))
+        for k, (alpha, y) in enumerate(zip(degrees.tolist(), curve.shown.imag.tolist(), strict=True))
+    ]
+    k = min(4, len(names) - 1)
     said = say(
-        "The angles are plotted at {scale:.4g}° a millimetre and the curve is faired between the jumps of the "
-        "acceleration; in the dwells the angle stays."
-    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm))
+        "At its station set off each angle from the axis with the dividers, {scale:.4g}° a millimetre, positive ones "
+        "upward: {alpha:.2f}° at station {name} are {y:.2f} mm. {drawn}"
+    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k])
+    said = said.where(y=curve.shown.imag[k], drawn=drawn)
+    why = say(
+        "Because the angle is greatest between two stations as a rule, it is read off the curve through all of them."
+    )
+    marks = (*axes, curve.dots(Role.CONSTRUCTION), *lines)
+    title = say("The pressure angle over the cam angle")
+    return Step(title, said, ANGLE, marks, given=axes, why=why, parts=(*set_off, *faired))
+
+
+_SET_OFF = (
+    say("Station {name}: set off {y:.2f} mm upward for {alpha:z.2f}°."),
+    say("Station {name}: set off {y:.2f} mm downward for {alpha:.2f}°."),
+)
+
+
+def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
+    limits = plotted.givens.limits
+    marks, parts, told = list[Mark](), list[Part](), list[Caption]()
+    for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
+        top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
+        marks += [
+            top.dots(Role.LIMIT),
+            top.label(say("{alpha:.1f}°", alpha=alpha), complex(np.sign(top.place.imag) * UP)),
+        ]
+        compared = _NO_LIMIT if limit is None else _compared(abs(alpha), limit, plotted.givens.mu_alpha)
+        told.append(said.where(y=top.place.imag, alpha=alpha, compared=compared))
+        parts.append(Part(told[-1], (top,)))
     found = say(
-        "The greatest angles are read off the faired curve: {rise:.2f} mm on the rise, which stands for {rise_deg:.2f}"
-        "°, and {back:.2f} mm on the return, {back_deg:.2f}°."
-    ).where(rise=tops[0].imag, rise_deg=greatest[0], back=tops[1].imag, back_deg=greatest[1])
-    told = [
-        Label(top, say("{alpha:.1f}°", alpha=alpha), np.sign(top.imag) * UP, of=plotted.readings[name].act)
-        for name, top, alpha in zip(extremes, tops, greatest, strict=True)
-    ]
-    marks = (hand.take("greatest", *(plotted.acts[name].first for name in extremes)).dots(Role.LIMIT), *told)
-    return [
-        Step(say("The pressure angle over the cam angle"), said, ANGLE, curves, given=axes),
-        Step(say("The greatest pressure angles"), found, ANGLE, marks, extremes),
-    ]
+        "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
+        "the point farthest from the axis. {told}"
+    ).where(told=sequence(told, " "))
+    why = say(
+        "Because the follower may jam if the angle between force and motion is larger, it is compared with the limit."
+    )
+    title = say("The greatest pressure angles")
+    return Step(title, found, ANGLE, tuple(marks), ("max_rise", "max_return"), why=why, parts=tuple(parts))
+
+
+PENCIL_LINE = 0.2
+"""What lies no farther apart [mm of paper] is told to be alike."""
+
+
+def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
+    """An angle [degrees] against its limit [rad]."""
+    beyond = mu_alpha.paper(np.radians(size) - limit)
+    said = _KEPT if beyond < -PENCIL_LINE else _JUST if beyond <= PENCIL_LINE else _PASSED
+    return said.where(size=size, limit=float(np.degrees(limit)))
+
+
+_ON_THE_RISE = say("On the rise the curve is farthest at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_ON_THE_RETURN = say("On the return the curve is farthest at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_KEPT = say("{size:.2f}° < {limit:.4g}°, the limit is kept")
+_JUST = say("the limit of {limit:.4g}°, as nearly as it can be drawn")
+_PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is not kept")
+_NO_LIMIT = say("a spring drives the return, which has no limit")

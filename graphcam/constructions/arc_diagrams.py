@@ -4,22 +4,26 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.arc_roller import RollerOnArcs
-from graphcam.constructions.axes import axes_over_phi, degree_ticks, reach
+from graphcam.constructions.arc_outline import FLAT
+from graphcam.constructions.arc_plan import NOTHING, worked
+from graphcam.constructions.arc_stations import RollerOnArcs
+from graphcam.constructions.axes import NUMBER_ROOM, axes_over_phi, degree_ticks, reach
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Construction, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.words import sequence
 
 VIEWS: Mapping[str, View] = {"a": ACCELERATION, "v": VELOCITY, "s": DISPLACEMENT, "alpha": ANGLE}
 """From the top down."""
@@ -127,63 +131,191 @@ TITLES = {
     "s": say("Displacement over the cam angle"),
     "alpha": say("Pressure angle over the cam angle"),
 }
-SPANS = say("rise {angle:.2f}°"), say("dwell {angle:.2f}°"), say("return {angle:.2f}°"), say("rest {angle:.2f}°")
+SPANS = (
+    say("rise {angle:.2f}°"),
+    say("upper dwell {angle:.2f}°"),
+    say("return {angle:.2f}°"),
+    say("lower dwell {angle:.2f}°"),
+)
 """The phases and their angles."""
 CARRIED = {
     "a": say(
-        "Plotted over the cam angle, {degree:.4g}° a millimetre, are the accelerations OM, laid off at {mu:g} "
-        "(mm/rad²)/mm; they jump where one arc takes over from another. The greatest measures {paper:.2f} mm, which is "
-        "{value:.3f} mm/rad². The curve is faired arc by arc, and the return is the mirror image."
+        "Plot the accelerations OM over the cam angle, {degree:.4g}° a millimetre. Each is laid off at {mu:g} "
+        "(mm/rad²)/mm, up from the axis if M lies beyond O, otherwise down: for station {name}, {length:.2f} mm × "
+        "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others; where two arcs meet, each has its own."
     ),
     "v": say(
-        "Plotted over the cam angle, {degree:.4g}° a millimetre, are the velocities OK, laid off at {mu:g} "
-        "(mm/rad)/mm. The greatest measures {paper:.2f} mm, which is {value:.3f} mm/rad. The curve is faired arc by "
-        "arc, and the return is the mirror image."
+        "Plot the velocities OK over the cam angle, {degree:.4g}° a millimetre. Each is laid off at {mu:g} "
+        "(mm/rad)/mm, up from the axis: for station {name}, {length:.2f} mm × {factor:.4g} = {ordinate:.2f} mm. Repeat "
+        "for the others."
     ),
     "s": say(
-        "Plotted over the cam angle, {degree:.4g}° a millimetre, are the displacements, laid off at {mu:g} mm/mm, up "
-        "to the lift of {lift:.3f} mm. The curve is faired arc by arc, and the return is the mirror image."
+        "Plot the displacements over the cam angle, {degree:.4g}° a millimetre. How far B lies "
+        "outside the prime circle is laid off at {mu:g} mm/mm, up from the axis: for station {name}, {length:.2f} mm × "
+        "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others."
     ),
     "alpha": say(
-        "Plotted over the cam angle, {degree:.4g}° a millimetre, are the angles between the line of centres and the "
-        "ray, laid off at {mu:g}° a millimetre. The greatest is {value:.3f}°. The curve is faired arc by arc, and the "
-        "return is the mirror image."
+        "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre, and laid off at {mu:g}° a "
+        "millimetre too: for station {name}, {length:.2f}° are {ordinate:.2f} mm. Repeat for the others."
     ),
 }
+MAXIMUM = {
+    "a": say("The one of the maximum magnitude measures {paper:.2f} mm, which is {value:.3f} mm/rad²."),
+    "v": say("The maximum measures {paper:.2f} mm, which is {value:.3f} mm/rad."),
+    "s": say("The lift measures {paper:.2f} mm, which is {value:.3f} mm."),
+    "alpha": say("The maximum is {value:.3f}°."),
+}
+JOINED = say("Join the points with the French curve, each arc by itself.")
+RETURNED = {
+    1: say("Return: mirror the curve of the rise in the upright at {middle:.2f} mm, half-way between the two."),
+    -1: say(
+        "Return: turn the curve of the rise half round about the place {middle:.2f} mm on the axis, half-way between "
+        "the two."
+    ),
+}
+"""How the curve goes on, by what becomes of the quantity on the return."""
+WHYS = {
+    "a": say(
+        "The force that moves the follower follows its acceleration, and it jumps where the radius of the arc changes."
+    ),
+    "v": say(
+        "On the mirrored flank the follower goes down as it went up, so the velocity comes back with the other sign."
+    ),
+    "s": say("The follower has risen by as much as B lies farther out than at the start."),
+    "alpha": say("The follower may jam where this angle is large, so its maximum decides whether the cam can be used."),
+}
+PLOTTED = {
+    "a": say("Station {title}: OM = {length:.2f} mm × {factor:.4g}, {ordinate:.2f} mm {way} at {at:.2f} mm."),
+    "v": say("Station {title}: OK = {length:.2f} mm × {factor:.4g}, {ordinate:.2f} mm {way} at {at:.2f} mm."),
+    "s": say("Station {title}: {length:.2f} mm × {factor:.4g} = {ordinate:.2f} mm {way} at {at:.2f} mm."),
+    "alpha": say("Station {title}: {length:.2f}° are {ordinate:.2f} mm {way} at {at:.2f} mm."),
+}
+"""What is laid off at a station, and where on the axis."""
+ON_THE_AXIS = say("Station {title}: nothing is laid off, its point lies on the axis at {at:.2f} mm.")
+UNREAD = say("Station {title}: nothing was read, so nothing is plotted at {at:.2f} mm.")
 
 
 def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
     if np.isnan(plotted.givens.rolled.first("phi")).any():
         said = say("Without a path of the roller there is nothing to plot.")
-        return [Step(say("No diagrams"), said, DISPLACEMENT, ())]
+        return [Step(say("No diagrams"), said, DISPLACEMENT, (), why=FLAT)]
     return [_diagram(plotted, name) for name in VIEWS]
 
 
 def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
-    curve = _whole_turn(plotted, hand, name)
+    curve, dots, feet = _whole_turn(plotted, hand, name), plotted.acts[name].first, plotted.acts["stations"].first
     low, high = reach(curve.shown.imag)
     axes = axes_over_phi(float(ends.shown[-1].real), curve.shown.imag, SYMBOLS[name])
     axes += degree_ticks(mu_phi) if name == "alpha" else ()
     limits = hand.erect("limits", ends[1:])
     marks: list[Mark] = [
         *axes,
-        Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION, of=limits.act),
-        plotted.acts[name].dots(Role.CONSTRUCTION),
-        curve.line(Role.RESULT),
+        Segments(
+            limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION, of=limits.act, index=limits.index
+        ),
+        dots.from_(feet, Role.CONSTRUCTION),
+        *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
         *(_phases(ends, mu_phi, low - 24.0) if name == "alpha" else ()),
     ]
-    key = "lift" if name == "s" else f"max_{name}"
-    degree = np.degrees(mu_phi.per_mm)
-    mu = degree if name == "alpha" else plotted.readings[key].per_mm
-    values = {"degree": degree, "mu": mu, "lift": float(plotted.value("lift"))}
-    if name != "s":
-        tops, paper = plotted.acts[f"{name}_tops"].first, float(plotted.first(key))
-        top = hand.take("top", tops, which=int(np.argmax(np.abs(tops.shown.imag))))
-        values, side = values | {"paper": paper, "value": paper * mu}, np.sign(top.place.imag)
-        said = say("{value:.2f}", value=side * paper * mu)
-        marks += [top.dots(Role.LIMIT), Label(top.place, said, side * UP, of=plotted.readings[key].act)]
-    return Step(TITLES[name], CARRIED[name].where(**values), VIEWS[name], tuple(marks), (key,), axes)
+    at_stations, key = _at_stations(plotted, name), "lift" if name == "s" else f"max_{name}"
+    ordinates = np.array([values["ordinate"] for values in at_stations])
+    values, paper = at_stations[worked(plotted.givens.rolled.givens.stations, ordinates)], float(plotted.first(key))
+    values |= {"paper": paper, "value": paper * values["mu"], "middle": float(ends.shown.real[3:5].mean())}
+    parts = [
+        _edges(ends, limits),
+        *(Part(_told(name, each), (feet[k], dots[k])) for k, each in enumerate(at_stations)),
+        *_along_the_curve(plotted, name, curve, values["middle"]),
+    ]
+    said = [CARRIED[name], *([MAXIMUM[name]] if np.isfinite(paper) else []), JOINED, RETURNED[MIRROR[name]]]
+    if name != "s" and np.isfinite(paper):
+        found, touched = _maximum(plotted, hand, name, values)
+        marks, parts = marks + found, [*parts, touched]
+    marks += _names(plotted, dots)  # the number of the maximum finds its place first
+    caption = sequence([each.where(**values) for each in said], " ")
+    return Step(TITLES[name], caption, VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], parts=tuple(parts))
+
+
+def _maximum(
+    plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str, values: Mapping[str, Any]
+) -> tuple[list[Mark], Part]:
+    """The place where a level line touches the curve farthest from the axis."""
+    tops = plotted.acts[f"{name}_tops"].first
+    top = hand.take("top", tops, which=int(np.argmax(np.abs(tops.shown.imag))))
+    side, read = np.sign(top.place.imag), plotted.readings[f"max_{name}"].act
+    touched = say("Slide the T-square down until it touches the curve: {paper:.2f} mm above the axis.")
+    if side < 0:
+        touched = say("Slide the T-square up until it touches the curve: {paper:.2f} mm below the axis.")
+    number = Label(top.place, say("{value:.2f}", value=side * values["value"]), side * UP, of=read)
+    return [top.dots(Role.LIMIT), number], Part(touched.where(**values), (top,))
+
+
+def _at_stations(plotted: Construction[ArcDiagramsGivens], name: str) -> list[dict[str, Any]]:
+    """What is taken from the drawing of the roller at each station, and laid off."""
+    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi.per_mm
+    stations, feet, dots = rolled.givens.stations, plotted.acts["stations"].shown, plotted.acts[name].shown
+    degree, angle = float(np.degrees(mu_phi)), name == "alpha"
+    mu = degree if angle else plotted.readings["lift" if name == "s" else f"max_{name}"].per_mm
+    factor = 1 / mu if angle else rolled.readings[name].per_mm / mu
+    ordinates = (dots - feet).imag
+    lengths = np.degrees(rolled.first(name)) if angle else rolled.first(name)
+    return [
+        {
+            "degree": degree,
+            "mu": mu,
+            "factor": factor,
+            "title": stations.titles[k],
+            "name": stations.names[k],
+            "length": abs(float(lengths[k])),
+            "ordinate": abs(float(ordinates[k])),
+            "way": say("up") if ordinates[k] > 0 else say("down"),
+            "at": float(feet[k].real),
+        }
+        for k in range(feet.size)
+    ]
+
+
+def _told(name: str, values: Mapping[str, Any]) -> Caption:
+    """The caption of a station's part."""
+    if np.isnan(values["ordinate"]):
+        return UNREAD.where(**values)
+    return (PLOTTED[name] if values["ordinate"] > NOTHING else ON_THE_AXIS).where(**values)
+
+
+def _edges(ends: Drawn, limits: Drawn) -> Part:
+    """The ends of arcs and phases on the axis."""
+    places = sequence([say("{at:.2f}", at=x) for x in ends.shown[1:].real.tolist()])
+    said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin upright in each.")
+    return Part(said.where(places=places), (ends, limits))
+
+
+def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve: Drawn, middle: float) -> list[Part]:
+    """The curve over the rise, the dwells and the return."""
+    arcs, ends = plotted.givens.rolled.givens.arcs, plotted.acts["ends"].shown.real
+    n = (curve.shown.size - 4) // 2
+    held = Part(say("Upper dwell: a level line, drawn with the T-square."), (curve[n : n + 2],))
+    back = RETURNED[MIRROR[name]].where(middle=middle)
+    return [
+        Part(JOINED, (curve[:n],)),
+        *([held] if arcs.givens.dwell else []),
+        Part(back, (curve[n + 2 : -2] if arcs.givens.dwell else curve[n:-2],)),
+        Part(say("Lower dwell: draw the axis over, to {end:.2f} mm.", end=ends[-1]), (curve[-2:],)),
+    ]
+
+
+def _names(plotted: Construction[ArcDiagramsGivens], dots: Drawn) -> list[Mark]:
+    """The names of the plotted stations: of an arc on which they stand too close together those of its ends."""
+    stations, found = plotted.givens.rolled.givens.stations, dict[str, complex]()
+    marks: list[Mark] = []
+    for span in stations.spans:
+        apart = np.abs(np.diff(dots.shown[span]))
+        close = not np.nanmin(apart, initial=np.inf) >= NUMBER_ROOM[1]
+        for k in (span.start, span.stop - 1) if close else range(span.start, span.stop):
+            at, name = complex(dots.shown[k]), stations.names[k]
+            if not np.isnan(at) and not abs(found.get(name, np.inf) - at) < NUMBER_ROOM[1]:
+                found[name] = at
+                marks.append(dots[k].label(name, UP if at.imag >= 0 else -UP, small=True))
+    return marks
 
 
 def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str) -> Drawn:
@@ -204,4 +336,8 @@ def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     """The angles of rise, dwell and return."""
     bounds = ends.shown[[0, 3, 4, 7, 8]] + UP * height
     spans = zip(pairwise(bounds), SPANS, np.degrees(np.diff(bounds.real) * mu_phi.per_mm), strict=True)
-    return [Dimension(a, b, said.where(angle=angle), of=ends.act) for (a, b), said, angle in spans if angle > 0]
+    return [
+        Dimension(a, b, said.where(angle=angle), of=ends.act, index=ends.index[3:4])
+        for (a, b), said, angle in spans
+        if angle > 0
+    ]

@@ -5,42 +5,30 @@ P, the centre of the third arc is as far from P as from C1: the perpendicular bi
 Laid off the other way it gives the other root.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from itertools import combinations
+from typing import Any
 
 import numpy as np
 
+from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
 from graphcam.drafting.acts import Drawn, Setting
-from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Arc, Dimension, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.hand import COMPASS, Hand, between
+from graphcam.drafting.ink import Caption, Part, Step, View, say
+from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import Point, ThreeArcs
-from graphcam.plane import cross, dot
-from graphcam.words import sequence
+from graphcam.plane import dot
+from graphcam.words import joined, sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"))
 OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
 """Lengths this near to one another [mm of paper] are the same: rounding."""
-
-
-@dataclass(frozen=True, eq=False)
-class ThreeArcsGivens:
-    """What lies on the board; see :func:`three_arcs`."""
-
-    given: ThreeArcs
-    dwell: float
-    mu_l: Scale
-
-
-ArcOutline = Construction[ThreeArcsGivens]
 
 MEANING = Meaning(
     "three_arcs",
@@ -130,43 +118,21 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
     return hand.take(f"{name}F", ends, which=np.argmin(off, axis=-1)[..., None])[0]
 
 
-def run(arcs: ArcOutline) -> int:
-    """sigma of the first sample: +1 where the way from A to D is clockwise, so that the cam turns counter-clockwise."""
-    return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
-
-
-def middle_of_dwell(arcs: ArcOutline) -> Drawn:
-    """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
-    turn = -run(arcs) * arcs.givens.dwell / 2
-    return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
-
-
-def outline(arcs: ArcOutline, circles: Sequence[Drawn], joints: Points, role: Role) -> list[Mark]:
-    """The closed profile of the first sample.
-
-    circles : about C2, C3 and C1, and about O the outer and the base circle
-    joints : (4,) where the arcs of the rise begin, and where the last one ends
-    """
-    hand, axis = showing(arcs), middle_of_dwell(arcs)
-    image = hand.mirrored("joints of the return", hand.given("joints", joints), axis).points
-    marks: list[Mark] = []
-    for k, circle in enumerate(circles[:3]):
-        turn = float(np.angle((joints[k + 1] - circle.place) / (joints[k] - circle.place)))
-        other = hand.mirrored(f"{circle.act.name} on the return", circle.first, axis)
-        marks += [_arc(circle, joints[k], turn, role), _arc(other, image[k], -turn, role)]
-    dwell, rise = arcs.givens.dwell, float(abs(np.angle(joints[3] / joints[0])))
-    dwells = zip(circles[3:], (joints[3], image[0]), (dwell, FULL_TURN - 2 * rise - dwell), strict=True)
-    return marks + [_arc(circle, start, -run(arcs) * angle, role) for circle, start, angle in dwells if angle > 0]
-
-
-def _arc(circle: Drawn, start: complex, turn: float, role: Role) -> Arc:
-    """The part of a circle that begins at a point and turns by an angle [rad], counter-clockwise positive."""
-    first = float(np.angle(start - circle.place))
-    low, high = sorted((first, first + turn))
-    return Arc(circle.place, float(np.asarray(circle.first.radius)), low, high, role, of=circle.act)
-
-
 # --- the steps -------------------------------------------------------------------------------------------------------
+
+FLAT = say("Lines that cross at less than a degree meet in no place that could be read.")
+Move = tuple[Caption, *tuple[Drawn, ...]]
+"""What is done, and what it leaves."""
+
+
+def in_parts(moves: Sequence[Move], values: Mapping[str, Any]) -> tuple[Part, ...]:
+    """A part for each move, with the values in its places."""
+    return tuple(Part(said.where(**values), draws) for said, *draws in moves for draws in [tuple(draws)])
+
+
+def in_a_row(parts: Sequence[Part], *more: Caption) -> Caption:
+    """The parts as one caption, and what follows from them."""
+    return sequence([*(part.caption for part in parts), *more], " ")
 
 
 def _draw(arcs: ArcOutline) -> list[Step]:
@@ -176,34 +142,207 @@ def _draw(arcs: ArcOutline) -> list[Step]:
     return steps if np.isnan(arcs.first("C3")) else [*steps, _profile(arcs)]
 
 
-def _profile(arcs: ArcOutline) -> Step:
-    rho1 = arcs.givens.given.rho1
-    radii = {name: float(arcs.value(name)) for name in ("rho2", "rho3", "base", "outer")}
-    said = say(
-        "The arcs AG about C2, GF about C3 and FD about C1 are drawn, with the radii ρ₂ = {rho2:.3f} mm, ρ₃ = "
-        "{rho3:.3f} mm and ρ₁ = {rho1:g} mm; they touch the circles of {base:.3f} mm and {outer:.3f} mm about O. The "
-        "return is the mirror image; the outer circle holds the follower up over {dwell:.6g}°."
-    ).where(rho1=rho1, dwell=np.degrees(arcs.givens.dwell), **radii)
-    arms = (
-        ("C1", "D", "ρ₁", rho1, arcs.acts["circle about C1"].act),
-        ("C2", "G", "ρ₂", radii["rho2"], arcs.readings["rho2"].act),
-        ("C3", "F", "ρ₃", radii["rho3"], arcs.readings["rho3"].act),
+PLOT = say("{name} = {told}: from O lay off {way}.")
+
+
+def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
+    """A given point, laid off across and then up or down."""
+    at, across, up = complex(*point) / arcs.givens.mu_l.per_mm, say("{mm:.2f} mm to the right"), say("{mm:.2f} mm up")
+    if at.real < 0:
+        across = say("{mm:.2f} mm to the left")
+    if at.imag < 0:
+        up = say("{mm:.2f} mm down")
+    ways = [way.where(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
+    told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
+    drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
+    return PLOT.where(name=name, told=told, way=joined(ways)), drawn
+
+
+def _data(arcs: ArcOutline) -> Step:
+    given, mu_l, o = arcs.givens.given, arcs.givens.mu_l.per_mm, arcs.acts["O"]
+    parts = in_parts([_plot(arcs, name, at) for name in "ADG" if (at := getattr(given, name)) is not None], {})
+    reach = np.array([-1, 1]) * (abs(complex(*given.D)) / mu_l + OVERHANG)
+    plotted: tuple[Mark, ...] = (
+        *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS), o.dots(), o.label("O", -1 - 1j)),
+        *(at.dots() for part in parts for at in part.draws),
+        *(at.label(at.act.name[-1], complex(unit(at.shown).item())) for part in parts for at in part.draws),
     )
-    dimensions = [
-        Dimension(arcs.acts[centre].place, arcs.acts[end].place, say("{name} = {rho:.2f}", name=name, rho=rho), of=of)
-        for centre, end, name, rho, of in arms
+    axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
+    said = sequence([axes.where(ratio=ratio_text(mu_l), times=1 / mu_l), in_a_row(parts)], " ")
+    why = say("All else follows from these points and the radius ρ₁ alone, so they come first.")
+    return Step(say("The data"), said, ARCS, plotted, given=plotted, why=why, parts=parts)
+
+
+OUTER = say("Draw the outer circle about O through D: compass {outer:.2f} mm.")
+
+
+def _first_centre(arcs: ArcOutline) -> Step:
+    given, mu_l, acts = arcs.givens.given, arcs.givens.mu_l.per_mm, arcs.acts
+    c1, d, about, outer = (acts[name] for name in ("C1", "D", "circle about C1", "circle through D"))
+    values = {"rho1": given.rho1, "radius": given.rho1 / mu_l, "outer": abs(d.place), "at": _at(arcs, "C1")}
+    circle = say("Draw the circle about C1: compass {radius:.2f} mm, ρ₁ = {rho1:g} mm."), about
+    if given.C1 is None:
+        stepped = say("With the dividers step {radius:.2f} mm off from D towards O: C1 = {at}.")
+        joined_with, join = "D O", (say("Join D and O with the ruler."), acts["D O"])
+        moves = [join, (stepped, c1), circle, (OUTER, d, outer)]
+    else:
+        join = say("Join O and C1; of the two crossings with the circle, D is the one beyond C1.")
+        joined_with, plotted = "O C1", _plot(arcs, "C1", given.C1)
+        moves = [plotted, circle, (join, acts["O C1"], d), (OUTER, outer)]
+    marks = (
+        _line(arcs, joined_with, 0j, d.place * (1 + OVERHANG / abs(d.place))),
+        *(about.drawn_circle(Role.CONSTRUCTION), c1.dots(), d.dots(), _named(arcs, "C1", d.place)),
+        outer.drawn_circle(Role.CONSTRUCTION),
+    )
+    why = say("Where two circles touch, their centres and the point of touch lie on one line: here O, C1 and D.")
+    parts = in_parts(moves, values)
+    return Step(say("The first centre"), in_a_row(parts), ARCS, marks, (*_xy("C1"), "outer"), why=why, parts=parts)
+
+
+def _second_centre(arcs: ArcOutline) -> Step:
+    given, acts, mu_l = arcs.givens.given, arcs.acts, arcs.givens.mu_l.per_mm
+    a, c2, g, about = (acts[name] for name in ("A", "C2", "G", "circle about C2"))
+    if np.isnan(a.place):
+        said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
+        return Step(say("The second centre"), said, ARCS, (), why=FLAT)
+    radius = abs(g.place - c2.place)
+    values = {"rho2": radius * mu_l, "radius": radius, "mu": mu_l, "base": abs(a.place), "at": _at(arcs, "C2")}
+    if given.C2 is None:
+        chord, on, bisector = acts["given_A G"], "O A", _bisector(arcs, "given_A", "G", "C2")
+        values["compass"] = COMPASS * float(abs(chord.first.directions))
+        halved = say("Bisect AG: compass {compass:.2f} mm about both ends, the ruler through the two crossings.")
+        found: list[Move] = [
+            (say("Join A and G with the ruler."), chord),
+            (halved, acts["bisector of given_A G"]),
+            (say("Produce the line AO beyond O as far as the bisector: C2 = {at}."), acts["O A"], c2),
+        ]
+    else:
+        on, bisector = "O C2", ()
+        found = [_plot(arcs, "C2", given.C2), (say("Join C2 and O, and go on beyond O."), acts["O C2"])]
+    moves = [
+        *found,
+        (say("Join G and C2: ρ₂ = C2 G = {radius:.2f} mm × {mu:g} = {rho2:.3f} mm."), acts["G C2"]),
+        (say("Draw the arc about C2 from G with {radius:.2f} mm: it meets that line beyond O in A."), about, a),
+        (say("Draw the base circle about O through A: compass {base:.2f} mm."), acts["circle through A"]),
     ]
-    return Step(say("The profile"), said, ARCS, (*cam(arcs), *dimensions), reads=("base", "outer"))
+    turn = float(np.angle((a.place - c2.place) / (g.place - c2.place)))
+    marks = (
+        *(_line(arcs, on, a.place * (1 + OVERHANG / abs(a.place)), "C2"), _line(arcs, "G C2", "G", "C2")),
+        arc(about, g.place, turn, Role.CONSTRUCTION, OVERHANG),
+        acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
+        *(*bisector, c2.dots(), a.dots(), _named(arcs, "C2"), *((_named(arcs, "A"),) if given.A is None else ())),
+    )
+    why = say("The arc touches the base circle in A, so O lies on the line C2 A, and C2 is as far from A as from G.")
+    reads, parts = (*_xy("C2"), "rho2", "base"), in_parts(moves, values)
+    return Step(say("The second centre"), in_a_row(parts), ARCS, marks, reads, why=why, parts=parts)
 
 
-def cam(arcs: ArcOutline) -> list[Mark]:
-    """The closed profile of the cam."""
-    circles = [arcs.acts[f"circle {name}"] for name in ("about C2", "about C3", "about C1", "through D", "through A")]
-    return outline(arcs, circles, np.array([arcs.acts[name].place for name in "AGFD"]), Role.RESULT)
+LAID_OFF = say("Set the dividers to {step:.2f} mm, ρ₁, and lay it off on the line G C2 from G {side}: P{prime}.")
 
 
-def _dots(arcs: ArcOutline, *names: str) -> Dots:
-    return showing(arcs).take(" ".join(names), *(arcs.acts[name].first for name in names)).dots()
+def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
+    """The centre of the third arc and F, of the one root or the ``other_``."""
+    p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
+    role, mu_l, acts = Role.HIDDEN if name else Role.CONSTRUCTION, arcs.givens.mu_l.per_mm, arcs.acts
+    chord, radius = abs(acts[p].place - acts["C1"].place), abs(acts[c3].place - acts["G"].place)
+    values = {"prime": "′" if name else "", "step": arcs.givens.given.rho1 / mu_l, "compass": COMPASS * chord}
+    values |= {"radius": radius, "mu": mu_l, "rho3": radius * mu_l, "orders": _orders(arcs, name)}
+    values |= {"c3": _at(arcs, c3), "f": _at(arcs, f), "side": say("away from C2") if name else say("towards C2")}
+    title = say("The other root") if name else say("The third centre")
+    if np.isnan(arcs.first(c3)):
+        parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
+        said = sequence([each.where(**values) for each in (LAID_OFF, parallel)], " ")
+        return [Step(title, said, ARCS, (), why=FLAT)]
+    to_c3 = [
+        (LAID_OFF, acts["G C2"], acts[p]),
+        (say("Join C1 and P{prime} with the ruler."), acts[f"C1 {p}"]),
+        (
+            say("Bisect C1 P{prime}: compass {compass:.2f} mm about both ends, the ruler through the two crossings."),
+            acts[f"bisector of C1 {p}"],
+        ),
+        (
+            say(
+                "Where the bisector meets the line G C2 is C3{prime} = {c3}: ρ₃{prime} = C3{prime} G = {radius:.2f} mm "
+                "× {mu:g} = {rho3:.3f} mm."
+            ),
+            acts[c3],
+        ),
+    ]
+    to_f = [
+        (say("Join C3{prime} and C1, and go on to both crossings with the circle about C1."), acts[f"C1 {c3}"]),
+        (say("The crossing {radius:.2f} mm from C3{prime}, as far as G, is F{prime} = {f}."), acts[f]),
+    ]
+    centre = (
+        *(_line(arcs, "G C2", "G", p, c3, role=role), *_bisector(arcs, "C1", p, c3, role)),
+        *(acts[p].dots(), acts[c3].dots(), _named(arcs, p), _named(arcs, c3)),
+    )
+    line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), acts[f].dots(), _named(arcs, f))
+    orders = _orders(arcs, name)
+    if name:
+        why = say(
+            "Laid off the other way, ρ₁ leads to a second centre as far from P′ as from C1, so that there are two "
+            "roots."
+        )
+        parts = in_parts([*to_c3, *to_f], values)
+        marks, reads = (*centre, *line), (*_xy(c3), *_xy(f))
+        return [Step(title, in_a_row(parts, orders), ARCS, marks, reads, why=why, parts=parts)]
+    why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
+    touch = say("Where two circles touch, their centres and the point of touch lie on one line: here C3, C1 and F.")
+    first, last = in_parts(to_c3, values), in_parts(to_f, values)
+    return [
+        Step(title, in_a_row(first), ARCS, centre, (*_xy("C3"), "rho3"), why=why, parts=first),
+        Step(say("Where it touches"), in_a_row(last, orders), ARCS, line, _xy("F"), why=touch, parts=last),
+    ]
+
+
+def _profile(arcs: ArcOutline) -> Step:
+    acts, axis, mu_l = arcs.acts, middle_of_dwell(arcs), arcs.givens.mu_l.per_mm
+    dwell, rho1 = float(np.degrees(arcs.givens.dwell)), arcs.givens.given.rho1
+    turned = {"dwell": dwell, "half": dwell / 2, "sense": SENSE[run(arcs)]}
+    flank = ("AG", "C2", "G", "ρ₂"), ("GF", "C3", "F", "ρ₃"), ("FD", "C1", "D", "ρ₁")
+    outer, base = (float(arcs.value(name)) for name in ("outer", "base"))
+    radii = {"ρ₁": rho1, "ρ₂": float(arcs.value("rho2")), "ρ₃": float(arcs.value("rho3"))}
+    rise = say("Arc {arc} about {centre}: compass {paper:.2f} mm, {name} = {rho:.3f} mm.")
+    back = say(
+        "Mirror {centre} and the ends of {arc} in that line and draw the arc about its image: compass {paper:.2f} mm."
+    )
+    held = say("Upper dwell, from D {dwell:.6g}° {sense} about O: compass {paper:.2f} mm, {rho:.3f} mm of the cam.")
+    rest = say("Lower dwell, from the end of the return to A about O: compass {paper:.2f} mm, {rho:.3f} mm of the cam.")
+    middle = say("Set the protractor to {half:.6g}° from OD, {sense}: the middle line of the dwell.").where(**turned)
+    if not dwell:
+        middle = say("There is no upper dwell, so the return is mirrored in the line OD itself.")
+
+    def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
+        """The caption with the sizes of an arc."""
+        return said.where(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
+
+    said = [
+        *(of_arc(rise, arc, centre, name) for arc, centre, _, name in flank),
+        *([held.where(rho=outer, paper=outer / mu_l, **turned)] if dwell else []),
+        *(of_arc(back, arc, centre, name) for arc, centre, _, name in flank[::-1]),
+        rest.where(rho=base, paper=base / mu_l),
+    ]
+    pieces = cam(arcs, axis)
+    parts = [Part(each, (circle,)) for each, (_, circle) in zip(said, pieces, strict=True)]
+    parts.insert(-4, Part(middle, (axis,)))
+    dimensions = (
+        Dimension(
+            *(acts[centre].place, acts[end].place, say("{name} = {rho:.2f}", name=name, rho=radii[name])),
+            of=acts[f"circle about {centre}"].act,
+            index=acts[f"circle about {centre}"].index,
+        )
+        for _, centre, end, name in flank
+    )
+    ends = np.array([axis.place, axis.place + complex(unit(axis.directions)) * (outer / mu_l + OVERHANG)])
+    line = Line(ends, Role.AXIS, of=axis.act, index=axis.index.repeat(2))
+    why = say(
+        "The arcs touch, so the profile has no corner, and the same flank, mirrored, lets the follower down again."
+    )
+    marks = (*(mark for mark, _ in pieces), line, *dimensions)
+    return Step(say("The profile"), in_a_row(parts), ARCS, marks, why=why, parts=tuple(parts))
+
+
+# Names, lines and what is said of them.
 
 
 def _primed(name: str) -> str:
@@ -221,7 +360,7 @@ def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.C
     """The part of a line between those two of its points that lie farthest apart."""
     places = [arcs.acts[end].place if isinstance(end, str) else end for end in ends]
     pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
-    return Line(np.array(pair), role, of=arcs.acts[name].act)
+    return Line(np.array(pair), role, of=arcs.acts[name].act, index=arcs.acts[name].index.repeat(2))
 
 
 def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:
@@ -240,104 +379,6 @@ def _at(arcs: ArcOutline, name: str) -> Caption:
 def _xy(name: str) -> tuple[str, str]:
     """The names of a point's two readings."""
     return f"{name}_x", f"{name}_y"
-
-
-def _told(point: Point) -> Caption:
-    return say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
-
-
-def _data(arcs: ArcOutline) -> Step:
-    given, outer = arcs.givens.given, arcs.acts["circle through D"].drawn_circle(Role.CONSTRUCTION)
-    names = [name for name in ("A", "D", "G") if getattr(given, name) is not None]
-    reach = np.array([-1, 1]) * (outer.radius + OVERHANG)
-    plotted = (
-        *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS)),
-        *(_dots(arcs, "O", *names), arcs.acts["O"].label("O", -1 - 1j)),
-        *(_named(arcs, name) for name in names),
-    )
-    points = sequence([say("{name} = {at}", name=name, at=_told(getattr(given, name))) for name in names])
-    said = say("About the cam centre O the given points {points} are plotted at {ratio}, and the circle through D.")
-    said = said.where(points=points, ratio=ratio_text(arcs.givens.mu_l.per_mm))
-    return Step(say("The data"), said, ARCS, (outer, *plotted), given=plotted)
-
-
-def _first_centre(arcs: ArcOutline) -> Step:
-    given, d = arcs.givens.given, arcs.acts["D"].place
-    if given.C1 is None:
-        said = say(
-            "On the line OD the radius ρ₁ = {rho1:g} mm is stepped off from D to C1 = {at}, the centre of the first "
-            "arc, which touches the outer circle in D."
-        ).where(rho1=given.rho1, at=_at(arcs, "C1"))
-    else:
-        said = say(
-            "The centre C1 = {at} of the first arc is plotted. Its circle, ρ₁ = {rho1:g} mm, touches one about O in D, "
-            "on the line O C1."
-        ).where(rho1=given.rho1, at=_told(given.C1))
-    marks = (
-        _line(arcs, "O C1", 0j, d * (1 + OVERHANG / abs(d))),
-        arcs.acts["circle about C1"].drawn_circle(Role.CONSTRUCTION),
-        *(arcs.acts["C1"].dots(), _named(arcs, "C1", d)),
-    )
-    return Step(say("The first centre"), said, ARCS, marks, reads=_xy("C1"))
-
-
-def _second_centre(arcs: ArcOutline) -> Step:
-    given, a = arcs.givens.given, arcs.acts["A"].place
-    if np.isnan(a):
-        said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
-        return Step(say("The second centre"), said, ARCS, ())
-    rho2 = float(arcs.value("rho2"))
-    if given.C2 is None:
-        said = say(
-            "The chord AG is bisected; the perpendicular meets the line AO in C2 = {at}, the centre of the second arc: "
-            "ρ₂ = C2 G = {rho2:.3f} mm."
-        ).where(at=_at(arcs, "C2"), rho2=rho2)
-        bisector = _bisector(arcs, "given_A", "G", "C2")
-    else:
-        said = say(
-            "The centre C2 = {at} of the second arc is plotted; its radius is C2 G = {rho2:.3f} mm. It touches a "
-            "circle about O in A, on the line C2 O."
-        ).where(at=_told(given.C2), rho2=rho2)
-        bisector = ()
-    marks = (
-        _line(arcs, "O C2", a * (1 + OVERHANG / abs(a)), "C2"),
-        _line(arcs, "G C2", "G", "C2"),
-        arcs.acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
-        *(*bisector, _dots(arcs, "C2", "A"), _named(arcs, "C2")),
-        *((_named(arcs, "A"),) if given.A is None else ()),
-    )
-    return Step(say("The second centre"), said, ARCS, marks, reads=(*_xy("C2"), "rho2"))
-
-
-def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
-    """The centre of the third arc and F, of the one root or the ``other_``."""
-    p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
-    role, prime = (Role.HIDDEN, "′") if name else (Role.CONSTRUCTION, "")
-    title, laid_off = say("The third centre"), say("On the line G C2 the radius ρ₁ is laid off from G towards C2 to P.")
-    if name:
-        title = say("The other root")
-        laid_off = say("On the line G C2 the radius ρ₁ is laid off from G away from C2 to P′.")
-    if np.isnan(arcs.first(c3)):
-        parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
-        return [Step(title, sequence([laid_off, parallel.where(prime=prime)], " "), ARCS, ())]
-    rho3 = abs(arcs.acts[c3].place - arcs.acts["G"].place) * arcs.givens.mu_l.per_mm
-    found_centre = say(
-        "The perpendicular bisector of C1 P{prime} meets the line in C3{prime} = {c3}, as far from P{prime} as from "
-        "C1: ρ₃{prime} = C3{prime} G = {rho3:.3f} mm."
-    ).where(prime=prime, c3=_at(arcs, c3), rho3=rho3)
-    centre = sequence([laid_off, found_centre], " ")
-    touching = say("The line of centres C3{prime} C1 meets the circle about C1 in F{prime} = {f}. {orders}").where(
-        prime=prime, f=_at(arcs, f), orders=_orders(arcs, name)
-    )
-    lines = (*_bisector(arcs, "C1", p, c3, role), _line(arcs, "G C2", "G", p, c3, role=role))
-    found = (*lines, _dots(arcs, p, c3), _named(arcs, p), _named(arcs, c3))
-    line = (_line(arcs, f"C1 {c3}", c3, "C1", f, role=role), arcs.acts[f].dots(), _named(arcs, f))
-    if name:
-        return [Step(title, sequence([centre, touching], " "), ARCS, (*found, *line), (*_xy(c3), *_xy(f)))]
-    return [
-        Step(title, centre, ARCS, found, reads=(*_xy("C3"), "rho3")),
-        Step(say("Where it touches"), touching, ARCS, line, reads=_xy("F")),
-    ]
 
 
 def _orders(arcs: ArcOutline, name: str) -> Caption:

@@ -7,72 +7,23 @@ by the theorem of the height in a right triangle, is the rod's normal accelerati
 meets the follower's line in M, and MO is the acceleration d^2s/dphi^2 (after Klein, who found N by two circles).
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphcam.constructions.arc_outline import ArcOutline, cam, middle_of_dwell, outline, run
+from graphcam.constructions.arc_outline import FLAT, Move, in_parts
+from graphcam.constructions.arc_plan import NOTHING, UNREAD, plans, worked
+from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, outline, run
+from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Construction, Step, View, say
-from graphcam.drafting.marks import Circle, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.ink import Step, say
+from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.laws import Floats
 from graphcam.words import joined
-
-ROLLER = View(
-    "roller", say("The roller on the arcs"), "roller x", "roller y", scale=say("The roller on the arcs, {ratio}")
-)
-PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
-ARCS = ("AG", "GF", "FD")
-"""The arcs of the rise, in order."""
-
-
-@dataclass(frozen=True, eq=False)
-class ArcStations:
-    """The ends of equal parts of the three arcs of a rise, both ends of each arc included.
-
-    arc : (m,) which arc;  u : (m,) fraction of its angle;  spans : slice of the stations of each arc
-    """
-
-    arc: NDArray[np.intp]
-    u: Floats
-    spans: tuple[slice, ...]
-
-    @property
-    def names(self) -> list[str]:
-        """0, 1, 2 ... through the rise; where two arcs meet, the first one's end and the second one's start are one."""
-        return [str(k - arc) for k, arc in enumerate(self.arc.tolist())]
-
-
-def divide_arcs(parts: int) -> ArcStations:
-    """Each arc divided into so many equal parts.
-
-    >>> divide_arcs(2).names
-    ['0', '1', '2', '2', '3', '4', '4', '5', '6']
-    """
-    count = parts + 1
-    spans = tuple(slice(k * count, (k + 1) * count) for k in range(3))
-    return ArcStations(np.repeat(np.arange(3), count), np.tile(np.arange(count) / parts, 3), spans)
-
-
-@dataclass(frozen=True, eq=False)
-class ArcRollerGivens:
-    """The arcs, the roller on them [mm], and where it stands."""
-
-    arcs: ArcOutline
-    roller_radius: float
-    stations: ArcStations
-
-
-RollerOnArcs = Construction[ArcRollerGivens]
-
 
 ENDS = {
     "a_A": say("a in {point}", point="A"),
@@ -189,10 +140,6 @@ def _divided(stations: ArcStations, edges: Floats) -> Floats:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-SHOWN = 2, 0.5
-"""The plan is drawn for the station in the middle of the arc FD."""
-PLAN_SIZE = 190.0
-"""The plan is drawn at the largest standard scale at which it is not larger [mm]."""
 BEYOND = 7.0
 """How far the rays run on beyond the roller's centre [mm]."""
 
@@ -201,123 +148,168 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
         missing = joined([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
         said = say("Without a readable centre of every arc, {missing}, the roller has no path.", missing=missing)
-        return [Step(say("The arcs of the roller's centre"), said, ROLLER, ())]
-    arcs, stations, roller = rolled.givens.arcs, rolled.givens.stations, rolled.givens.roller_radius
-    b, rays, ray, edges = rolled.acts["B"], rolled.acts["rays"], rolled.first("ray"), np.degrees(rolled.first("edges"))
-    ends = rays.shown + (float(np.abs(rolled.first("trace")[-1])) + BEYOND) * ray
-    returning = showing(rolled).mirrored("B on the return", b.first, middle_of_dwell(arcs))
-    follows = say("The roller's centre") if roller else say("The knife edge")
-    kept = say(
-        "{follows} keeps to arcs about the same centres, with radii greater by r = {roller:g} mm; they meet on the "
-        "lines of centres. The cam angles, measured at O from OA, are {g:.3f}° at G, {f:.3f}° at F and {d:.3f}° at D, "
-        "where the rise ends."
-    ).where(follows=follows, roller=roller, g=edges[1], f=edges[2], d=edges[3])
-    divided = say(
-        "The angle of each arc is divided into {parts} equal parts, and a ray is drawn from O for each; it meets the "
-        "arc in the roller's centre B. What B is farther from O than at A is the displacement, {lift:.2f} mm of paper "
-        "at the end; the return is the mirror image."
-    ).where(parts=len(stations.u) // 3 - 1, lift=float(rolled.first("lift")))
-    # Where two arcs meet, both have a station of one name.
-    named = dict(zip(stations.names, zip(ends.tolist(), ray.tolist(), strict=True), strict=True))
-    places = (
-        Segments(rays.shown, ends, Role.CONSTRUCTION, of=rays.act),
-        *(centres.dots(Role.CONSTRUCTION) for centres in (b, returning)),
-        *_rollers(rolled),
-        *(Label(end, name, way, small=True, of=rays.act) for name, (end, way) in named.items()),
-    )
-    reads = ("phi_G", "phi_F", "rise", "prime_radius", "roller_radius", "rho")
-    return [
-        Step(say("The arcs of the roller's centre"), kept, ROLLER, _outlines(rolled), reads),
-        Step(say("Stations"), divided, ROLLER, places, reads=("lift", "s", "alpha", "x", "y")),
-        *_plan(rolled),
-    ]
+        return [Step(say("The arcs of the roller's centre"), said, ROLLER, (), why=FLAT)]
+    return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS)]
 
 
-def _outlines(rolled: RollerOnArcs) -> tuple[Mark, ...]:
+def _prime(rolled: RollerOnArcs) -> Drawn:
+    """The prime circle."""
+    return rolled.acts["dwells of the roller's centre"].first[1]
+
+
+def _radii(circle: Drawn) -> list[float]:
+    return np.atleast_1d(np.asarray(circle.first.radius)).tolist()
+
+
+def _paths(rolled: RollerOnArcs) -> Step:
     """The cam, and the path of the roller's centre."""
-    arcs, trace, o = rolled.givens.arcs, rolled.first("trace"), rolled.acts["O"]
-    paths, dwells = (rolled.acts[f"{name} of the roller's centre"].first for name in ("arcs", "dwells"))
-    path = outline(arcs, [paths[0], paths[1], paths[2], dwells[0], dwells[1]], trace, Role.CURVE)
-    return (
-        *cam(arcs),
-        *(path if rolled.givens.roller_radius else ()),
-        Segments(trace[1:3], np.array([arcs.first("C3")] * 2), Role.AXIS, of=rolled.acts["lines of centres"].act),
-        *(arcs.acts[name].label(name, -complex(at)) for name, at in zip("AGFD", trace, strict=True)),
-        *(o.dots(), o.label("O", -1 - 1j)),
+    arcs, acts, trace, roller = rolled.givens.arcs, rolled.acts, rolled.acts["trace"], rolled.givens.roller_radius
+    axis, o, lines, prime = middle_of_dwell(arcs), acts["O"], acts["lines of centres"].first, _prime(rolled)
+    profile, joints = cam(arcs, axis), [arcs.acts[name] for name in "AGFD"]
+    centres = {name: acts[f"three_arcs: {name}"] for name in ("C3", "C1")}
+    starts = np.array([centres[name].place for name in ("C3", "C3", "C1")])
+    values = {"roller": roller, "paper": roller / arcs.givens.mu_l.per_mm, "prime": _radii(prime)[0]}
+    copied = say("Copy the profile from the drawing of the arcs, with O, the joints, C1 and C3.")
+    moves: list[Move] = [(copied, *(circle for _, circle in profile), *joints, o, *centres.values())]
+    marks: list[Mark] = [
+        *(mark for mark, _ in profile),
+        Segments(trace.shown[1:], starts, Role.AXIS, of=lines.act, index=lines.index[1:]),
+        *(joint.label(name, -at) for joint, name, at in zip(joints, "AGFD", trace.shown.tolist(), strict=True)),
+        *(o.dots(), o.label("O", -1 - 1j), prime.drawn_circle(Role.CONSTRUCTION)),
+        *(mark for name, at in centres.items() for mark in (at.dots(), at.label(name, -UP))),
+    ]
+    said = say(
+        "The knife edge keeps to arcs of the profile itself: copy it from the drawing of the arcs. Draw the prime "
+        "circle about O through A: compass {prime:.2f} mm."
     )
+    why = say("A knife edge has no radius, so it stands on the profile itself.")
+    if roller:
+        said = say(
+            "Copy the profile. The roller's centre keeps to arcs about the same centres, with radii greater by r = "
+            "{roller:g} mm: set {paper:.2f} mm off outward from A, G, F and D on the lines of centres (from G away "
+            "from C3), open the compass from each centre to these points and draw the arcs, about C2 with {about:.2f} "
+            "mm. The prime circle about O passes through the first point: {prime:.2f} mm."
+        ).where(about=_radii(acts["arcs of the roller's centre"])[0])
+        why = say(
+            "A roller touches an arc on the line through the arc's centre, so its own centre stays r farther out."
+        )
+        paths, dwells = (acts[f"{name} of the roller's centre"].first for name in ("arcs", "dwells"))
+        circles = [paths[0], paths[1], paths[2], dwells[0], dwells[1]]
+        grown = outline(arcs, axis, circles, trace.shown, Role.CURVE)
+        marks += [trace.dots(Role.CONSTRUCTION), *(mark for mark, _ in grown)]
+        moves += _outward(rolled) + _arcs(rolled, [circle for _, circle in grown])
+    moves += [(say("Draw the prime circle about O, over the lower dwell as well: compass {prime:.2f} mm."), prime)]
+    reads, parts = ("prime_radius", "roller_radius", "rho"), in_parts(moves, values)
+    title = say("The arcs of the roller's centre")
+    return Step(title, said.where(**values), ROLLER, tuple(marks), reads, why=why, parts=parts)
 
 
-def _rollers(rolled: RollerOnArcs) -> list[Circle]:
-    """The roller in the middle of every arc."""
+def _outward(rolled: RollerOnArcs) -> list[Move]:
+    """From each joint to the roller's centre."""
+    lines, trace = rolled.acts["lines of centres"].first, rolled.acts["trace"].first
+    out = say("From {joint} set {paper:.2f} mm off outward on the line from {centre}.")
+    named = zip("AGFD", ("O", "C3", "C3", "C1"), strict=True)
+    return [(out.where(joint=joint, centre=name), lines[k], trace[k]) for k, (joint, name) in enumerate(named)]
+
+
+def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> list[Move]:
+    """The path arc by arc, but for the lower dwell."""
+    one = say("{arc}: draw the arc about {centre} through the points set off, compass {radius:.2f} mm.")
+    radii = [_radii(circle)[0] for circle in circles]
+    rise = [(one.where(arc=ARCS[k], centre=CENTRES[k], radius=radii[k]), circles[k]) for k in range(3)]
+    held = say("Upper dwell: go on from D about O, compass {radius:.2f} mm.", radius=radii[3]), circles[3]
+    back = say("Return: mirror the three arcs in the middle line of the dwell."), *circles[-4:-1]
+    return [*rise, *([held] if rolled.givens.arcs.givens.dwell else []), back]
+
+
+def _joints(rolled: RollerOnArcs) -> Step:
+    """The cam angles of the joints."""
+    lines, trace, sigma = rolled.acts["to the joints"].first, rolled.acts["trace"].first, run(rolled.givens.arcs)
+    angles = np.abs(rolled.first("edges"))
+    base, reads = float(np.angle(trace.shown[0])), ("phi_G", "phi_F", "rise")
+    values = {"g": angles[1], "f": angles[2], "d": angles[3]}
+    values = {key: float(np.degrees(angle)) for key, angle in values.items()} | {"sense": SENSE[sigma]}
+    said = say(
+        "Join O with the points of the path at A, G, F and D. Set the protractor on OA and read the angles of the "
+        "others {sense}: {g:.3f}° at G, {f:.3f}° at F, and {d:.3f}° at D, where the rise ends."
+    )
+    measured = say("{joint}: join O with the point there; the angle from OA is {angle:.3f}°, {sense}.")
+    moves: list[Move] = [
+        (say("Join O with the point at A."), lines[0]),
+        *((measured.where(joint=name.upper(), angle=values[name]), lines[k]) for k, name in enumerate("gfd", 1)),
+    ]
+    size = abs(complex(trace.shown[0]))
+    marks: list[Mark] = [lines.ways(Role.CONSTRUCTION)]
+    for k, name in enumerate(reads, 1):
+        low, high = sorted((base, base - sigma * float(angles[k])))
+        shown_as = say("{angle:.2f}°", angle=float(np.degrees(angles[k])))
+        marks.append(AngleMark(0j, (0.15 + 0.15 * k) * size, low, high, shown_as, rolled.readings[name].act))
+    why = say("These are the angles by which the cam turns while the roller runs over one arc after another.")
+    parts = in_parts(moves, values)
+    return Step(say("The angles of the arcs"), said.where(**values), ROLLER, tuple(marks), reads, why=why, parts=parts)
+
+
+def _stations(rolled: RollerOnArcs) -> Step:
+    """The rays, and the roller's centre on each."""
+    arcs, stations, b, rays = rolled.givens.arcs, rolled.givens.stations, rolled.acts["B"], rolled.acts["rays"].first
+    reach, ray = float(np.abs(rolled.first("trace")[-1])) + BEYOND, rolled.first("ray")
+    ends, mu_l = rays.shown + reach * ray, arcs.givens.mu_l.per_mm
+    hand, axis = showing(rolled), middle_of_dwell(arcs)
+    returning, feet = hand.mirrored("B on the return", b.first, axis), hand.cross("feet", rays, _prime(rolled))
+    rollers = _rollers(rolled, hand)
+    phi, s = np.degrees(rolled.first("phi")), rolled.first("s")
+    at = worked(stations, s)
+    named = (
+        Label(ends[k], name, ray[k], small=True, of=rays.act, index=rays[k].index)
+        for name, (k, *_) in stations.places.items()
+    )
+    marks: tuple[Mark, ...] = (
+        Segments(rays.shown, ends, Role.CONSTRUCTION, of=rays.act, index=rays.index),
+        Segments(feet.shown, b.shown, Role.RESULT, of=rays.act, index=rays.index),
+        *(each.dots(Role.CONSTRUCTION) for each in (b, returning)),
+        *(each.drawn_circle(Role.CONSTRUCTION) for each in rollers.values()),
+        *named,
+        Line(
+            np.array([0j, complex(unit(axis.directions)) * reach]), Role.AXIS, of=axis.act, index=axis.index.repeat(2)
+        ),
+    )
+    one = say(
+        "Ray {name}: {phi:.3f}° from OA, {sense}; it meets the arc about {centre} in B{name}, {s:.2f} mm outside the "
+        "prime circle."
+    )
+    level = say("Ray {name}: {phi:.3f}° from OA, {sense}; B{name} lies on the prime circle.")
+    values = {"sense": SENSE[run(arcs)], "mu": mu_l}
+    moves: list[Move] = []
+    for name, places in stations.places.items():
+        k = places[0]
+        told = UNREAD if np.isnan(s[k]) else one if s[k] > NOTHING else level
+        told = told.where(name=name, title=name, phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
+        moves.append((told, rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)))
+    moves.append((say("Return: mirror the points B in the middle line of the dwell."), returning))
+    said = say(
+        "Hold the cam and turn the follower the other way, {sense}. Divide the angle of each arc into {parts} equal "
+        "parts, set the angles off from OA with the protractor and number the rays. Ray {name} stands at {phi:.3f}° "
+        "and meets the arc about {centre} in B. With the dividers take how much farther B lies "
+        "from O than at A: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement. Repeat for the others; the return "
+        "is the mirror image."
+    ).where(
+        parts=stations.u.size // 3 - 1,
+        name=stations.names[at],
+        phi=abs(phi[at]),
+        centre=CENTRES[stations.arc[at]],
+        s=s[at],
+        lift=s[at] * mu_l,
+        **values,
+    )
+    why = say("To turn the follower about a cam that is held is the same motion as to turn the cam under it.")
+    return Step(say("Stations"), said, ROLLER, marks, ("lift", "s", "x", "y"), why=why, parts=in_parts(moves, values))
+
+
+def _rollers(rolled: RollerOnArcs, hand: Hand) -> dict[int, Drawn]:
+    """The roller in the middle of every arc, by its station."""
     stations, radius = rolled.givens.stations, rolled.givens.roller_radius / rolled.givens.arcs.givens.mu_l.per_mm
     if not radius:
-        return []
-    middle = rolled.acts["B"].first[[span.start + stations.u.size // 6 for span in stations.spans]]
-    rollers = showing(rolled).circle("rollers", middle, radius)
-    return [rollers[k].drawn_circle(Role.CONSTRUCTION) for k in range(3)]
-
-
-def _plan(rolled: RollerOnArcs) -> list[Step]:
-    """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
-    arcs, stations = rolled.givens.arcs, rolled.givens.stations
-    on, share = SHOWN
-    at = stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
-    station = stations.names[at]
-    mu_l, side = arcs.givens.mu_l.per_mm, -float(run(arcs))
-    names, upright = ("B", "C", "K", "right", "beyond", "N", "M"), UP / rolled.first("ray")[at]
-    places: Points = np.array([0j, *(rolled.first(name)[at] * upright for name in names)])
-    if np.isnan(places).any():
-        said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
-        return [Step(say("Velocity and acceleration"), said, PLAN, ())]
-    scale = standard_scale(float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l, PLAN_SIZE)
-    hand, o, times = showing(rolled), rolled.acts["O"].first, upright * mu_l / scale.per_mm
-    p = {name: hand.enlarged(name, rolled.acts[name].first[at], o, times) for name in names}
-    p["O"] = hand.enlarged("O", o, o, times)
-    v, a = (float(rolled.value(name)[at]) for name in "va")
-    centre = ("C2", "C3", "C1")[on]
-    velocity = say(
-        "At station {name}, on the arc {arc}, drawn upright at {ratio}: the line of centres B{centre} meets the "
-        "perpendicular to the follower's line through O in K, and OK = {paper:.2f} mm is the velocity, v = {v:.3f} "
-        "mm/rad."
-    ).where(name=station, arc=ARCS[on], centre=centre, ratio=ratio_text(scale.per_mm), paper=abs(p["K"].place), v=v)
-    directed = say("it is directed towards the cam centre: M lies on the side of B.")
-    if a > 0:
-        directed = say("it is directed away from the cam centre: M lies beyond O.")
-    acceleration = say(
-        "{centre}K is erected on the rod in {centre}, and at its end a right angle to B: it cuts off {centre}N′ = "
-        "{centre}K²/{centre}B on the rod, which is laid off towards B to N. The perpendicular to the rod in N meets "
-        "the follower's line in M, and OM = {paper:.2f} mm is the acceleration, a = {a:.3f} mm/rad²; {sense}"
-    ).where(centre=centre, paper=abs(p["M"].place), a=a, sense=directed)
-    titles = say("Velocity at station {name}", name=station), say("Acceleration at station {name}", name=station)
-    return [
-        Step(titles[0], velocity, PLAN, _velocity(hand, p, centre, side)),
-        Step(titles[1], acceleration, PLAN, _acceleration(hand, p, side), ("v", "a", *ENDS)),
-    ]
-
-
-def _velocity(hand: Hand, p: Mapping[str, Drawn], centre: str, side: float) -> tuple[Mark, ...]:
-    """The rod from B to its ``centre``, and K; labels stand to the ``side`` of -1 or 1."""
-    axis = np.array([min(0.0, p["M"].place.imag, p["C"].place.imag) - BEYOND, p["B"].place.imag + BEYOND]) * UP
-    lines = (("B", "C", Role.CURVE), ("O", "K", Role.RESULT), ("B", "K", Role.CURVE))
-    names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
-    return (
-        Line(axis, Role.AXIS),
-        *(_row(hand, p, start, end).line(role) for start, end, role in lines),
-        _row(hand, p, *"OBCK").dots(),
-        *(p[name].label(text, towards) for name, text, towards in names),
-    )
-
-
-def _acceleration(hand: Hand, p: Mapping[str, Drawn], side: float) -> tuple[Mark, ...]:
-    """The right angle that cuts N′ off, N, and M; labels as in :func:`_velocity`."""
-    lines = (("C", "right", "B"), ("right", "beyond", "C"), ("N", "M"))
-    return (
-        *(_row(hand, p, *places).line(Role.CONSTRUCTION) for places in lines),
-        _row(hand, p, "O", "M").line(Role.RESULT),
-        _row(hand, p, "right", "beyond", "N", "M").dots(),
-        *(p["beyond"].label("N′", -side + 0j), p["N"].label("N", side + 0j), p["M"].label("M", -side + 0j)),
-    )
-
-
-def _row(hand: Hand, p: Mapping[str, Drawn], *names: str) -> Drawn:
-    return hand.take(" ".join(names), *(p[name] for name in names))
+        return {}
+    middle = [span.start + stations.u.size // 6 for span in stations.spans]
+    rollers = hand.circle("rollers", rolled.acts["B"].first[middle], radius)
+    return {k: rollers[j] for j, k in enumerate(middle)}

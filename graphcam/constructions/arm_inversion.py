@@ -1,15 +1,17 @@
 """The profile of an oscillating follower by inversion: the pivot goes round the cam, against the cam's rotation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphcam.constructions import profile_view
+from graphcam.constructions.arm_positions import NOTHING, arc_through, example
+from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import RIGHT, circles_meet, unit
+from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
 from graphcam.drafting.hand import Hand
-from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
@@ -23,6 +25,9 @@ class ArmInversionGivens(profile_view.InvertedGivens):
 
     arm: float
     distance: float
+
+
+ArmInverted = Construction[ArmInversionGivens]
 
 
 MEANING = Meaning(
@@ -45,7 +50,7 @@ def arm_inversion(
     distance: float,
     mu_l: Scale,
     pencil: Pencil,
-) -> Construction[ArmInversionGivens]:
+) -> ArmInverted:
     """Step the pivot off on its circle, swing the arm to the prime circle, and turn it by the displacement.
 
     integrated : of an angle s [rad];  mu_l : drawing scale of the profile [mm/mm]
@@ -68,30 +73,130 @@ def arm_inversion(
     return hand.finished(givens, _draw, places)
 
 
-def _draw(inverted: Construction[ArmInversionGivens]) -> list[Step]:
-    integrated, mu_l = inverted.givens.integrated, inverted.givens.mu_l
-    c, r0 = inverted.givens.distance, inverted.givens.prime_radius
-    pivots, start = inverted.acts["pivots"], profile_view.start_of_turn(inverted)
-    circle = (inverted.acts["pivot circle"].drawn_circle(Role.CONSTRUCTION),)
-    drawn = say(
-        "About the cam centre the prime circle r₀ = {r0:g} mm and the circle of the pivot, c = {c:g} mm, are drawn at "
-        "{ratio}: {r0_paper:.1f} mm and {c_paper:.1f} mm."
-    ).where(r0=r0, c=c, ratio=ratio_text(mu_l.per_mm), r0_paper=r0 / mu_l.per_mm, c_paper=c / mu_l.per_mm)
-    stepped = say(
-        "The pivot is stepped off on its circle as the axis of the cam angle is divided, numbered against the rotation "
-        "({rotation}); the phases take {angles}."
-    ).where(**profile_view.divided_by(inverted))
-    swung = say(
-        "From every pivot the arc of the arm's length, {arm:.1f} mm, meets the prime circle; from there the arm is "
-        "turned by the displacement, at most {most:.2f}°. Its ends are points of the pitch curve."
-    ).where(arm=inverted.givens.arm / mu_l.per_mm, most=np.degrees(integrated.value("s").max()))
-    first = pivots.first[0]
-    positions = (pivots.dots(Role.CONSTRUCTION), *profile_view.phase_angles(inverted, start))
-    arms = (inverted.acts["arms"].ways(Role.CONSTRUCTION), first.label("C", first.place))
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+ARC_BEYOND = 0.012
+"""How far the arcs of the arm are drawn beyond what is found on them [rad]."""
+
+
+def _draw(inverted: ArmInverted) -> list[Step]:
     return [
-        profile_view.prime_step(inverted, say("Prime circle and pivot circle"), drawn, start, circle),
-        Step(say("Inverted positions of the pivot"), stepped, PROFILE, positions),
-        *profile_view.pitch_steps(
-            inverted, Step(say("Arms turned by the displacement"), swung, PROFILE, arms, profile_view.CURVE_READINGS)
-        ),
+        _circles(inverted),
+        _pivots(inverted),
+        _starts(inverted),
+        *profile_view.pitch_steps(inverted, _turned(inverted)),
     ]
+
+
+def _circles(inverted: ArmInverted) -> Step:
+    """The prime circle and the circle of the pivot."""
+    mu_l, c, r0 = inverted.givens.mu_l, inverted.givens.distance, inverted.givens.prime_radius
+    start, circle = profile_view.start_of_turn(inverted), inverted.acts["pivot circle"]
+    sizes = {"r0": r0, "c": c, "ratio": ratio_text(mu_l.per_mm), "r0_paper": mu_l.paper(r0), "c_paper": mu_l.paper(c)}
+    said = say(
+        "About the cam centre A draw with the compass, at {ratio}, the prime circle of {r0_paper:.1f} mm, r₀ = {r0:g} "
+        "mm, and the circle of the pivot of {c_paper:.1f} mm, c = {c:g} mm."
+    ).where(**sizes)
+    pivots = say("Draw the circle of the pivot, {c_paper:.1f} mm, about A.").where(**sizes)
+    step = profile_view.prime_step(
+        inverted, say("Prime circle and pivot circle"), said, start, (circle.drawn_circle(Role.CONSTRUCTION),)
+    )
+    why = say("Because the pivot stays at the centre distance from A, and the lift begins on the prime circle.")
+    return replace(step, why=why, parts=(*step.parts, Part(pivots, (circle,))))
+
+
+def _pivots(inverted: ArmInverted) -> Step:
+    """The places of the pivot on its circle, numbered."""
+    pivots, positions = (inverted.acts[name] for name in ("pivots", "inverted positions"))
+    stations = inverted.givens.integrated.givens.stations
+    names, k, phi = station_names(stations), example(inverted.givens.integrated, pivots), np.degrees(stations.phi)
+    against = turning("cw" if inverted.givens.rotation == "ccw" else "ccw")
+    said = say(
+        "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Begin on the "
+        "level to the right of A; set the cam angle off at A with the protractor and mark and number the pivots on "
+        "their circle. Station {name}: {phi:.6g}° {against}, {step:.6g}° on from the one before. Repeat for the "
+        "others; the phases take {angles}."
+    ).where(**profile_view.divided_by(inverted))
+    said = said.where(name=names[k], phi=phi[k], step=phi[k] - phi[k - 1], against=against)
+    level = say("C{name} lies on the level through A, to the right: mark it on the pivot circle.")
+    begun = say(
+        "C{name}: set {phi:.6g}° off at A {against}, from the level to the right, and mark C{name} on the pivot circle."
+    )
+    on = say(
+        "C{name}: set {phi:.6g}° off at A {against}, {step:.6g}° on from C{before}, and mark C{name} on the pivot "
+        "circle."
+    )
+    texts = [(begun if phi[n] else level).where(name=name, phi=phi[n], against=against) for n, name in enumerate(names)]
+    for span in stations.phases:
+        for n in range(span.start + 1, span.stop):
+            values = {"name": names[n], "phi": phi[n], "step": phi[n] - phi[n - 1], "before": names[n - 1]}
+            texts[n] = on.where(against=against, **values)
+    first = pivots.first[0]
+    marks = (
+        *(pivots.dots(Role.CONSTRUCTION), first.label("C", UP * first.place)),
+        *numbers(pivots, stations, pivots.shown),
+    )
+    return Step(
+        *(say("Inverted positions of the pivot"), said, PROFILE, marks),
+        why=say(
+            "Because seen from the cam the frame turns against the cam's rotation, and the pivot goes round with it."
+        ),
+        parts=tuple(Part(text, (positions[n], pivots[n])) for n, text in enumerate(texts)),
+    )
+
+
+def _starts(inverted: ArmInverted) -> Step:
+    """The arcs of the arm from all pivots, and where they meet the prime circle."""
+    integrated, starts, arcs = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["arcs of the arm"]
+    names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
+    arm, pitch = inverted.givens.mu_l.paper(inverted.givens.arm), inverted.acts["pitch"]
+    said = say(
+        "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, always at "
+        "the crossing on the left as seen from A towards the pivot, and go on a little outside: from C{name} to "
+        "B₀{name}. Repeat for the others. {outside}"
+    )
+    each = say(
+        "From C{name} strike an arc of {arm:.1f} mm across the prime circle, on the left seen from A towards C{name}."
+    )
+    found = np.stack([starts.shown, pitch.shown], axis=-1)
+    drawn = [arc_through(arcs[n], found[n], ARC_BEYOND) for n in range(len(names))]
+    phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
+    said = said.where(arm=arm, name=names[k], outside=last.caption)
+    return Step(
+        *(say("Arcs of the arm"), said, PROFILE, (*drawn, starts.dots(Role.CONSTRUCTION), *phases)),
+        why=say(
+            "Because at the start of the lift the end of the arm lies on the prime circle, in every place of the frame."
+        ),
+        parts=(*(Part(each.where(name=name, arm=arm), (arcs[n], starts[n])) for n, name in enumerate(names)), last),
+    )
+
+
+def _turned(inverted: ArmInverted) -> Step:
+    """The arms turned about their pivots by the displacement."""
+    integrated, arms, pitch = inverted.givens.integrated, inverted.acts["arms"], inverted.acts["pitch"]
+    names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
+    s, factor = integrated.first("s"), np.degrees(integrated.readings["s"].per_mm)
+    chords = 2 * inverted.givens.mu_l.paper(inverted.givens.arm) * np.sin(np.abs(np.radians(s * factor)) / 2)
+    angle = say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°, a chord of {chord:.2f} mm")
+    angles = [
+        angle.where(paper=paper, factor=factor, angle=paper * factor, chord=chord)
+        for paper, chord in zip(s.tolist(), chords.tolist(), strict=True)
+    ]
+    some = say(
+        "Arm {name}: from B₀{name} {angle}, clockwise along the arc about C{name}; mark {name} and draw the arm."
+    )
+    none = say("Arm {name}: the displacement is zero, so {name} lies on the prime circle; draw the arm.")
+    texts = [(some if chords[n] > NOTHING else none).where(name=name, angle=angles[n]) for n, name in enumerate(names)]
+    said = say(
+        "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "
+        "paper), with the protractor or, with dividers, by the chord of its arc. Station {name}: {angle}. Repeat for "
+        "the others; the ends are points of the pitch curve."
+    ).where(name=names[k], angle=angles[k])
+    return Step(
+        *(say("Arms turned by the displacement"), said, PROFILE),
+        *((arms.ways(Role.CONSTRUCTION),), profile_view.CURVE_READINGS),
+        why=say(
+            "Because the displacement of an arm is the angle through which it has turned from its lowest position."
+        ),
+        parts=tuple(Part(text, (arms[n], pitch[n])) for n, text in enumerate(texts)),
+    )

@@ -7,38 +7,44 @@ is drawn, and A may lie where no line cuts it off.  Between the positions the li
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, numbers, pieces_of
+from graphcam.constructions.arm_limit_lines import dwells_step, family_step, highest_arm, reach_step
+from graphcam.constructions.arm_positions import (
+    ArmGivens,
+    arc_through,
+    arm_positions,
+    directions,
+    positions_step,
+    velocities_step,
+)
+from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many, permitted_part
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, circles_meet, turned, unit
+from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Dimension, Points, Region, Role, Segments
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import Dimension, Mark, Points, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.plane import dot
+from graphcam.words import joined
 
 
 @dataclass(frozen=True, eq=False)
-class ArmLeastRadiusGivens:
+class ArmLeastRadiusGivens(ArmGivens):
     """What lies on the board; see :func:`arm_least_radius`."""
 
-    integrated: Integrated
-    rotation: Rotation
     limits: Limits
-    arm: float
     distance: float | None
-    mu_l: Scale
 
 
 ArmRegion = Construction[ArmLeastRadiusGivens]
@@ -61,24 +67,6 @@ MEANING = Meaning(
 )
 
 
-def arm_positions(
-    hand: Hand, integrated: Integrated, rotation: Rotation, arm: float, mu_l: Scale
-) -> Mapping[str, Drawn]:
-    """Lay the displacements off as angles of the arm, and the velocities as segments along it.
-
-    integrated : of an angle s [rad];  arm : length [mm];  mu_l : scale of the drawing [mm/mm]
-    returns : by name the ``pivot``; the ``arm at rest``, on its left, with its end, the ``start``; the ``arms``, that
-        swing clockwise from there, with their ``ends`` B; and the ``tips`` D of the segments
-    """
-    pivot, length, (s, v) = hand.given("pivot"), arm / mu_l.per_mm, (integrated.readings[name] for name in "sv")
-    arc = hand.circle("arc of the arm", pivot, length)
-    hand.cross("start", hand.erect("arm at rest", pivot, -RIGHT), arc)
-    ends = hand.cross("ends", hand.protractor("swung", pivot, -RIGHT, hand.carry(s, -np.asarray(s.scale))), arc)
-    outward = hand.join("arms", pivot, ends).turned(sense(rotation))
-    hand.lay_off("tips", ends, outward, hand.carry(v, length * np.asarray(v.scale)))
-    return hand.acts
-
-
 def arm_least_radius(
     integrated: Integrated,
     rotation: Rotation,
@@ -93,7 +81,7 @@ def arm_least_radius(
     arm : length [mm]; distance : of the pivot from the cam centre [mm], or None to let it be found
     mu_l : scale of the drawing [mm/mm]
     """
-    hand, givens = Hand(pencil, MEANING), ArmLeastRadiusGivens(integrated, rotation, limits, arm, distance, mu_l)
+    hand, givens = Hand(pencil, MEANING), ArmLeastRadiusGivens(integrated, rotation, arm, mu_l, limits, distance)
     drawn = arm_positions(hand, integrated, rotation, arm, mu_l)
     families = _boundaries(hand, drawn, givens)
     lines = hand.take("lines", *families.values())
@@ -117,8 +105,7 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     where the arm rests, so there both sides are drawn; without the rest condition the arm need only reach the cam.
     """
     motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
-    limits, sigma = givens.limits, sense(givens.rotation)
-    directions = np.array([motion.phases[k].direction for k in stations.phase])
+    limits, sigma, moving = givens.limits, sense(givens.rotation), directions(givens)
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
         """The lines at the limit to the normals of arms."""
@@ -126,7 +113,7 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
 
     def family(name: str, direction: int, limit: float, side: int) -> Drawn:
         """The lines at the limit of all arms of one direction of motion, faired between the positions."""
-        at = np.flatnonzero(directions == direction)
+        at = np.flatnonzero(moving == direction)
         lines = at_limit(name, drawn["tips"][at], drawn["arms"][at], limit, side)
         pieces = pieces_of(motion, stations, direction)
         begins = np.searchsorted(at, [piece.start for piece in pieces]).tolist()
@@ -201,58 +188,35 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
 
 BELOW = 30.0
 """How far below the cam centre the region is shown [mm]."""
-SHOWN_LINE = 0.77
-"""Length of the thin line at the limit through each end, as a fraction of the arm."""
+BOUNDS = {
+    "rise": say("the lines of the rise"),
+    "return": say("the lines of the return"),
+    "rest": say("the line of the dwell from {place}"),
+    "rest after the return": say("the line of the dwell from {place}"),
+    "reach": say("the lines of the arm"),
+}
+"""What bounds the region, by the names of the acts."""
+DWELLS = ("rest", "rest after the return")
+"""The acts that draw two lines: one from B₀ and one from the end of the highest arm."""
 
 
 def _draw(region: ArmRegion) -> list[Step]:
-    integrated, limits, mu_l = region.givens.integrated, region.givens.limits, region.givens.mu_l
-    stations, shown = integrated.givens.stations, at_scale(REGION, mu_l)
-    pivot, start, ends, tips = (region.acts[name] for name in ("pivot", "start", "ends", "tips"))
-    given, lengths, smooth = (pivot.dots(), pivot.label("C", 1 + 0j)), np.abs(tips.shown - ends.shown), showing(region)
-    laid_off = (
-        tips.from_(ends, Role.CURVE),
-        *(smooth.fair("curve of the tips", tips.first, [piece]).line(Role.RESULT) for piece in stations.pieces),
-        *numbers(tips, stations, tips.shown, shown=lengths > 1),
-    )
-    side = say("outward") if sense(region.givens.rotation) > 0 else say("towards the pivot")
-    permitted = say("{rise} on the rise, while a spring drives the return", rise=degrees(limits.rise))
-    if limits.return_:
-        angles = {"rise": degrees(limits.rise), "back": degrees(limits.return_)}
-        permitted = say("{rise} on the rise and {back} on the return", **angles)
-    most = np.degrees(integrated.value("s").max())
-    positions = (region.acts["arms"].ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
-    turned = say(
-        "At {ratio} the arm, {arm:.1f} mm, is drawn about its pivot in its positions, turned by the displacements up "
-        "to {most:.2f}°."
-    ).where(ratio=ratio_text(mu_l.per_mm), arm=region.givens.arm / mu_l.per_mm, most=most)
-    along = say(
-        "Along every position the segment l·ds/dφ is laid off from its end, on the rise {side}, at most {longest:.1f} "
-        "mm; the ends D are joined by smooth curves."
-    ).where(side=side, longest=float(lengths.max()))
-    cut_off = say(
-        "Through every D the line at the permitted angle to that arm's normal is drawn: {limits}. The cam centre may "
-        "lie where no line cuts it off."
-    ).where(limits=permitted)
+    limits, found = region.givens.limits, np.isfinite(region.acts["centre"][0].place)
+    families = [family_step(region, "rise", 1, limits.rise)]
+    if limits.return_ is not None:
+        families.append(family_step(region, "return", -1, limits.return_))
+    dwells = dwells_step(region, limits) if limits.rest else reach_step(region)
     return [
-        Step(say("Arm positions"), turned, shown, (*positions, *given, start.label("B₀", -UP)), given=given),
-        Step(say("Velocities along the arm"), along, shown, laid_off),
-        Step(say("Lines at the permitted angles"), cut_off, shown, (*_lines(region), _shaded(region))),
-        _result(region),
+        positions_step(region),
+        velocities_step(region),
+        *families,
+        dwells,
+        _shaded(region),
+        _result(region, found=found),
     ]
 
 
-def _lines(region: ArmRegion) -> list[Segments]:
-    """The lines at the limits as far as they matter: from the ends D down towards the region."""
-    length, marks = SHOWN_LINE * abs(region.acts["start"].place), list[Segments]()
-    for lines in (drawn.first for name, drawn in region.acts.items() if name.startswith("limits: ")):
-        along = unit(lines.directions)
-        down = np.where(along.imag < 0, along, -along)
-        marks.append(Segments(lines.points, lines.points + length * down, Role.CONSTRUCTION, of=lines.act))
-    return marks
-
-
-def _shaded(region: ArmRegion) -> Region:
+def _shaded(region: ArmRegion) -> Step:
     """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
     centre, start, lines = region.acts["centre"][0].place, region.acts["start"].place, region.acts["lines"].first
     bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
@@ -260,32 +224,78 @@ def _shaded(region: ArmRegion) -> Region:
     hand, sides = showing(region), np.diff([*corners, corners[0]])
     bounds = hand.take("bounds", lines, hand.given("edges of the picture", corners, sides))
     cuts = zip(lines.points, _inward(lines), strict=True)
-    return Region(permitted_part([Boundary("", *cut) for cut in cuts], corners), of=bounds.act)
-
-
-def _result(region: ArmRegion) -> Step:
-    title, distance = say("The least prime radius"), region.givens.distance
-    start, centre, shown = region.acts["start"], region.acts["centre"][0], at_scale(REGION, region.givens.mu_l)
-    if np.isnan(centre.place):
-        said = say("No cam centre keeps all the limits.")
-        if distance is not None:
-            said = say("At this centre distance no cam centre keeps all the limits.")
-        return Step(title, said, shown, ())
-    reads = ("prime_radius", "distance")
-    r0, c = (float(region.value(name)) for name in reads)
-    place = say("The place of the region nearest to the start of the lift is the cam centre A.")
-    if distance is not None:
-        place = say(
-            "The place of the region nearest to the start of the lift on the circle c = {c:g} mm is the cam centre A."
-        ).where(c=distance)
+    hatched = Region(permitted_part([Boundary("", *cut) for cut in cuts], corners), of=bounds.act)
     said = say(
-        "{place} It lies {paper:.2f} mm from the start of the lift, so r₀ = {r0:.3f} mm, and {away:.2f} mm from the "
-        "pivot, so c = {c:.3f} mm."
-    ).where(place=place, paper=abs(centre.place - start.place), away=abs(centre.place), r0=r0, c=c)
+        "Hatch the part that lies on the permitted side of all lines; between the stations its edge is the curve that "
+        "the lines touch."
+    )
+    if region.givens.limits.return_ is None:
+        said = say(
+            "Hatch the part that lies on the permitted side of all lines; between the stations its edge is the curve "
+            "that the lines touch. A spring drives the return, which therefore has no lines."
+        )
+    return Step(
+        *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l), (hatched,)),
+        why=say("Because from a cam centre in the hatching no position of the arm exceeds its permitted angle."),
+    )
+
+
+def _place(region: ArmRegion) -> Caption:
+    """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
+    which = np.asarray(region.acts["lines that bind"].act.takes["which"])
+    families = [name for name in BOUNDS if f"limits: {name}" in region.acts]
+    ends = np.cumsum([region.acts.get(name, region.acts[f"limits: {name}"]).shown.size for name in families])
+    bind = np.unique(which[0] if region.acts["lines"].sampled else which)
+    found = dict[tuple[str, str], Caption]()
+    for k in bind.tolist():
+        n = int(np.searchsorted(ends, k, side="right"))
+        place = ("B₀", highest_arm(region))[k - int(ends[n]) + 2] if families[n] in DWELLS else ""
+        found[families[n], place] = BOUNDS[families[n]].where(place=place)
+    bounds = joined(list(found.values()))
+    if region.givens.distance is not None:
+        return say("the place of the arc nearest to B₀ in the hatching, where the arc meets {bounds}", bounds=bounds)
+    if bind.size > 1:
+        return say("the corner of the hatching nearest to B₀, between {bounds}", bounds=bounds)
+    return say("the place of the hatching nearest to B₀, the foot of the perpendicular on {bounds}", bounds=bounds)
+
+
+def _result(region: ArmRegion, *, found: bool) -> Step:
+    c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
+    start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
+    said = say("No cam centre keeps all the limits.")
+    if c is not None:
+        said, circle = say("At this centre distance no cam centre keeps all the limits."), acts["circle of the centre"]
+        middle = centre.place if found else -length(c) * np.exp(0.2j)
+        arcs.append(arc_through(circle, middle * np.exp([-0.15j, 0.15j])))
+        parts.append(Part(say("Draw an arc of {paper:.1f} mm about C with the compass.", paper=length(c)), (circle,)))
+    reads = ("prime_radius", "distance") if found else ()
+    step = Step(
+        *(say("The least prime radius"), said, at_scale(REGION, region.givens.mu_l), tuple(arcs), reads),
+        why=say(
+            "Because the prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam."
+        ),
+    )
+    if not found:
+        return step
+    place, bind = _place(region), acts["lines that bind"]
+    line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
+    r0, away = (float(region.value(name)) for name in reads)
+    said = say("A is {place}. Join it to B₀ and C and measure: {sizes}.")
+    if c is not None:
+        said = say(
+            "Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm. A is {place}. Join it to B₀ and "
+            "C and measure: {sizes}."
+        ).where(paper=length(c), c=c)
+    sizes = say("AB₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and AC = {away:.2f} mm, so c = {c:.3f} mm").where(
+        paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away
+    )
+    parts.append(Part(say("Mark A, {place}.", place=place), (bind, centre)))
+    parts.append(Part(say("Join A to B₀ and C and measure: {sizes}.", sizes=sizes), (acts["prime radius"], line)))
     marks = (
-        *(region.acts["prime radius"].way(Role.LIMIT), centre.line_from(0j, Role.AXIS)),
+        *(*arcs, Segments(bind.shown, centre.place + 0 * bind.shown, Role.LIMIT, of=bind.act, index=bind.index)),
+        *(acts["prime radius"].way(Role.LIMIT), line.way(Role.AXIS)),
         *(centre.dots(Role.RESULT), centre.label("A", -UP)),
         Dimension(start.place, centre.place, say("r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act),
-        Dimension(centre.place, 0j, say("c = {c:.2f}", c=c), -8.0, region.readings["distance"].act),
+        Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, region.readings["distance"].act),
     )
-    return Step(title, said, shown, marks, reads)
+    return replace(step, caption=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))

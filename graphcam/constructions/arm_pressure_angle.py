@@ -6,12 +6,13 @@ senses on the rise, towards the pivot when in the same sense.  The angle of D A 
 angle.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphcam.constructions.arm_minimum_radius import arm_positions
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.adoption import adoption_step
+from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm_positions, stroke
+from graphcam.constructions.axes import station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import (
     ANGLES,
@@ -21,12 +22,12 @@ from graphcam.constructions.pressure_angle import (
     shown_station,
     velocity_plan,
 )
-from graphcam.constructions.views import PLAN, at_scale
-from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import UP, circles_meet
-from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Mark, Role
+from graphcam.constructions.views import PLAN, REGION, at_scale
+from graphcam.drafting.acts import Floats, Setting
+from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Construction, Part, Step, say
+from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
@@ -40,6 +41,9 @@ class ArmPressureAngleGivens(MeasuredGivens):
     arm: float
     distance: float
     mu_l: Scale
+
+
+ArmAngles = Construction[ArmPressureAngleGivens]
 
 
 MEANING = Meaning(
@@ -61,7 +65,7 @@ def arm_pressure_angle(
     distance: float,
     mu_l: Scale,
     pencil: Pencil,
-) -> Construction[ArmPressureAngleGivens]:
+) -> ArmAngles:
     """Measure the pressure angle at every station.
 
     integrated : of an angle s [rad]
@@ -88,57 +92,219 @@ def arm_pressure_angle(
 
 PLAN_ARM = 70.0
 """The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
+NORMAL = 9.0
+"""So much of the normal to each arm is drawn [mm]."""
+ACROSS = 0.2
+"""How far to both sides of the cam centre the arcs that find it are drawn [rad]."""
 
 
-def _draw(measured: Construction[ArmPressureAngleGivens]) -> list[Step]:
-    k, sigma, reading = shown_station(measured), sense(measured.givens.rotation), measured.readings["alpha"]
-    scale, alpha = standard_scale(measured.givens.arm, PLAN_ARM), float(np.degrees(measured.first("alpha")[k]))
-    plan, name = at_scale(PLAN, scale), station_names(measured.givens.integrated.givens.stations)[k]
-    # Turned so that the line of centres is level, with the cam centre at the origin.
-    hand, found = showing(measured), {name: left.first for name, left in measured.acts.items()}
-    centre, shrink = found["centre"], measured.givens.mu_l.per_mm / scale.per_mm
-    turn = -abs(centre.place) / centre.place * shrink
-    places = {"A": centre, "B": found["ends"][k], "C": found["pivot"], "D": found["tips"][k], "n": found["normals"][k]}
-    a, b, c, d, normal = (hand.enlarged(name, place, centre, turn) for name, place in places.items())
-    # The plan stands clear of the mechanism: v₁ lies across the radius, v₂ across the arm.
-    pole = hand.given("p", c.place.real + abs(b.place) * 0.6 + 12.0)
-    v1 = hand.lay_off("v₁", pole, hand.join("AB", a, b).turned(sigma * UP), between(a, b))
-    v2 = hand.lay_off("v₂", pole, hand.join("BD", b, d).turned(-sigma * UP), between(b, d))
-    across, along, v21 = v1.place - pole.place, v2.place - pole.place, hand.join("v₂₁", v1, v2)
-    closed = say(
-        "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
-        "has v₂ square to the arm, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
-    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
-    side = say("away from the pivot") if abs(d.place - c.place) >= abs(b.place - c.place) else say("towards the pivot")
-    laid_off = say(
-        "Turned by 90°, v₂ lies along the arm: {paper:.1f} mm of paper are laid off from B {side} to D, at {ratio} the "
-        "segment l·ds/dφ = {length:.2f} mm."
-    ).where(paper=abs(along), side=side, ratio=ratio_text(scale.per_mm), length=abs(along) * scale.per_mm)
-    measured_angle = say(
-        "The angle of DA with the arm's normal is the pressure angle at station {name}: {alpha:.2f}°, and the "
-        "transmission angle {transmission:.2f}°. Both are measured in every position of the arm."
-    ).where(name=name, alpha=alpha, transmission=90 - abs(alpha))
-    ray, long, shown = hand.join("DA", d, a), abs(d.place), say("α = {alpha:.1f}°", alpha=alpha)
-    start, end = (float(np.angle(line.directions)) for line in (normal, ray))
-    angle = (
-        ray.way(Role.LIMIT),
-        hand.lay_off("far on the normal", normal, normal, 0.7 * long).line_from(normal, Role.CONSTRUCTION),
-        angle_at(d.place, start, end, 0.6 * long, shown, reading.act),
-    )
+def _draw(measured: ArmAngles) -> list[Step]:
+    k, scale = shown_station(measured), standard_scale(measured.givens.arm, PLAN_ARM)
+    plan, decided, mu_l = _plan(measured, k, scale), measured.givens.adopted, measured.givens.mu_l
+    rounding = [adoption_step(decided(), "c", mu_l.per_mm, at_scale(REGION, mu_l))] if decided else []
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, v1, v2, v21)),
-        Step(say("The segment along the arm"), laid_off, plan, _mechanism(hand, a, b, c, d)),
-        Step(say("The pressure angle"), measured_angle, plan, angle, reads=("psi0", "alpha", "transmission")),
+        *rounding,
+        _centre(measured),
+        _mechanism(measured, plan, k, scale),
+        _velocities(measured, plan, k, scale),
+        _angle(measured, plan, k, scale),
+        _everywhere(measured, k),
     ]
 
 
-def _mechanism(hand: Hand, a: Drawn, b: Drawn, c: Drawn, d: Drawn) -> tuple[Mark, ...]:
-    """The arm CB with the segment BD along it, and the line of centres from the cam centre A."""
-    return (
-        c.line_from(a, Role.AXIS),
-        hand.join("CB", c, b).way(Role.CURVE),
-        hand.join("BD", b, d).way(Role.RESULT),
-        hand.join("AB", a, b).way(Role.CONSTRUCTION),
-        hand.take("A, B, C, D", a, b, c, d).dots(),
-        *(a.label("A", -1 - 1j), b.label("B", 1 + 1j), c.label("C", 1 - 1j), d.label("D", -1 + 1j)),
+def _centre(measured: ArmAngles) -> Step:
+    """The cam centre of the adopted sizes, and the angle of the line of centres."""
+    givens, acts, length = measured.givens, measured.acts, measured.givens.mu_l.paper
+    pivot, start, tips, centre = (acts[name] for name in ("pivot", "start", "tips", "centre"))
+    circles, sides = (acts["circle of the centre"], acts["prime circle"]), np.exp([-1j * ACROSS, 1j * ACROSS])
+    arcs = [arc_through(circle, circle.place + (centre.place - circle.place) * sides) for circle in circles]
+    radius = showing(measured).join("prime radius", start.first, centre.first)
+    psi0, line = float(np.degrees(measured.first("psi0"))), acts["line of centres"].first
+    begin, end = (float(np.angle(way.directions)) for way in (acts["arm at rest"].first, line))
+    angle = angle_at(pivot.place, begin, end, 0.3 * length(givens.arm), say("ψ₀ = {psi0:.2f}°", psi0=psi0), line.act)
+    sizes = {"c": givens.distance, "r0": givens.prime_radius}
+    sizes |= {"about_c": length(givens.distance), "about_b": length(givens.prime_radius), "psi0": psi0}
+    before = say("Go on in the drawing of the arm positions, where C, B₀ and the ends D of all stations lie.")
+    first = say("Draw an arc of {about_c:.1f} mm about C below the arm, for c = {c:g} mm.")
+    second = say(
+        "Cut it with an arc of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: the crossing below the arm is A."
+    )
+    third = say("Join C to A and measure the angle B₀CA with the protractor: ψ₀ = {psi0:.2f}°.")
+    said = say(
+        "In the drawing of the arm positions draw with the compass arcs of {about_c:.1f} mm about C, for c = {c:g} mm, "
+        "and of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: they cross below the arm in the cam centre A. Join C to "
+        "A and measure the angle B₀CA with the protractor: ψ₀ = {psi0:.2f}°."
+    )
+    marks = (
+        *(tips.dots(Role.CONSTRUCTION), *arcs),
+        *(radius.way(Role.LIMIT), line.way(Role.CONSTRUCTION), centre.dots(Role.RESULT)),
+        centre.label(say("A (r₀ = {r0:g})", r0=givens.prime_radius), -UP),
+        angle,
+    )
+    return Step(
+        *(say("The cam centre"), said.where(**sizes), at_scale(REGION, givens.mu_l), marks, ("psi0",)),
+        why=say("Because the cam centre is as far from C as the centre distance, and from B₀ as the prime radius."),
+        parts=(
+            Part(before, (start, tips)),
+            Part(first.where(**sizes), (circles[0],)),
+            Part(second.where(**sizes), (circles[1], centre, radius)),
+            Part(third.where(**sizes), (line,)),
+        ),
+    )
+
+
+def _carried(drawn: Construction, name: str, factor: float = 1.0) -> Setting:
+    """A reading as it is shown, times a factor."""
+    return Setting(drawn.first(name) * factor, reading=drawn.readings[name], factor=factor)
+
+
+def _clockwise(psi0: Floats, s: Floats) -> Floats:
+    """The angles from CA to the arm, counter-clockwise."""
+    return -(psi0 + s)
+
+
+def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
+    """The mechanism at a station with the line of centres level, and the velocity plan beside it."""
+    hand, givens, sigma = showing(measured), measured.givens, sense(measured.givens.rotation)
+    arm, (s, v) = givens.arm / scale.per_mm, (givens.integrated.readings[name].per_mm for name in "sv")
+    a = hand.given("A", 0j)
+    c = hand.lay_off("C", a, RIGHT, givens.distance / scale.per_mm)
+    angle = reckoned(_clockwise, _carried(measured, "psi0"), _carried(givens.integrated, "s", s))
+    b = hand.lay_off("B", c, hand.protractor("arms", c, hand.join("CA", c, a), angle), arm)
+    cb = hand.join("CB", c, b)
+    d = hand.lay_off("D", b, cb.turned(sigma), _carried(givens.integrated, "v", arm * v))
+    # The plan stands clear of the mechanism: v₁ lies across the radius, v₂ across the arm.
+    pole = hand.given("p", c.place.real + abs(b[k].place) * 0.6 + 12.0)
+    ab, bd = hand.join("AB", a, b), hand.join("BD", b, d)
+    v1 = hand.lay_off("v₁", pole, ab[k].turned(sigma * UP), between(a, b[k]))
+    v2 = hand.lay_off("v₂", pole, bd[k].turned(-sigma * UP), between(b[k], d[k]))
+    hand.join("v₂₁", v1, v2)
+    normal = hand.perpendicular("normal", cb[k], d[k])
+    hand.angle("alpha", normal, hand.join("DA", d[k], a))
+    return hand
+
+
+def _mechanism(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+    """The arm and the cam centre at the shown station, and the velocity along the arm."""
+    givens, (a, b, c, d) = measured.givens, (plan.acts[each] for each in "ABCD")
+    ab, bd, cb = (plan.acts[each] for each in ("AB", "BD", "CB"))
+    integrated, names = givens.integrated, station_names(givens.integrated.givens.stations)
+    psi0, s = (np.degrees(float(each)) for each in (measured.first("psi0"), integrated.value("s")[k]))
+    v, arm = float(integrated.first("v")[k]), givens.arm / scale.per_mm
+    factor = arm * integrated.readings["v"].per_mm
+    sizes = {"ratio": ratio_text(scale.per_mm), "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
+    sizes |= {"v": abs(v), "factor": factor, "bd": abs(v) * factor, "side": along_the_arm(sense(givens.rotation) * v)}
+    texts = (
+        say("Draw AC level, {ac:.1f} mm long, with C on the right."),
+        say("At C set off ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}° upwards from CA and lay off CB = {arm:.1f} mm."),
+        say("Join A to B."),
+        say("From B lay off {v:.2f} mm × {factor:.4g} = {bd:.2f} mm along the arm, {side}, to D."),
+    )
+    said = say(
+        "At {ratio} draw AC = {ac:.1f} mm level, with C on the right. At C set off the angle of the arm, ψ₀ + s = "
+        "{psi0:.2f}° + {s:.2f}° = {psi:.2f}°, upwards from CA with the protractor, and lay off the arm, CB = {arm:.1f} "
+        "mm. From B lay off l·ds/dφ along the arm {side} with the dividers, {v:.2f} mm × {factor:.4g} = {bd:.2f} mm, "
+        "to D."
+    )
+    marks = (
+        *(c.line_from(a, Role.AXIS), cb[k].way(Role.CURVE), bd[k].way(Role.RESULT), ab[k].way(Role.CONSTRUCTION)),
+        *(a.dots(), b[k].dots(), c.dots(), d[k].dots()),
+        *(a.label("A", -1 - 1j), b[k].label("B", 1 + 1j), c.label("C", 1 - 1j), d[k].label("D", -1 + 1j)),
+    )
+    draws = ((a, c), (cb[k], b[k]), (ab[k],), (bd[k], d[k]))
+    return Step(
+        say("The mechanism at station {name}", name=names[k]),
+        *(said.where(**sizes), at_scale(PLAN, scale), marks),
+        why=say(
+            "Because l·ds/dφ, the velocity of B turned by 90°, is a length along the arm, the velocities can be drawn "
+            "into the mechanism."
+        ),
+        parts=tuple(Part(text.where(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True)),
+    )
+
+
+def _velocities(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+    """The velocity plan at the shown station, and how its sides are turned from those of the mechanism."""
+    names, rotation = station_names(measured.givens.integrated.givens.stations), measured.givens.rotation
+    pole, v1, v2, v21 = (plan.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
+    across, along = v1.place - pole.place, v2.place - pole.place
+    sizes = {"across": abs(across), "along": abs(along), "closing": abs(along - across)}
+    sizes |= {"turn": turning(rotation), "back": turning("cw" if rotation == "ccw" else "ccw")}
+    texts = (
+        say("From p draw v₁ = AB = {across:.1f} mm: the direction of AB turned by 90° {turn}."),
+        say("From p draw v₂ = BD = {along:.1f} mm: the direction of BD turned by 90° {back}, square to the arm."),
+        say("Join the tips of v₁ and v₂: v₂₁ = {closing:.1f} mm."),
+    )
+    said = say(
+        "All velocities are divided by ω, so v₁ = ω·AB is drawn as long as AB. From a pole p draw with the set squares "
+        "v₁ = {across:.1f} mm, square to AB, as AB turned by 90° {turn}, and v₂ = BD = {along:.1f} mm, square to the "
+        "arm, as BD turned by 90° {back}. The line from the tip of v₁ to that of v₂ is v₂₁ = {closing:.1f} mm."
+    )
+    return Step(
+        say("Velocity plan at station {name}", name=names[k]),
+        *(said.where(**sizes), at_scale(PLAN, scale), velocity_plan(pole, v1, v2, v21)),
+        why=say(
+            "Because the velocity of the arm's end is that of the cam's point and the sliding along the profile "
+            "together, v₂ = v₁ + v₂₁."
+        ),
+        parts=tuple(
+            Part(text.where(**sizes), drawn) for text, drawn in zip(texts, ((pole, v1), (v2,), (v21,)), strict=True)
+        ),
+    )
+
+
+def _angle(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+    """The angle between the arm's normal and DA at the shown station."""
+    normal, ray, d = (plan.acts[name] for name in ("normal", "DA", "D"))
+    name, reading = station_names(measured.givens.integrated.givens.stations)[k], plan.readings["alpha"]
+    alpha, length, tip = float(np.degrees(reading.paper)), abs(d[k].place), d[k].place
+    sizes = {"name": name, "alpha": alpha, "transmission": 90 - abs(alpha)}
+    begin, end = (float(np.angle(line.directions)) for line in (normal, ray))
+    text = say("α = {alpha:.1f}°", alpha=alpha)
+    marks = (
+        *(ray.way(Role.LIMIT), stroke(normal, 0.7 * length)),
+        angle_at(tip, begin, end, 0.6 * length, text, ray.act),
+    )
+    said = say(
+        "At D draw the normal to the arm downwards, square to CD, with the set squares, and join D to A. The angle "
+        "from the normal to DA, measured with the protractor, is the pressure angle at station {name}: {alpha:.2f}°; "
+        "the transmission angle is 90° − |α| = {transmission:.2f}°."
+    )
+    square = say("At D draw the normal to the arm downwards, square to CD, with the set squares.")
+    measure = say("Join D to A and measure the angle from the normal to DA with the protractor: {alpha:.2f}°.")
+    return Step(
+        *(say("The pressure angle"), said.where(**sizes), at_scale(PLAN, scale), marks),
+        why=say(
+            "Because the plan turned by 90° is the triangle ABD: v₂ lies along BD, so DA is square to v₂₁ and has the "
+            "direction of the normal to the profile."
+        ),
+        parts=(Part(square, (normal,)), Part(measure.where(**sizes), (ray,))),
+    )
+
+
+def _everywhere(measured: ArmAngles, k: int) -> Step:
+    """The rays and the normals at all stations."""
+    names, alpha = station_names(measured.givens.integrated.givens.stations), np.degrees(measured.first("alpha"))
+    rays, normals = measured.acts["rays"], measured.acts["normals"]
+    down = normals.shown + NORMAL * unit(normals.first.directions)
+    strokes = Segments(normals.shown, down, Role.CONSTRUCTION, of=normals.act, index=normals.index)
+    begin, end = (float(np.angle(line.first[k].directions)) for line in (normals, rays))
+    shown = say("α = {alpha:.1f}°", alpha=alpha[k])
+    angle = angle_at(rays.first[k].place, begin, end, 4 * NORMAL, shown, rays.act)
+    angle = replace(angle, index=rays[k].index)
+    worst = int(np.nanargmax(np.abs(alpha)))
+    each = say(
+        "Ray {name}: draw the normal to arm {name} downwards from D{name}, join D{name} to A and measure the angle "
+        "from the normal to the ray: {alpha:.2f}°."
+    )
+    said = say(
+        "From every D draw the normal to its arm downwards with the set squares, join D to A and measure the angle "
+        "from the normal to DA with the protractor, positive anticlockwise. Station {name}: {alpha:.2f}°. Repeat for "
+        "the others. The least transmission angle is 90° − |α| = {least:.2f}°, at station {worst}."
+    ).where(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
+    return Step(
+        *(say("The pressure angle at every station"), said, at_scale(REGION, measured.givens.mu_l)),
+        *((strokes, rays.ways(Role.CONSTRUCTION), angle), ("alpha", "transmission")),
+        why=say("Because what holds at one station holds at all: only D and the arm differ, A is the same."),
+        parts=tuple(Part(each.where(name=name, alpha=alpha[n]), (normals[n], rays[n])) for n, name in enumerate(names)),
     )

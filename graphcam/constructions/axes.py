@@ -1,14 +1,16 @@
 """What every diagram over the cam angle has: its axes, the phases' limits and the stations' names."""
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arrow, Dimension, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation
@@ -28,13 +30,27 @@ SAME_LEVEL = 1e-6
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
+class OverStations(Protocol):
+    """What lies on a board on which the phases were divided."""
+
+    @property
+    def motion(self) -> Motion:
+        """The phases."""
+        ...
+
+    @property
+    def stations(self) -> Stations:
+        """Their parts."""
+        ...
+
+
 def turning(rotation: Rotation) -> Caption:
     """A sense of rotation in words.
 
     >>> str(turning("cw"))
     'clockwise'
     """
-    return say("clockwise") if rotation == "cw" else say("counter-clockwise")
+    return say("clockwise") if rotation == "cw" else say("anticlockwise")
 
 
 def station_names(stations: Stations) -> list[str]:
@@ -47,6 +63,52 @@ def station_names(stations: Stations) -> list[str]:
     ['0', '1', '2', '0′', '1′', '2′']
     """
     return [f"{k}" + "′" * phase for phase, span in enumerate(stations.phases) for k in range(span.stop - span.start)]
+
+
+def part_names(stations: Stations) -> list[str]:
+    """The parts' names, which their rays and chords bear too: each is called as the station at which it ends.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> from graphcam.given.stations import divide
+    >>> part_names(divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 2))
+    ['1', '2', '1′', '2′']
+    """
+    names = station_names(stations)
+    return [names[k + 1] for k in stations.left]
+
+
+def together(parts: Iterable[int], stations: Stations) -> str:
+    """The names of several parts, in order; of three or more neighbours in a phase the first and the last.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> from graphcam.given.stations import divide
+    >>> halves = divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 5)
+    >>> together([0, 1, 2, 4, 5, 6], halves)
+    '1-3, 5, 1′, 2′'
+    """
+    names, runs = part_names(stations), list[list[int]]()
+    starts = {parts.start for parts in stations.parts}
+    for part in parts:
+        if runs and part == runs[-1][-1] + 1 and part not in starts:
+            runs[-1].append(part)
+        else:
+            runs.append([part])
+    told = [f"{names[r[0]]}-{names[r[-1]]}" if len(r) > 2 else ", ".join(names[part] for part in r) for r in runs]
+    return ", ".join(told)
+
+
+def part_titles(drawn: Construction[OverStations]) -> list[Caption]:
+    """The parts of the moving phases, each named as the station at which it ends."""
+    names, stations = station_names(drawn.givens.stations), drawn.givens.stations
+    return [say("part {name}", name=names[k + 1]) for k in stations.left]
+
+
+def phase_names(drawn: Construction[OverStations]) -> list[Caption]:
+    """The moving phases, with the symbols of their angles."""
+    stations = drawn.givens.stations
+    return [phase_title(drawn.givens.motion, int(stations.phase[span.start])) for span in stations.phases]
 
 
 SYMBOLS = {
@@ -190,6 +252,18 @@ def numbers(
     return tuple(points.first[k].label(names[k], complex(ways[k]), small=True) for k in places)
 
 
+def height_names(heights: Drawn, names: Sequence[str]) -> tuple[Mark, ...]:
+    """Names beside heights on the vertical axis, on the side of the other axis but clear of it, as many as find room.
+
+    Those farthest from the origin come first, and so find the nearest places.
+    """
+    y, named = heights.shown.imag, list[int]()
+    for k in np.argsort(-np.abs(y), kind="stable").tolist():
+        if all(abs(y[k] - other) >= NUMBER_ROOM[1] for other in (0.0, *y[named])):
+            named.append(k)
+    return tuple(heights[k].label(names[k], 1 - (UP if y[k] > 0 else -UP), small=True) for k in named)
+
+
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:
     """The pieces of the rises (1) or of the returns (-1)."""
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
@@ -199,6 +273,23 @@ def once(heights: Drawn) -> list[int]:
     """Those of heights on an axis that no other shares: lines that would fall on one another are drawn once."""
     y = heights.shown.imag
     return [int(np.argmin(np.abs(y - level))) for level in np.unique(np.round(y, 3))]
+
+
+def as_high(heights: Floats) -> NDArray[np.intp]:
+    """For each of heights (..., n) the number of the first that is as high: what falls on it is not drawn again.
+
+    >>> as_high(np.array([3.0, 1.0, 3.0, -2.0, 1.0])).tolist()
+    [0, 1, 0, 3, 1]
+    """
+    level = np.round(heights, 9)
+    order = np.argsort(level, axis=-1, kind="stable")
+    ascending = np.take_along_axis(level, order, -1)
+    # In ascending order: where each run of equal heights begins.
+    begins = np.concatenate([np.ones_like(ascending[..., :1]), np.diff(ascending)], axis=-1) != 0
+    run = np.maximum.accumulate(np.where(begins, np.arange(level.shape[-1]), 0), axis=-1)
+    found = np.empty_like(order)
+    np.put_along_axis(found, order, np.take_along_axis(order, run, -1), -1)
+    return found
 
 
 def degrees(angle: float) -> Caption:

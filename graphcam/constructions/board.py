@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphcam.constructions.axes import degrees
 from graphcam.constructions.curvature import curvature
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
@@ -41,8 +42,8 @@ class DrawnFollower(ABC):
     divides_at_corners = False
     """Whether a corner of the acceleration must fall on a division, for the extremes may lie in it."""
     constructions: tuple[str, ...] = (
-        *("acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram"),
-        *("inversion", "curvature", "roller", "working_profile", "scheme"),
+        *("scheme", "acceleration", "integration", "minimum_radius", "pressure_angle", "angle_diagram"),
+        *("inversion", "curvature", "roller", "working_profile"),
     )
     """The names of what is drawn for it, in order."""
 
@@ -102,8 +103,30 @@ class DrawnFollower(ABC):
         """The follower with these sizes."""
 
     @abstractmethod
-    def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
-        """The follower in the scheme of the mechanism, at the start of the turn."""
+    def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
+        """The kinematic diagram: the follower low on a plain cam, with the sizes that the task gives."""
+
+    @abstractmethod
+    def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
+        """What the cam moves, and the sizes that the task gives, in sentences."""
+
+    def limited(self, limits: Limits) -> Caption:
+        """What the design must keep to, in a sentence."""
+        if limits.return_ is None:
+            return FORCE_CLOSED.where(rise=degrees(limits.rise))
+        return FORM_CLOSED.where(rise=degrees(limits.rise), back=degrees(limits.return_))
+
+
+FORCE_CLOSED = say(
+    "The pressure angle is to be at most {rise} on a rise; on a return a spring drives the follower (force closure), "
+    "and the angle is not limited."
+)
+FORM_CLOSED = say("The pressure angle is to be at most {rise} on a rise and {back} on a return.")
+
+
+def roller_given(roller_radius: float | None) -> list[Caption]:
+    """The radius of a roller in a sentence, where the task gives it."""
+    return [say("The roller radius is r = {radius:g} mm.", radius=roller_radius)] if roller_radius else []
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,14 +10,22 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphcam.constructions.acceleration import acceleration_diagram
-from graphcam.constructions.adoption import ROUNDING_SLACK, lies_in, multiple, nearest_multiple, steps_up
+from graphcam.constructions.adoption import (
+    ROUNDING_SLACK,
+    Adoption,
+    lies_in,
+    multiple,
+    nearest_multiple,
+    steps_up,
+)
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
 from graphcam.constructions.differentiation import measured_differentiation
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
-from graphcam.constructions.roller import roller_radius, working_profile
+from graphcam.constructions.roller import roller_radius
 from graphcam.constructions.scheme import scheme
+from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
@@ -68,6 +76,11 @@ class Chain(Drawings):
         return (*self.board.follower.constructions, *measured, *self.further)
 
     @DrawnOnce
+    def scheme(self) -> Construction:
+        """The kinematic diagram and the data."""
+        return scheme(self.board, self.pencil)
+
+    @DrawnOnce
     def acceleration(self) -> Construction:
         """The acceleration diagram."""
         board, unit = self.board, self.board.follower.unit
@@ -101,18 +114,22 @@ class Chain(Drawings):
     def pressure_angle(self) -> Construction:
         """The pressure angle at every station of the adopted cam."""
         follower, rotation = self.board.follower, self.board.rotation
-        return follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
+        drawn = follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
+        # Asked for only where the steps are told: the region of a given cam need not be drawn for its angles.
+        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted))
 
     @DrawnOnce
     def angle_diagram(self) -> Construction:
         """The pressure angle over the cam angle."""
-        return angle_diagram(self.pressure_angle, self.board.mu_phi, self.pencil)
+        return angle_diagram(self.pressure_angle, self.board.mu_phi, self.board.limits, self.pencil)
 
     @DrawnOnce
     def inversion(self) -> Construction:
         """The pitch curve of the adopted cam."""
         follower, rotation, scale = self.board.follower, self.board.rotation, self.profile_scale
-        return follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
+        drawn = follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
+        # Asked for only where the steps are told: the region of a given cam need not be drawn for its profile.
+        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted))
 
     @DrawnOnce
     def curvature(self) -> Construction:
@@ -127,12 +144,10 @@ class Chain(Drawings):
     @DrawnOnce
     def working_profile(self) -> Construction:
         """The profile that the roller runs on."""
-        return working_profile(self.inversion, self.roller_radius, self.pencil)
-
-    @DrawnOnce
-    def scheme(self) -> Construction:
-        """The mechanism at the start of the turn."""
-        return scheme(self.working_profile, self.board.follower)
+        # Where the task gives the roller nothing is rounded; a flat face has neither a roller nor a pressure angle.
+        rolled = self.roller if self.board.roller_radius is None and "roller" in self.names else None
+        measured = self.pressure_angle if "pressure_angle" in self.names else None
+        return working_profile(self.inversion, self.roller_radius, self.pencil, rolled, measured)
 
     # --- decisions ---------------------------------------------------------------------------------------------------
 
@@ -201,6 +216,14 @@ class Chain(Drawings):
         open_ = [self.prime_radius] if board.prime_radius is None else []
         open_ += [self.place] if board.follower.place is None else []
         return all(math.isclose(size, round(size / self.rounding) * self.rounding, rel_tol=1e-9) for size in open_)
+
+    def adopted(self) -> Adoption:
+        """How the prime radius and the place came about."""
+        board, region = self.board, self.perfect.minimum_radius
+        found = None if board.follower.place is not None else float(region.value(board.follower.place_name))
+        at_place = region if found is None else self.perfect._least_radius(self.place)
+        least, given = float(at_place.value("prime_radius")), board.prime_radius is not None
+        return Adoption(self.prime_radius, self.place, least, found, given, self.rounding)
 
     @cached_property
     def _adopted(self) -> tuple[float, float]:

@@ -14,21 +14,19 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.profile_view import Inverted
+from graphcam.constructions.sharpest_bend import centres_of, neighbours, resting_of, sharpest_of, turns_a_corner
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP, centre_of_circle, crossing, perpendicular_bisector
+from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Step, say
-from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning, sharpness
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
-from graphcam.given.laws import Floats
-from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving
-from graphcam.given.stations import Stations
-from graphcam.plane import cross, dot
-from graphcam.words import sequence
+from graphcam.given.motion import FULL_TURN
+from graphcam.words import Words, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +57,13 @@ LEAST_CURVATURE = {
     )
 }
 """The least radius of curvature, however it is found."""
+
+
+def _three_points(_: object) -> tuple[Words, ...]:
+    """What the points are called."""
+    return say("before B"), "B", say("after B")
+
+
 MEANING = Meaning(
     "curvature",
     say("Least radius of curvature"),
@@ -66,7 +71,7 @@ MEANING = Meaning(
         "Three near points of a curve determine the circle that fits it best. The least radius of curvature limits "
         "the roller."
     ),
-    {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad")},
+    {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
     "report.paragraphs.curvature",
 )
 
@@ -82,11 +87,11 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
     pitch, centre, nowhere = hand.found(inverted, "pitch"), hand.given("cam centre"), hand.given("nowhere", [np.nan])
     rests, angles = _rests(hand, inverted, pitch, centre)
-    places, corner = hand.take("places", pitch, rests, nowhere), _turns_a_corner(inverted)
+    places, corner = hand.take("places", pitch, rests, nowhere), turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
     of_rests = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
-    candidates = _neighbours(inverted), np.broadcast_to(of_rests, (*rests.points.shape[:-1], *of_rests.shape))
-    seen = [_sharpest(inverted, places.points, triples) for triples in candidates]
+    candidates = neighbours(inverted), np.broadcast_to(of_rests, (*rests.points.shape[:-1], *of_rests.shape))
+    seen = [sharpest_of(inverted, places.points, triples) for triples in candidates]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
     # Where nothing rests no arc is near, seen from any place.
     at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
@@ -116,58 +121,10 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     return hand.finished(CurvatureGivens(inverted, corner), _draw, {"triple": triple, "centre": o})
 
 
-Triples = NDArray[np.intp]
-"""(..., k, 3) which three points each: of those of the pitch curve, then of the rests, then one that is nowhere."""
-
-
-def _neighbours(inverted: Inverted) -> Triples:
-    """Every station with its neighbours, never across a jump of the acceleration.
-
-    Where the bisectors cross at less than a degree the second neighbours are taken in place of the first, or the
-    fourth, and so on: with very many parts the chords between neighbours hardly bend.
-    """
-    stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
-    middle = np.concatenate([np.arange(piece.start + 1, piece.stop - 1) for piece in stations.pieces])
-    within = [np.arange(1, piece.stop - piece.start - 1) for piece in stations.pieces]
-    reach = np.concatenate([np.minimum(inside, inside[::-1]) for inside in within])
-    step = np.ones((*pitch.shape[:-1], middle.size), dtype=np.intp)
-    while True:
-        at = np.stack([middle - step, middle + 0 * step, middle + step], axis=-1)
-        wider = np.isnan(_centres(inverted, _at(pitch, at))) & (2 * step <= reach)
-        if not wider.any():
-            return at
-        step = np.where(wider, 2 * step, step)
-
-
-INSTANT = math.radians(5)
-"""Three points of the arc of an instant's rest are taken so far apart."""
-NO_ACCELERATION = 1e-9
-"""Part of the greatest acceleration that is none."""
-
-
-def _resting(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
-    """After which station the follower rests, and how far round three places of its arc lie [rad].
-
-    Where two moving phases meet and the acceleration of either vanishes, it rests for an instant.
-    """
-    before = stations.phase[stations.last]
-    # What follows a moving phase is a dwell or the next moving phase; the last is followed by the first.
-    following = (before + 1) % len(motion.phases)
-    vanishes = _vanishes(motion, before, 1.0) | _vanishes(motion, following, 0.0)
-    found: list[tuple[int, Floats]] = []
-    for last, k, instant in zip(stations.last.tolist(), following, vanishes, strict=True):
-        phase = motion.phases[k]
-        if isinstance(phase, Dwell):
-            found.append((last, phase.angle * np.array([0.0, 0.5, 1.0])))
-        elif instant:
-            found.append((last, INSTANT * np.array([-1.0, 0.0, 1.0])))
-    return found
-
-
 def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
     """Three points on the arc of each rest, and the places of all points on the axis of the cam angle."""
     integrated = inverted.givens.integrated.givens
-    resting = _resting(integrated.motion, integrated.stations)
+    resting = resting_of(integrated.motion, integrated.stations)
     last = np.array([after for after, _ in resting], dtype=np.intp)
     turns, each = np.ravel([turn for _, turn in resting]), np.repeat(np.arange(last.size), 3)
     arcs = hand.circle("arcs of the rests", centre, between(centre, pitch[last]))
@@ -178,70 +135,12 @@ def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple
     return hand.cross("rests", rays, arcs[each]), hand.take("axis", axis, beyond)
 
 
-def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.bool_]:
-    """Of which phases the given acceleration is zero at the end u; of a dwell too."""
-    ends = [motion.phases[k] for k in phases]
-    greatest = [p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, Moving) else 0.0 for p in ends]
-    return np.abs(motion.at(phases, u)[2]) <= NO_ACCELERATION * np.array(greatest)
-
-
-def _at(points: Points, at: Triples) -> Points:
-    return np.take_along_axis(points[..., None, :], at, -1)
-
-
-def _centres(inverted: Inverted, triples: Points) -> Points:
-    """The centres of the circles through three points (..., 3); NaN where the bisectors cross at less than a degree.
-
-    In a drawing that is divided again to see what finer parts would change, every crossing counts.
-    """
-    a, b, c = np.moveaxis(triples, -1, 0)
-    if inverted.givens.integrated.givens.stations.refine > 1:
-        return crossing(*perpendicular_bisector(a, b), *perpendicular_bisector(b, c))
-    return centre_of_circle(a, b, c)
-
-
-def _sharpest(inverted: Inverted, points: Points, triples: Triples) -> tuple[NDArray[np.intp], Floats]:
-    """(..., 3) which of the triples of points (..., m) looks bent most, and the radius on paper.
-
-    The radius is infinite where no bend is convex, NaN where none can be read.
-    """
-    none = np.full_like(triples, points.shape[-1] - 1, shape=(*triples.shape[:-2], 1, 3))
-    triples = np.concatenate([triples, none], axis=-2)
-    shown = _at(points, triples)
-    a, b, c = np.moveaxis(shown, -1, 0)
-    centres = _centres(inverted, shown)
-    # Numbered against the rotation, a convex curve turns the other way than the cam.
-    convex = sense(inverted.givens.rotation) * cross(b - a, c - b) < 0
-    radii = np.where(np.isnan(centres), np.nan, np.where(convex, np.abs(centres - b), np.inf))
-    best = np.argmin(np.where(np.isnan(radii), np.inf, radii), axis=-1)[..., None]
-    return np.take_along_axis(triples, best[..., None], -2)[..., 0, :], np.fmin.reduce(radii, axis=-1)
-
-
-CORNER = math.radians(45)
-"""A curve that turns by so much more than the follower does between a rest and the next point has a corner there."""
-
-
-def _turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
-    """Whether the pitch curve turns inwards by more than can be read between the end of a phase and the next point.
-
-    Where the follower rests the curve runs square to the ray from the cam centre.
-    """
-    stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
-    ends = np.array([[span.start, span.stop - 1] for span in stations.phases]).ravel()
-    onwards = np.tile([1, -1], len(stations.phases))
-    end, following = pitch[..., ends], pitch[..., ends + onwards]
-    chord, along = following - end, -sense(inverted.givens.rotation) * onwards * UP * end
-    # The chord of an arc about the cam centre leaves it by half of what the cam has turned.
-    by_turning = np.abs(np.angle(following * end.conj())) / 2
-    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER), axis=-1)
-
-
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 DETAIL = 70.0
 """The detail is enlarged to the largest standard scale at which the radius of curvature is not longer [mm]."""
-READABLE_STEP = math.radians(10)
-"""Over a smaller step of the cam angle a hand's error outweighs the bend."""
+CAREFUL = 0.15
+"""By so much a careful hand misses a point [mm]."""
 ONLY_RESTS = say(
     "In the moving phases no bend is readable, for too few points stand between the jumps of the acceleration: only "
     "the rests are compared. More parts are needed."
@@ -249,50 +148,184 @@ ONLY_RESTS = say(
 """What is said where the radius of the moving phases is not known."""
 
 
-def _draw(curved: Curved) -> list[Step]:
-    inverted = curved.givens.inverted
+@dataclass(frozen=True, eq=False)
+class Detail:
+    """The sharpest place in a view of its own, with B at the origin.
+
+    hand : draws there;  per_mm : its scale [mm/mm];  times : so many times as large as the profile
+    triple : B between its neighbours;  hub : the centre of curvature O
+    """
+
+    hand: Hand
+    view: View
+    per_mm: float
+    times: float
+    triple: Drawn
+    hub: Drawn
+
+
+def detail_of(curved: Curved) -> Detail | None:
+    """The detail, or None where no bend is readable."""
     if np.isnan(curved.first("centre")):
-        return [Step(say("Curvature at the sharpest place"), _unreadable(curved), PROFILE, ())]
+        return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     scale = standard_scale(float(curved.value("rho")), DETAIL)
-    curvature, times = at_scale(CURVATURE, scale), inverted.givens.mu_l.per_mm / scale.per_mm
-    detail, hub = (hand.enlarged(d.act.name, d, triple[1], times) for d in (triple, o))
-    first, second = np.abs(np.diff(detail.shown))
-    place, names = _named(curved)
-    sharpest = say(
-        "The sharpest place is B, {place}, at φ = {phi:.1f}°. The chords to its neighbours are drawn enlarged, at "
-        "{ratio}: {first:.2f} mm and {second:.2f} mm. {spread}"
-    ).where(place=place, phi=np.degrees(curved.first("phi")[1] % FULL_TURN), ratio=ratio_text(scale.per_mm))
-    named = [detail[k].label(name, -hub.place) for k, name in enumerate((names[0], "B", names[1]))]
-    chords = (detail.line(Role.CURVE), detail.dots(), *named)
-    bisected = say("The chords are bisected; the perpendiculars meet in O, the centre of curvature.")
-    measured = say(
-        "OB measures {paper:.2f} mm, so the least radius of curvature of the pitch curve is ρ = {rho:.3f} mm."
-    ).where(paper=abs(hub.place), rho=curved.value("rho"))
-    marked = say("On the profile the centre of curvature of the sharpest place is marked.")
-    ob = hand.join("OB", o, triple[1])
-    on_profile = (
-        *(Line(np.array([o.place, triple[1].place]), Role.LIMIT, of=ob.act), o.dots(Role.LIMIT)),
-        o.label("O", o.place - triple[1].place),
+    times = curved.givens.inverted.givens.mu_l.per_mm / scale.per_mm
+    shown, hub = (hand.enlarged(drawn.act.name, drawn, triple[1], times) for drawn in (triple, o))
+    return Detail(hand, at_scale(CURVATURE, scale), scale.per_mm, times, shown, hub)
+
+
+def _draw(curved: Curved) -> list[Step]:
+    detail = detail_of(curved)
+    if detail is None:
+        title, why = say("Curvature at the sharpest place"), say("Because three points on a line lie on no circle.")
+        return [Step(title, _unreadable(curved), PROFILE, (), why=why)]
+    return [_chords(curved, detail), _bisected(curved, detail), _measured(curved, detail), _on_profile(curved)]
+
+
+def _chords(curved: Curved, detail: Detail) -> Step:
+    """Three points of the sharpest place and their chords, in the detail."""
+    (before, after), triple = _neighbours_named(curved), detail.triple
+    first, second = np.abs(np.diff(triple.shown))
+    phi, points = curved.first("phi"), say("B and both ends of the arc")
+    if before:
+        points = say("{before}, B and {after}", before=before, after=after)
+    said = say(
+        "Look along the pitch curve for its strongest bend outward and call that place B: here {place}, at φ = "
+        "{phi:.1f}°. Copy {points} with dividers to a free place, {copied}, and join them: the chords measure "
+        "{first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the cam angle."
+    ).where(
+        place=_place(curved),
+        phi=np.degrees(phi[1] % FULL_TURN),
+        points=points,
+        copied=_copied(detail),
+        first=first,
+        second=second,
+        step=np.degrees(phi[2] - phi[0]),
     )
-    enlarging = sharpest.where(first=first, second=second, spread=_spread(curved))
-    return [
-        Step(say("Chords at the sharpest place"), enlarging, curvature, chords, reads=("phi",)),
-        Step(say("Perpendicular bisectors"), bisected, curvature, _bisectors(curved, hand, detail, times)),
-        Step(say("Radius of curvature"), measured, curvature, _radius(curved, hand, detail, hub)),
-        Step(say("Centre of curvature on the profile"), marked, PROFILE, on_profile, reads=("rho",)),
+    more = [*_missed(curved), *([ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else [])]
+    why = say(
+        "Because three near points of a curve determine the circle that fits it best, and the roller is limited by the "
+        "smallest such circle of the pitch curve."
+    )
+    chords = detail.hand.join("chords", triple[:2], triple[1:])
+    marks = (
+        *(chords.ways(Role.CURVE), triple.dots()),
+        *(triple[k].label(name, -detail.hub.place) for k, name in enumerate((before, "B", after))),
+    )
+    copies = say("Copy B and the points on both sides of it with dividers, {copied}.", copied=_copied(detail))
+    joined = say("Join them with a ruler: {first:.2f} mm and {second:.2f} mm.", first=first, second=second)
+    parts = (Part(copies, (triple,)), Part(joined, (chords,)))
+    title = say("Chords at the sharpest place")
+    return Step(title, sequence([said, *more], " "), detail.view, marks, reads=("phi",), why=why, parts=parts)
+
+
+def _copied(detail: Detail) -> Caption:
+    """How large the detail is beside the profile."""
+    ratio = ratio_text(detail.per_mm)
+    if math.isclose(detail.times, 1):
+        return say("at the same scale, {ratio}", ratio=ratio)
+    if detail.times < 1:
+        return say("reduced to 1/{times:g}, at {ratio}", times=round(1 / detail.times, 4), ratio=ratio)
+    return say("enlarged to {times:g} times its size, at {ratio}", times=round(detail.times, 4), ratio=ratio)
+
+
+def _missed(curved: Curved) -> list[Caption]:
+    """What so short chords may miss by, and what chords twice as wide would read; nothing of the arc of a rest.
+
+    A hand that misses every point by sigma scatters rho by the root of six times sigma rho/h^2, on chords h: nine
+    hands of ten read it within four times sigma rho/h^2.
+    """
+    places, mu_l = curved.acts["triple"].first, curved.givens.inverted.givens.mu_l.per_mm
+    chord, rho = float(np.abs(np.diff(places.shown)).mean()), float(curved.value("rho"))
+    missed = 4 * CAREFUL * rho / mu_l / chord**2
+    if _chosen(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
+        return []
+    said = say(
+        "If every point may be {careful:g} mm beside its place, ρ may be wrong by {missed}: 4 × {careful:g} mm × ρ/h², "
+        "with h = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
+    ).where(careful=CAREFUL, missed=_percent(missed), chord=chord, rho=rho / mu_l)
+    wide = _twice_as_wide(curved)
+    if wide is None:
+        return [said]
+    names, other = wide
+    wider = say(
+        "Chords twice as wide, over {names}, miss by a quarter of that; but the bend changes along them, and they read "
+        "ρ = {other:.1f} mm instead of {rho:.1f} mm. {advice}"
+    )
+    by_hand, keep = say("By hand these are the better ones."), say("So the short ones are the better ones.")
+    advice = by_hand if abs(other - rho) < 0.75 * missed * rho else keep
+    return [said, wider.where(names=sequence(names), other=other, rho=rho, advice=advice)]
+
+
+def _percent(part: float) -> Caption:
+    """An error as part of what is measured."""
+    return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than itself")
+
+
+def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
+    """The stations of chords twice as wide on the same smooth piece, and the radius [mm] that they read."""
+    inverted, (i, k, j) = curved.givens.inverted, _chosen(curved)
+    stations, pitch, step = inverted.givens.integrated.givens.stations, inverted.acts["pitch"].shown, k - i
+    pieces = [piece for piece in stations.pieces if piece.start <= i < j < piece.stop]
+    # About B, or with one of its neighbours in the middle.
+    wide = [np.array([m - 2 * step, m, m + 2 * step]) for m in (k, j, i)]
+    for at in (at for at in wide for piece in pieces if piece.start <= at[0] and at[2] < piece.stop):
+        radius = float(np.abs(centres_of(inverted, pitch[at]) - pitch[at[1]])) * inverted.givens.mu_l.per_mm
+        return None if np.isnan(radius) else ([station_names(stations)[each] for each in at], radius)
+    return None
+
+
+def _bisected(curved: Curved, detail: Detail) -> Step:
+    """The perpendicular bisectors of the chords, and O where they meet."""
+    lines, settings = _bisectors(curved, detail)
+    said = say(
+        "Set the compass to {first:.1f} mm ({share:g} of the first chord), strike arcs about both of its ends that "
+        "cross on either side of it, and draw the line through the two crossings. Do the same with {second:.1f} mm on "
+        "the second chord. The two lines meet in O, the centre of curvature."
+    ).where(first=settings[0], second=settings[1], share=COMPASS)
+    why = say("Because the centre of a circle is as far from one end of a chord as from the other.")
+    drawn = say("Chord {number}: compass {setting:.1f} mm about both ends; draw the line through the two crossings.")
+    halves = [
+        Part(drawn.where(number=k + 1, setting=setting), of)
+        for k, ((_, of), setting) in enumerate(zip(lines, settings, strict=True))
     ]
+    hub, marks = detail.hub, [mark for made, _ in lines for mark in made]
+    found = Part(say("Call the place where both lines meet O."), (hub,))
+    title, all_marks = say("Perpendicular bisectors"), (*marks, hub.dots(Role.RESULT), hub.label("O", hub.place))
+    return Step(title, said, detail.view, all_marks, why=why, parts=(*halves, found))
 
 
-def _spread(curved: Curved) -> Caption:
-    """What step of the cam angle the chords span, and what that is worth."""
-    phi = curved.first("phi")
-    said = [say("They span {step:.3g}° of the cam angle.", step=np.degrees(phi[2] - phi[0]))]
-    if phi[2] - phi[0] < READABLE_STEP:
-        said.append(say("Over so small a step a hand's error is large."))
-    if np.isnan(curved.first("rho_candidates")[0]):
-        said.append(ONLY_RESTS)
-    return sequence(said, " ")
+def _measured(curved: Curved, detail: Detail) -> Step:
+    """The radius, and the arc that shows how well it fits."""
+    said = say(
+        "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the least radius of curvature of the "
+        "pitch curve is ρ = {rho:.3f} mm. Check with the compass: the arc about O through B passes through the points "
+        "beside it and hugs the curve."
+    ).where(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
+    why = say("Because the circle through the three points replaces the curve near B, and its radius is OB.")
+    marks, ob, circle = _radius(curved, detail)
+    parts = (
+        Part(say("Join O to B and measure it: {paper:.2f} mm.", paper=abs(detail.hub.place)), (ob,)),
+        Part(say("Set the compass to OB and swing the arc about O through the three points."), (circle,)),
+    )
+    return Step(say("Radius of curvature"), said, detail.view, marks, why=why, parts=parts)
+
+
+def _on_profile(curved: Curved) -> Step:
+    """O and B where they lie on the profile."""
+    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
+    ob, b = hand.join("OB", o, triple[1]), triple[1]
+    said = say(
+        "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
+        "centre turns about it while the roller passes B."
+    ).where(paper=abs(b.place - o.place))
+    why = say("Because there it is seen how much of the cam is left between the roller and O.")
+    marks = (
+        Line(np.array([o.place, b.place]), Role.LIMIT, of=ob.act, index=ob.index.repeat(2)),
+        *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),
+    )
+    return Step(say("Centre of curvature on the profile"), said, PROFILE, marks, reads=("rho",), why=why)
 
 
 def _unreadable(curved: Curved) -> Caption:
@@ -305,54 +338,78 @@ def _unreadable(curved: Curved) -> Caption:
     return say("No bend is readable: the bisectors of neighbouring chords cross at less than a degree.")
 
 
-def _named(curved: Curved) -> tuple[Caption, tuple[str, str]]:
-    """What the middle place of three is called, and its two neighbours."""
-    integrated = curved.givens.inverted.givens.integrated.givens
+def _chosen(curved: Curved) -> list[int]:
+    """Which three places were taken: numbers of stations, then of places of the rests."""
+    return np.atleast_2d(curved.acts["triple"].act.takes["which"])[0].tolist()
+
+
+def _place(curved: Curved) -> Caption:
+    """What the middle place of three is called."""
+    integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen(curved)[1]
     motion, stations = integrated.motion, integrated.stations
-    names, at = station_names(stations), np.atleast_2d(curved.acts["triple"].act.takes["which"])[0]
-    if at[1] < len(names):
-        return say("station {name}", name=names[at[1]]), (names[at[0]], names[at[2]])
-    last, turns = _resting(motion, stations)[(at[1] - len(names)) // 3]
+    names = station_names(stations)
+    if k < len(names):
+        return say("station {name}", name=names[k])
+    last, turns = resting_of(motion, stations)[(k - len(names)) // 3]
     if turns[1]:  # no stations in dwells
         dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
-        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell)), ("", "")
+        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell))
     resting = say("station {name}, where the follower rests for an instant on an arc about the cam centre")
-    return resting.where(name=names[last]), ("", "")
+    return resting.where(name=names[last])
 
 
-def _bisectors(curved: Curved, hand: Hand, detail: Drawn, times: float) -> tuple[Mark, ...]:
-    """The lines from beyond the middles of the chords to the centre, and the arcs of the compass that found them."""
+def _neighbours_named(curved: Curved) -> tuple[str, str]:
+    """What the places beside the middle one are called; in a rest nothing."""
+    names, (i, _, j) = station_names(curved.givens.inverted.givens.integrated.givens.stations), _chosen(curved)
+    return (names[i], names[j]) if j < len(names) else ("", "")
+
+
+Bisected = tuple[list[Mark], tuple[Drawn, ...]]
+"""The marks of one bisector, and what they are of."""
+
+
+def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[float]]:
+    """Of each chord the line from beyond its middle to O, with the arcs of the compass, and what they are of.
+
+    Also what the compass is set to for each [mm].
+    """
+    hand, triple = detail.hand, detail.triple
     best = int(np.ravel(curved.acts["centre"].act.takes["which"])[0])
-    origin = curved.acts["triple"].first[1]
-    drawn = [curved.acts[f"{which} bisectors"].first[best] for which in ("first", "second")]
-    lines = [hand.enlarged(line.act.name, line, origin, times) for line in drawn]
+    origin, found, settings = (
+        curved.acts["triple"].first[1],
+        list[tuple[list[Mark], tuple[Drawn, ...]]](),
+        list[float](),
+    )
+    bisectors = [curved.acts[f"{which} bisectors"].first[best] for which in ("first", "second")]
+    lines = [hand.enlarged(line.act.name, line, origin, detail.times) for line in bisectors]
     hub = hand.cross("O", *lines).place
-    marks = list[Mark]()
     for k, line in enumerate(lines):
-        a, b, middle = detail[k], detail[k + 1], line.place
+        a, b, middle = triple[k], triple[k + 1], line.place
         ends = np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06])
-        marks.append(Line(ends, Role.CONSTRUCTION, of=line.act))
         setting = reckoned(partial(np.multiply, COMPASS), between(a, b))
         arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
+        marks: list[Mark] = [Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))]
         for meeting, arc in product((hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])), arcs):
             to, radius = float(np.angle(meeting.place - arc.place)), float(np.asarray(arc.radius))
-            marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act))
-    return tuple(marks)
+            marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act, index=arc.index))
+        found.append((marks, (*arcs, line)))
+        settings.append(float(setting.amount))
+    return found, settings
 
 
-def _radius(curved: Curved, hand: Hand, detail: Drawn, hub: Drawn) -> tuple[Mark, ...]:
-    """The radius of curvature, from the centre to the middle place, and a little of its circle."""
-    ob, read = hand.join("OB", hub, detail[1]), curved.readings["rho"]
-    circle = hand.circle("circle of curvature", hub, between(hub, detail[1]))
-    before, middle, after = detail.shown - hub.place
+def _radius(curved: Curved, detail: Detail) -> tuple[tuple[Mark, ...], Drawn, Drawn]:
+    """The radius of curvature, from the centre to the middle place, and a little of its circle; with both acts."""
+    hand, triple, hub = detail.hand, detail.triple, detail.hub
+    ob, read = hand.join("OB", hub, triple[1]), curved.readings["rho"]
+    circle = hand.circle("circle of curvature", hub, between(hub, triple[1]))
+    before, middle, after = triple.shown - hub.place
     turn, wide = float(np.angle(middle)), max(abs(float(np.angle(end / middle))) for end in (before, after))
     # The circle is shown a little beyond the chords.
     low, high = turn - 1.6 * wide, turn + 1.6 * wide
     said = say("ρ = {rho:.2f}", rho=float(curved.value("rho")))
-    return (
-        Line(np.array([hub.place, detail[1].place]), Role.LIMIT, of=ob.act),
-        Arc(hub.place, abs(hub.place), low, high, Role.CONSTRUCTION, of=circle.act),
-        hub.dots(Role.RESULT),
-        hub.label("O", hub.place),
+    marks = (
+        Line(np.array([hub.place, triple[1].place]), Role.LIMIT, of=ob.act, index=ob.index.repeat(2)),
+        Arc(hub.place, abs(hub.place), low, high, Role.CONSTRUCTION, of=circle.act, index=circle.index),
         Label(hub.place / 2, said, hub.place * UP, of=read.act),
     )
+    return marks, ob, circle

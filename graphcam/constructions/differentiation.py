@@ -6,17 +6,19 @@ right to second order; by tangents to the station itself.  The scales follow as 
 mu_a = mu_v/(mu_phi H2).
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, once, pole_marks
+from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, pole_marks
+from graphcam.constructions.slope_numbers import every_kth, falling_together, ray_numbers, row_numbers
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -56,6 +58,11 @@ class DifferentiationGivens:
     by: By
 
 
+def _cam_angles(at: str, drawn: Construction[DifferentiationGivens]) -> list[Caption]:
+    """Where a derivative is found: between stations."""
+    return [say("φ = {phi:.4g}°", phi=phi) for phi in np.degrees(drawn.value(at))]
+
+
 MEANING = Meaning(
     "differentiation",
     say("Velocity and acceleration by differentiation"),
@@ -64,8 +71,8 @@ MEANING = Meaning(
         "in the middle of the interval. Differentiation enlarges every error of the hand."
     ),
     {
-        "v": ReadingMeaning(say("velocity v"), "v", "lift/rad"),
-        "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
+        "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", over=partial(_cam_angles, "v_at")),
+        "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²", over=partial(_cam_angles, "a_at")),
         "max_v": ReadingMeaning(say("greatest v"), "max v", "lift/rad"),
         "max_a": ReadingMeaning(say("greatest a"), "max a", "lift/rad²"),
     },
@@ -214,66 +221,191 @@ def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-_TRACED: dict[By, tuple[Caption, Caption]] = {
+READABLE, READABLE_ANGLE = 0.005, 0.05
+"""Lengths [mm] and angles [degrees] of less are not told: they are nothing."""
+
+_TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
     "chords": (
         say("Chords of {source}"),
-        say("The ends of neighbouring ordinates of {source} are joined by chords, {count} of them."),
+        say("With the ruler join each point of {source} to the next one, and number the chords."),
+        say("Because the mean slope of {source} over a part is very nearly its slope in the middle of the part."),
     ),
     "tangents": (
         say("Tangents to {source}"),
         say(
-            "At each of the {count} stations a mirror is set across the curve of {source} and turned until the curve "
-            "runs into its image without a corner: it stands on the normal, and the tangent is drawn across it."
+            "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its image "
+            "without a corner: it stands on the normal. Draw the tangent square to it, and number it."
         ),
+        say("Because the tangent has the slope of {source} at its point, and a mirror shows it better than the eye."),
     ),
 }
-_RAYS: dict[By, Caption] = {
+_ONE_TRACE: dict[By, Caption] = {
+    "chords": say("Chord {name} runs from {start} to {end}, {run:.2f} mm across and {climb}."),
+    "tangents": say("Tangent {name}, square to the mirror at point {name}, {lean}."),
+}
+_ONE_RAY: dict[By, Caption] = {
     "chords": say(
-        "The pole P{index} lies H{index} = {pole:.1f} mm to the left on the axis. Through it a ray is drawn parallel "
-        "to each of the chords; what it cuts off on the vertical axis is the ordinate of {target} in the middle of its "
-        "interval."
+        "Slide the set square from chord {name} to P{index}: ray {name} ends on the vertical axis, {height}. With the "
+        "T-square carry that level to the upright in the middle of chord {name}: point {name} of {target}."
     ),
     "tangents": say(
-        "The pole P{index} lies H{index} = {pole:.1f} mm to the left on the axis. Through it a ray is drawn parallel "
-        "to each of the tangents; what it cuts off on the vertical axis is the ordinate of {target} at its station."
+        "Slide the set square from tangent {name} to P{index}: ray {name} ends on the vertical axis, {height}. With "
+        "the T-square carry that level to the upright of station {name}: point {name} of {target}."
     ),
 }
+_REPEAT = say("Repeat for the others, {count} in all.")
+
+
+@dataclass(frozen=True, eq=False)
+class _Pass:
+    """One differentiation as it is drawn: which one, and what it makes of what."""
+
+    c: Construction[DifferentiationGivens]
+    number: int
+    source: str
+    target: str
+
+    def drawn(self, name: str) -> Drawn:
+        """What an act of this pass left, in the first sample."""
+        return self.c.acts[f"{name} {self.number}"].first
+
+    @property
+    def first(self) -> int:
+        """The number of the first slope: chords are numbered from 1, the points of the tangents from 0."""
+        return int(self.c.givens.by == "chords")
+
+    @property
+    def steepest(self) -> int:
+        """The slope that is worked in full."""
+        return int(np.argmax(np.abs(self.drawn("heights").shown.imag)))
+
+    def said(self, k: int) -> dict[str, Any]:
+        """What captions say of the slope of that index, and of its ray."""
+        way, points = complex(self.drawn("slopes").directions[k]), self.c.acts[self.source].shown.size
+        begin = k + (self.first if self.number == 2 else 0)
+        after, beyond = say("point {name}", name=begin + 1), say("point {name} of the next turn")
+        return {
+            "source": self.source,
+            "target": self.target,
+            "index": f"{self.number}".translate(SUBSCRIPTS),
+            "name": f"{self.first + k}",
+            "start": say("point {name}", name=begin),
+            "end": after if k + 1 < points else beyond.where(name=begin + 1 - points),
+            "run": way.real,
+            "climb": _raised(way.imag, say("level")),
+            "lean": _lean(math.degrees(np.angle(way))),
+            "height": _raised(float(self.drawn("heights").shown[k].imag), say("at the origin")),
+        }
+
+
+def _raised(mm: float, nothing: Caption) -> Caption:
+    """How far up or down."""
+    if abs(mm) < READABLE:
+        return nothing
+    return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
+
+
+def _lean(angle: float) -> Caption:
+    if abs(angle) < READABLE_ANGLE:
+        return say("is level")
+    return say("rises at {angle:.1f}°", angle=angle) if angle > 0 else say("falls at {angle:.1f}°", angle=-angle)
 
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
-    return [_draw_source(c), *_draw_pass(c, "s", "v", 1), *_draw_pass(c, "v", "a", 2), _draw_scales(c)]
+    runs = _Pass(c, 1, "s", "v"), _Pass(c, 2, "v", "a")
+    return [_draw_source(c), *(draw(run) for run in runs for draw in (_traced, _with_rays, _joined)), _draw_scales(c)]
 
 
 def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
-    s, x = c.acts["s"], c.givens.x
-    plotted = (*_axes(c, "s"), s.dots(), s.from_(c.acts["stations"], Role.CONSTRUCTION))
-    said = say_many(
-        "The displacement is plotted at {count} station.", "The displacement is plotted at {count} stations.", x.size
+    s, stations, mu_s = c.acts["s"].first, c.acts["stations"].first, c.givens.mu_s
+    k = int(np.argmax(np.abs(s.shown.imag)))
+    below = row_numbers(stations, 0, np.full(s.shown.shape, -UP))
+    plotted = (*_axes(c, "s"), s.dots(), s.from_(stations, Role.CONSTRUCTION), *below)
+    plotted_at = say_many(
+        "The displacement is plotted at {count} station.",
+        "The displacement is plotted at {count} stations.",
+        s.shown.size,
     )
+    said = say(
+        "Mark them on the axis, 1 mm = {degrees:.4g}°, and number them from 0. Raise the displacement at each, 1 mm = "
+        "{mu:.4g} {unit}: station {name} lies {x:.2f} mm from the origin, and its ordinate is {y:.2f} mm. Join the "
+        "ends by a smooth curve with the French curve."
+    ).where(name=k, x=stations.shown[k].real, y=s.shown[k].imag, unit=unit(mu_s.unit), mu=mu_s.per_mm)
+    told = [plotted_at, said.where(degrees=math.degrees(c.givens.mu_phi.per_mm))]
     if c.givens.turn:
-        said = sequence([said, say("After the last of them the revolution goes on with the first.")], " ")
-    return Step(say("The displacement"), said, _view(c, "s"), (*plotted, _curve(c, "s")), given=plotted)
+        told.append(say("After the last station the next turn begins with station 0."))
+    why = say("Because the velocity is the slope of the displacement, and only a curve has a slope.")
+    marks = (*plotted, _curve(c, "s"))
+    return Step(say("The displacement"), sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why)
 
 
-def _draw_pass(c: Construction[DifferentiationGivens], source: str, target: str, number: int) -> list[Step]:
-    derived, distance, by = c.acts[target], c.givens.poles[number - 1], c.givens.by
-    rays, heights, index = c.acts[f"rays {number}"], c.acts[f"heights {number}"], f"{number}".translate(SUBSCRIPTS)
-    title, traced = (said.where(source=source, count=derived.shown.size) for said in _TRACED[by])
-    kept, titled = once(heights), say("Pole and rays, {source} to {target}", source=source, target=target)
-    axes = (*_axes(c, target), *pole_marks(c.acts[f"P{number}"], distance, index, heights.shown.imag))
+def _traced(run: _Pass) -> Step:
+    """The chords, or short pieces of the tangents."""
+    c, slopes, by = run.c, run.drawn("slopes"), run.c.givens.by
+    places, along, outward = slopes.shown, slopes.directions, np.where(slopes.shown.imag < 0, -UP, UP)
+    if by == "chords":
+        beside = run.drawn("middles")
+        # At each corner but the first one a chord ends.
+        index = np.append(slopes.index[:1], slopes.index)
+        line = Line(np.append(places, places[-1] + along[-1]), Role.LIMIT, of=slopes.act, index=index)
+        # The points of v have their numbers outside.
+        numbers = row_numbers(beside, run.first, outward if run.source == "s" else -outward)
+    else:
+        beside, half = slopes, TANGENT * along / np.abs(along)
+        line = Segments(places - half, places + half, Role.LIMIT, of=slopes.act, index=slopes.index)
+        # The points of v have theirs already.
+        numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
+    one, count = _ONE_TRACE[by], places.size
+    title, how, why = (each.where(source=run.source) for each in _TRACED[by])
+    said = sequence([how, one.where(**run.said(run.steepest)), _REPEAT.where(count=count)], " ")
+    parts = tuple(Part(one.where(**run.said(k)), (slopes[k], beside[k])) for k in range(count))
+    return Step(title, said, _view(c, run.source), (line, *numbers), why=why, parts=parts)
+
+
+def _with_rays(run: _Pass) -> Step:
+    """The pole, the rays through it, and what they cut off, carried across."""
+    c, rays, heights, derived = run.c, run.drawn("rays"), run.drawn("heights"), run.c.acts[run.target].first
+    one, distance, count = _ONE_RAY[c.givens.by], c.givens.poles[run.number - 1], rays.shown.size
+    groups = falling_together(heights)
+    kept, worked = [int(group[0]) for group in groups], run.said(run.steepest)
+    pole = pole_marks(c.acts[f"P{run.number}"], distance, worked["index"], heights.shown.imag)
+    axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
-        Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act),
-        derived.from_(heights, Role.CONSTRUCTION),
+        Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
+        *(derived.from_(heights, Role.CONSTRUCTION), derived.dots()),
+        *ray_numbers(heights, run.first, groups, every_kth(derived.shown)),
+        *row_numbers(derived, run.first, outward),
     )
-    smooth = say(
-        "A smooth curve is faired through the plotted points; its greatest ordinate measures {greatest:.2f} mm."
-    ).where(greatest=float(c.first(f"max_{target}")))
-    parallel = _RAYS[by].where(index=index, pole=distance, target=target)
-    return [
-        Step(title, traced, _view(c, source), (_traces(c, number),)),
-        Step(titled, parallel, _view(c, target), (*axes, *carried), given=axes),
-        Step(say("Curve of {target}", target=target), smooth, _view(c, target), (derived.dots(), _curve(c, target))),
-    ]
+    set_off = say(
+        "With the dividers set off the pole P{index} on the axis, H{index} = {pole:.1f} mm to the left of the origin."
+    )
+    why = say(
+        "Because the triangle of pole, origin and height has the slope of {source}, the height is H{index} times that "
+        "slope: an ordinate of {target}."
+    )
+    said = [set_off.where(**worked, pole=distance), one.where(**worked), _REPEAT.where(count=count)]
+    if len(groups) < count:
+        said.append(say("Slopes that are parallel share a ray."))
+    return Step(
+        say("Pole and rays, {source} to {target}", source=run.source, target=run.target),
+        *(sequence(said, " "), _view(c, run.target), (*axes, *carried)),
+        given=axes,
+        why=why.where(**worked),
+        parts=tuple(Part(one.where(**run.said(k)), (rays[k], heights[k], derived[k])) for k in range(count)),
+    )
+
+
+def _joined(run: _Pass) -> Step:
+    """The curve through the points."""
+    c, target, heights = run.c, run.target, run.c.acts[run.target].shown.imag
+    up, down = (abs(c.acts[f"{way} {target}"].place.imag) for way in ("highest", "lowest"))
+    near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
+    said = say(
+        "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, stands near point "
+        "{name}."
+    ).where(height=_raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
+    why = say("Because {target} is wanted between the points too, above all its maximum.", target=target)
+    return Step(say("Curve of {target}", target=target), said, _view(c, target), (_curve(c, target),), why=why)
 
 
 def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
@@ -283,16 +415,6 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
     per = unit(c.givens.mu_s.unit) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
     values = {"title": view.title, "index": {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol], "mu": scale}
     return replace(view, title=say("{title}, μ{index} = {mu:.4g} {per}/{mm}", per=per, mm=unit("mm"), **values))
-
-
-def _traces(c: Construction[DifferentiationGivens], number: int) -> Mark:
-    """The chords, or short pieces of the tangents."""
-    slopes = c.acts[f"slopes {number}"]
-    places, along = slopes.shown, slopes.first.directions
-    if c.givens.by == "chords":
-        return Line(np.append(places, places[-1] + along[-1]), Role.LIMIT, of=slopes.act)
-    half = TANGENT * along / np.abs(along)
-    return Segments(places - half, places + half, Role.LIMIT, of=slopes.act)
 
 
 def _curve(c: Construction[DifferentiationGivens], name: str) -> Mark:
@@ -309,9 +431,26 @@ def _axes(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ..
 
 
 def _draw_scales(c: Construction[DifferentiationGivens]) -> Step:
-    greatest = {"v": float(c.value("max_v")), "a": float(c.value("max_a"))}
-    said = say(
-        "The poles give μᵥ = μₛ/(μᵩ·H₁) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = μᵥ/(μᵩ·H₂) = {mu_a:.5g} "
-        "({unit}/rad²)/mm: the greatest velocity is {v:.5g} {unit}/rad, the greatest acceleration {a:.5g} {unit}/rad²."
-    ).where(mu_v=c.readings["v"].scale, mu_a=c.readings["a"].scale, unit=unit(c.givens.mu_s.unit), **greatest)
-    return Step(say("The scales of the derivatives"), said, _view(c, "a"), (), ("max_v", "max_a", "v", "a"))
+    scales = {"mu_phi": c.givens.mu_phi.per_mm, "mu_s": c.givens.mu_s.per_mm, "unit": unit(c.givens.mu_s.unit)}
+    scales |= {f"mu_{name}": c.readings[name].scale for name in "va"}
+    said = {
+        "v": say(
+            "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "
+            "the maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
+        ),
+        "a": say(
+            "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: "
+            "the maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
+        ),
+    }
+    parts = tuple(
+        Part(
+            text.where(**scales, pole=pole, mm=float(c.first(f"max_{name}")), value=float(c.value(f"max_{name}"))),
+            (c.acts[f"highest {name}"], c.acts[f"lowest {name}"]),
+        )
+        for (name, text), pole in zip(said.items(), c.givens.poles, strict=True)
+    )
+    why = say("Because a ray cuts off H times a slope on paper, where s has the scale μₛ and φ the scale μᵩ.")
+    both = sequence([part.caption for part in parts], " ")
+    reads = ("max_v", "max_a", "v", "a")
+    return Step(say("The scales of the derivatives"), both, _view(c, "a"), (), reads, why=why, parts=parts)

@@ -87,7 +87,7 @@ class Drawings(Shown, Mapping[str, Construction]):
         >>> import graphcam as gc
         >>> from graphcam.constructions.scheme import MEANING, scheme
         >>> chain = gc.solve(gc.builtin_arcs_task()).chain
-        >>> list(chain.adding(MEANING, lambda chain: scheme(chain["arc_roller"], None)))[-2:]
+        >>> list(chain.adding(MEANING, lambda chain: scheme(chain.board, chain.pencil)))[-2:]
         ['arc_diagrams', 'scheme']
         """
         return replace(self, further={**self.further, meaning.name: draw})

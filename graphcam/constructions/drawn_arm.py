@@ -1,5 +1,6 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
+import cmath
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,10 +8,11 @@ import numpy as np
 from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
-from graphcam.constructions.board import DrawnFollower, FollowerSize
-from graphcam.drafting.hand import between, showing
-from graphcam.drafting.ink import Construction, say
-from graphcam.drafting.marks import Mark, Role
+from graphcam.constructions.axes import turning
+from graphcam.constructions.board import DrawnFollower, FollowerSize, roller_given
+from graphcam.constructions.sketch import bearing, edge, low_point, plain_cam, size
+from graphcam.drafting.ink import Caption, Construction, say
+from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.follower import Oscillating, Rotation, sense
@@ -19,6 +21,10 @@ from graphcam.given.limits import Limits
 
 ARM_ON_PAPER = 130.0
 """The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""
+PIVOT, ACROSS, SWING = 42 + 0j, 2.0, 0.2
+"""In the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
+ROLLER = say("The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B.")
+EDGE = say("The cam turns {rotation} about A and swings an arm about the pivot C; the knife edge on it is B.")
 
 
 @dataclass(frozen=True)
@@ -78,26 +84,27 @@ class DrawnOscillating(DrawnFollower):
         """The follower with these sizes."""
         return Oscillating(self.arm, place, roller_radius)
 
-    def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
-        """Roller, arm and pivot."""
-        stations, motion = inverted.givens.integrated.givens.stations, inverted.givens.integrated.givens.motion
-        hand, centre = showing(inverted), inverted.acts["cam centre"].first
-        # Turned back by the station's cam angle, the first pivot lies on the line of centres.
-        back = np.exp(1j * sense(inverted.givens.rotation) * stations.phi[0]) * inverted.givens.mu_l.per_mm
-        first = (inverted.acts[name].first[0] for name in ("pivots", "starts"))
-        pivot, start = (hand.enlarged("C", place, centre, back / scale.per_mm) for place in first)
-        arm = hand.protractor("arm", pivot, hand.join("arm at rest", pivot, start), -motion.levels[0])
-        b = hand.lay_off("B", pivot, arm, between(pivot, start))
-        support = pivot.place + np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j])
-        ground = hand.given("ground", pivot.place + np.arange(-3, 3.1, 1.5) - 5j, -1.2 - 1.5j)
+    def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
+        """Cam, roller, arm and pivot."""
+        b = low_point(ACROSS, roller_radius)
+        arm = b - PIVOT
+        swing = cmath.phase(arm) - np.array([1.5 * SWING, 0.5 * SWING])
         return (
-            hand.circle("roller", b, roller_radius / scale.per_mm).drawn_circle(Role.CURVE),
-            hand.join("arm", b, pivot).way(Role.CURVE),
-            pivot.line_from(centre, Role.AXIS),
-            hand.circle("hinge", pivot, 1.2).drawn_circle(Role.CURVE),
-            hand.given("support", support).line(Role.CURVE),
-            ground.ways(Role.HATCH),
-            b.dots(),
-            b.label("B"),
-            pivot.label("C"),
+            *plain_cam(b, sense(rotation)),
+            *edge(b, roller_radius, 1j - 1),
+            *bearing(PIVOT, "C"),
+            Line(np.array([b, PIVOT]), Role.CURVE),
+            Line(np.array([0j, PIVOT]), Role.AXIS),
+            Arc(PIVOT, abs(arm), swing[0], swing[1], Role.CURVE, arrow="start"),
+            Label((b + PIVOT) / 2, size("l", self.arm), 1j * -arm),
+            Label(0.7 * PIVOT, size("c", self.place), -1j),
         )
+
+    def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
+        """Arm, pivot and roller."""
+        return [
+            (EDGE if roller_radius == 0 else ROLLER).where(rotation=turning(rotation)),
+            say("The arm is l = {arm:g} mm long.", arm=self.arm),
+            *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
+            *roller_given(roller_radius),
+        ]

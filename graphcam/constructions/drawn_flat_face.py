@@ -5,22 +5,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphcam.constructions.axes import turning
 from graphcam.constructions.board import DrawnFollower, FollowerSize
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
-from graphcam.constructions.guided_stem import guided_stem
-from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import showing
-from graphcam.drafting.ink import Construction
-from graphcam.drafting.marks import Mark, Role
+from graphcam.constructions.sketch import BASE, guided_stem, plain_cam
+from graphcam.drafting.euclid import UP
+from graphcam.drafting.ink import Caption, Construction, say
+from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import FlatFaced, Rotation
+from graphcam.given.follower import FlatFaced, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 
-STEM, GUIDE = 34.0, 12.0
-"""In the scheme: length of the stem, and height of its guide above the face [mm]."""
+STEM, GUIDE, HALF_FACE = 34.0, 12.0, 17.0
+"""In the kinematic diagram: length of the stem, height of its guide above the face, and half the face [mm]."""
+MOVED = say("The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B.")
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,8 @@ class DrawnFlatFaced(DrawnFollower):
     place: float | None = 0.0
     divides_at_corners = True
     constructions = (
-        *("acceleration", "integration", "minimum_radius"),
-        *("inversion", "curvature", "working_profile", "scheme"),
+        *("scheme", "acceleration", "integration", "minimum_radius"),
+        *("inversion", "curvature", "working_profile"),
     )
 
     @property
@@ -76,11 +77,17 @@ class DrawnFlatFaced(DrawnFollower):
         """The follower, which has no sizes."""
         return FlatFaced()
 
-    def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
-        """Face, stem and guide."""
-        motion = inverted.givens.integrated.givens.motion
-        width = max(float(inverted.value("face_left")), float(inverted.value("face_right"))) / scale.per_mm + 2
-        hand = showing(inverted)
-        b = hand.lay_off("B", hand.given("A"), UP, (inverted.givens.prime_radius + motion.levels[0]) / scale.per_mm)
-        face = hand.lay_off("face", b, RIGHT, np.array([-width, width]))
-        return (face.line(Role.CURVE), *guided_stem(hand, b, STEM, GUIDE))
+    def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
+        """Cam, face, stem and guide."""
+        b = BASE * UP
+        face = Line(b + np.array([-HALF_FACE, HALF_FACE]), Role.CURVE)
+        return *plain_cam(b, sense(rotation)), face, Label(b, "B"), *guided_stem(b, STEM, GUIDE)
+
+    def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
+        """The face."""
+        return [MOVED.where(rotation=turning(rotation))]
+
+    def limited(self, limits: Limits) -> Caption:
+        """A face asks for a convex profile; a pressure angle there is none."""
+        least = self.least_curvature
+        return say("The profile is to have a radius of curvature of at least {least:g} mm.", least=least)

@@ -5,25 +5,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.board import DrawnFollower
+from graphcam.constructions.axes import turning
+from graphcam.constructions.board import DrawnFollower, roller_given
 from graphcam.constructions.force_plan import force_plan
-from graphcam.constructions.guided_stem import guided_stem
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
-from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import showing
-from graphcam.drafting.ink import Construction
-from graphcam.drafting.marks import Mark, Role
+from graphcam.constructions.sketch import edge, guided_stem, low_point, offset_marks, plain_cam
+from graphcam.drafting.ink import Caption, Construction, say
+from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import Rotation, Translating
+from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.spring_load import SpringLoad
 
-STEM, GUIDE = 30.0, 9.0
-"""In the scheme: length of the stem, and height of its guide above the roller [mm]."""
+STEM, GUIDE, OFFSET = 30.0, 9.0, 8.0
+"""In the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
+ROLLER = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
+EDGE = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
+CENTRAL = say("The line of motion passes through A.")
+LEFT = say("The line of motion passes A on the left, at the offset e = {offset:g} mm.")
+RIGHT = say("The line of motion passes A on the right, at the offset e = {offset:g} mm.")
 
 
 @dataclass(frozen=True)
@@ -75,18 +79,22 @@ class DrawnTranslating(DrawnFollower):
         """The follower with these sizes; an open offset is 0 in it."""
         return Translating(place or 0.0, roller_radius)
 
-    def scheme(self, inverted: Construction, roller_radius: float, scale: Scale) -> tuple[Mark, ...]:
-        """Roller, stem and guide."""
-        integrated, hand = inverted.givens.integrated, showing(inverted)
-        # The sketch shows the cam as it was adopted, so its follower stands at the given offset.
-        foot = hand.lay_off("foot", hand.given("A"), RIGHT, inverted.givens.offset / scale.per_mm)
-        prime = hand.circle("prime circle", hand.given("A"), inverted.givens.prime_radius / scale.per_mm)
-        start = hand.cross("start of the lift", hand.erect("line of motion", foot), prime)
-        b = hand.lay_off("B", start, UP, integrated.givens.motion.levels[0] / scale.per_mm)
-        tail = hand.lay_off("tail", hand.lay_off("beside the stem", b, RIGHT, 4.0), UP, STEM + 1)
+    def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
+        """Cam, roller, stem and guide."""
+        # An offset that is to be found is drawn on the favourable side.
+        side = sense(rotation) if self.place is None else float(np.sign(self.place))
+        b = low_point(OFFSET * side, roller_radius)
         return (
-            hand.circle("roller", b, roller_radius / scale.per_mm).drawn_circle(Role.CURVE),
-            *guided_stem(hand, b, STEM, GUIDE),
-            b.dots(),
-            hand.lay_off("head", tail, UP, 8.0).arrow(tail, Role.CURVE),
+            *plain_cam(b, sense(rotation)),
+            *edge(b, roller_radius, -1),
+            *guided_stem(b, STEM, GUIDE),
+            *offset_marks(OFFSET * side, self.place),
         )
+
+    def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
+        """Line of motion and roller."""
+        moved = (EDGE if roller_radius == 0 else ROLLER).where(rotation=turning(rotation))
+        if self.place is None:
+            return [moved, *roller_given(roller_radius)]
+        line = (CENTRAL if self.place == 0 else LEFT if self.place < 0 else RIGHT).where(offset=self.place)
+        return [moved, line, *roller_given(roller_radius)]

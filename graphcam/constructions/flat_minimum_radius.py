@@ -13,20 +13,24 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import OVERHANG, station_names
+from graphcam.constructions.axes import OVERHANG, numbers, station_names
 from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Dots, Label, Line, Mark, Points, Role
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
+from graphcam.words import sequence
 
+OVER_ACCELERATION = replace(COMBINED, title=say("Displacement over acceleration: the least radius"))
+"""Where another follower has the velocity, a flat face has the acceleration."""
 DOWN_LEFT = -RIGHT - UP
 """Square to the lines of equal s + a, towards smaller ones."""
 
@@ -90,7 +94,7 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     # Equal scales: the accelerations are laid off in the scale of s.  At a jump the curve has two ends.
     equal = np.asarray(a.scale) / np.asarray(s.scale)
     after = hand.lay_off("accelerations", heights, RIGHT, hand.carry(a, equal))
-    jumps = np.flatnonzero((a.paper != before.paper).reshape(-1, count).any(axis=0))
+    jumps = _jumps(integrated)
     nearer = reckoned(itemgetter((..., jumps)), hand.carry(before, equal))
     near = hand.lay_off("before the jumps", heights[jumps], RIGHT, nearer)
     ends = np.arange(count)
@@ -107,6 +111,12 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     hand.read("need", need, s.scale)
     givens = FlatLeastRadiusGivens(integrated, least_curvature)
     return hand.finished(givens, _draw, {"curve": curve, "rests": rests, "touch": tangent, "zero": zero})
+
+
+def _jumps(integrated: Integrated) -> NDArray[np.intp]:
+    """The stations where the acceleration jumps."""
+    a, before = (integrated.readings[name].paper for name in ("a", "a_before"))
+    return np.flatnonzero((a != before).reshape(-1, a.shape[-1]).any(axis=0))
 
 
 def _enough(least: Floats, need: Floats) -> Floats:
@@ -142,49 +152,180 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     return hand.finished(FlatCurvatureGivens(region, prime_radius), _draw_curvature, {"zero": zero})
 
 
-def _draw_curvature(curved: FlatCurved) -> list[Step]:
-    centre, rho = curved.acts["A"], float(curved.value("rho"))
-    said = say(
-        "From the adopted cam centre, r₀ = {r0:g} mm below the start of the lift, up to where the tangent meets the "
-        "axis is the least radius of curvature of the profile, {rho:.3f} mm."
-    ).where(r0=curved.givens.prime_radius, rho=rho)
-    zero, named = complex(curved.first("zero")), say("ρ = {rho:.2f}", rho=rho)
-    marks = (centre.dots(Role.RESULT), Dimension(centre.place, zero, named, -14.0, curved.readings["rho"].act))
-    return [Step(say("The least radius of curvature"), said, COMBINED, marks, reads=("rho",))]
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+READABLE = 0.005
+"""Lengths of less are not told [mm of paper]: they are nothing."""
 
 
 def _draw(region: FlatRegion) -> list[Step]:
-    curve, line, centre = region.first("curve"), region.acts["touch"], region.acts["A"]
-    touch, zero = line.place, region.acts["zero"].place
+    return [_laid_off(region), _joined(region), _touched(region), _found(region)]
+
+
+def _laid_off(region: FlatRegion) -> Step:
+    """The displacements on an upright axis, and the accelerations level from there."""
+    integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
+    heights, after, near = (region.acts[name].first for name in names)
+    stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
+    named, lowest = station_names(stations), min(region.acts[name].place.imag for name in ("A", "zero"))
+    axes = _axes(region.first("curve"), lowest - OVERHANG)
+    marks = [after.from_(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
+    if jumps:
+        marks.append(near.from_(heights[jumps], Role.CONSTRUCTION))
+        marks += [near[k].label(named[jump], complex(_outward(near)[k]), small=True) for k, jump in enumerate(jumps)]
+    captions = [_station(region, k) for k in range(after.shown.size)]
+    ends = [(near[jumps.index(k)], after[k]) if k in jumps else (after[k],) for k in range(after.shown.size)]
+    worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
+    how = say(
+        "With the T-square carry each displacement across to an upright axis. From there lay off the acceleration "
+        "level with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = {factor:.4f}, to the right "
+        "where it is positive."
+    ).where(factor=_factor(region), **{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
+    said = sequence([how, captions[worked], say("Repeat for the others, and number the ends.")], " ")
+    why = say("Because ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
+    parts = tuple(Part(caption, draws) for caption, draws in zip(captions, ends, strict=True))
+    title, marks = say("Displacement over acceleration"), (*axes, *marks)
+    return Step(title, said, OVER_ACCELERATION, marks, given=axes, why=why, parts=parts)
+
+
+def _outward(ends: Drawn) -> Points:
+    """On which side of the axis numbers stand."""
+    return np.where(ends.shown.real < 0, -RIGHT, RIGHT)
+
+
+def _factor(region: FlatRegion) -> float:
+    """An acceleration in the scale of s is so many times its ordinate."""
+    readings = region.givens.integrated.readings
+    return readings["a"].per_mm / readings["s"].per_mm
+
+
+def _station(region: FlatRegion, k: int) -> Caption:
+    """What is laid off at a station: where the acceleration jumps, on both sides."""
+    integrated = region.givens.integrated
+    s, a, before = (float(integrated.first(name)[k]) for name in ("s", "a", "a_before"))
+    said = {"name": station_names(integrated.givens.stations)[k], "height": _raised(s), "after": _level(a, region)}
+    if k in _jumps(integrated):
+        both = say(
+            "Station {name}: mark the axis of s {height}. From there lay off the acceleration before the jump, {near}, "
+            "and after it, {after}."
+        )
+        return both.where(**said, near=_level(before, region))
+    if abs(a) < READABLE:
+        return say("Station {name}: mark the axis of s {height}; there is no acceleration.").where(**said)
+    return say("Station {name}: mark the axis of s {height}, and from there lay off {after}.").where(**said)
+
+
+def _raised(y: float) -> Caption:
+    if abs(y) < READABLE:
+        return say("at the axis of a")
+    return say("{mm:.2f} mm above the axis of a", mm=y) if y > 0 else say("{mm:.2f} mm below the axis of a", mm=-y)
+
+
+def _level(a: float, region: FlatRegion) -> Caption:
+    """How an ordinate of the acceleration [mm of paper] is laid off."""
+    factor = _factor(region)
+    if abs(a) < READABLE:
+        return say("nothing")
+    said = (
+        say("{mm:.2f} mm × {factor:.4f} = {length:.2f} mm to the right")
+        if a > 0
+        else say("{mm:.2f} mm × {factor:.4f} = {length:.2f} mm to the left")
+    )
+    return said.where(mm=abs(a), factor=factor, length=abs(a) * factor)
+
+
+def _joined(region: FlatRegion) -> Step:
+    """The smooth curves through the ends, and the dwells."""
+    integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
+    stations, rests, marks, parts = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Part]()
+    names = station_names(stations)
+    for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
+        start, end = names[stretch.start], names[stretch.stop - 1]
+        line = smooth.fair(f"from {start}", curve[piece], [slice(None)])
+        marks.append(line.line(Role.RESULT))
+        said = say("From {start} to {end}: draw along the French curve through the ends.", start=start, end=end)
+        parts.append(Part(said, (line,)))
+    for k, last in enumerate(_rests(integrated)):
+        said = say("In the dwell after {name} there is no acceleration: mark the point of the axis {height}.")
+        parts.append(Part(said.where(name=names[last], height=_raised(rests.shown[k].imag)), (rests[k],)))
+    said = say(
+        "Join the ends by smooth curves with the French curve, from each jump or corner of the acceleration to the "
+        "next. A dwell is a point of the axis."
+    )
+    why = say("Because s + a is wanted between the stations too, and in a dwell a is zero.")
+    marks = (*marks, rests.dots(Role.RESULT))
+    return Step(say("The curve of s over a"), said, OVER_ACCELERATION, marks, why=why, parts=tuple(parts))
+
+
+def _touched(region: FlatRegion) -> Step:
+    """The tangent at 45 degrees, and where it meets the axis of s."""
+    line, zero, need = region.acts["touch"].first, region.acts["zero"].first, float(region.value("need")) + 0.0
+    slide = say(
+        "Hold a set square at 45° so that its edge falls to the right, and slide it in from the lower left until the "
+        "edge touches the curve and crosses it nowhere: near {name}."
+    ).where(name=_nearest(region, line.place))
+    read = say(
+        "The edge meets the axis of s {height}, so the greatest −(s + a) is {paper:.2f} mm × {mu:.5g} = {need:.3f} mm."
+    ).where(height=_raised(zero.place.imag), mu=region.readings["need"].per_mm, need=need)
+    read = read.where(paper=float(region.first("need")) + 0.0)
+    lean = say(
+        "If a had kept its own scale, the edge would have to fall by arctan(μₐ/μₛ) = {angle:.1f}°.",
+        angle=np.degrees(np.arctan(_factor(region))),
+    )
+    places = np.array([line.place + 12 * (UP - RIGHT), zero.place + 16 * (RIGHT - UP)])
+    marks = (
+        Line(places, Role.LIMIT, of=line.act, index=line.index.repeat(2)),
+        *(line.dots(Role.LIMIT), zero.dots(Role.LIMIT)),
+        AngleMark(zero.place, 12.0, -np.pi / 2, -np.pi / 4, "45°", of=line.act, index=line.index),
+    )
+    return Step(
+        say("The tangent at 45 degrees"),
+        *(sequence([slide, read, lean], " "), OVER_ACCELERATION, marks, ("need",)),
+        why=say(
+            "Because along a line at 45° s + a stays the same, and it is less on every line farther to the lower left."
+        ),
+        parts=(Part(slide, (line,)), Part(read, (zero,))),
+    )
+
+
+def _nearest(region: FlatRegion, place: complex) -> str:
+    """The name of the station whose end, or whose dwell, is nearest to a place."""
+    integrated, acts = region.givens.integrated, region.acts
+    stretches = [np.arange(each.start, each.stop) for each in integrated.givens.stations.stretches]
+    places, of = np.append(acts["curve"].shown, acts["rests"].shown), np.concatenate([*stretches, _rests(integrated)])
+    return station_names(integrated.givens.stations)[of[np.argmin(np.round(np.abs(places - place), 3))]]
+
+
+def _found(region: FlatRegion) -> Step:
+    """The least prime radius, laid off."""
+    centre, least, mu = region.acts["A"].first, region.givens.least_curvature, region.readings["prime_radius"].per_mm
     r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
-    axes = _axes(curve, min(centre.place.imag, zero.imag) - OVERHANG)
-    laid_off = say(
-        "At every displacement the acceleration is laid off in the scale of s, to the right where it is positive; the "
-        "longest measures {longest:.1f} mm. The ends are joined by smooth curves between jumps and corners of the "
-        "acceleration; a dwell is a point of the axis."
-    ).where(longest=float(np.abs(curve.real).max()))
-    touching = say(
-        "Where s + a is least the tangent at 45° touches the curve; it meets the axis of s at {meets:.2f} mm, so the "
-        "greatest of −(s + a) is {need:.3f} mm. With unequal scales it would have to lean by arctan(μₐ/μₛ)."
-    ).where(meets=zero.imag, need=need)
-    tangent = (
-        Line(np.array([touch + 12 * (UP - RIGHT), zero + 16 * (RIGHT - UP)]), Role.LIMIT, of=line.act),
-        Dots(np.array([touch, zero]), Role.LIMIT, of=line.act),
-        AngleMark(zero, 12.0, -np.pi / 2, -np.pi / 4, "45°", of=line.act),
+    if r0 > 0:
+        said = say(
+            "The profile may nowhere be sharper than ρ = {least:g} mm: r₀ = {sum} = {r0:.3f} mm. Set the dividers to "
+            "{r0:.3f}/{mu:.5g} = {paper:.2f} mm and lay it off from the crossing of the axes straight down to the cam "
+            "centre A₀."
+        ).where(least=least, sum=_sum(least, need), r0=r0, mu=mu, paper=r0 / mu)
+    else:
+        said = say(
+            "The profile may nowhere be sharper than ρ = {least:g} mm, and r₀ = {sum} would not be positive: any prime "
+            "radius will do, and the cam centre A₀ is the crossing of the axes."
+        ).where(least=least, sum=_sum(least, need))
+    radius = say("r₀ = {r0:.2f}", r0=r0)
+    marks = (
+        *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
+        Dimension(0j, centre.place, radius, -10.0, region.readings["prime_radius"].act),
     )
-    found = say(
-        "With the least permitted radius of curvature ρ = {least:g} mm, r₀ = ρ + {need:.3f} = {r0:.3f} mm; it is laid "
-        "off below the start of the lift to the cam centre A."
-    ).where(least=region.givens.least_curvature, need=need, r0=r0)
-    radius = (
-        *(centre.dots(Role.RESULT), centre.label("A", 1 - 1j)),
-        Dimension(0j, centre.place, say("r₀ = {r0:.2f}", r0=r0), -10.0, region.readings["prime_radius"].act),
-    )
-    return [
-        Step(say("Displacement over acceleration"), laid_off, COMBINED, (*axes, *_curve(region)), given=axes),
-        Step(say("The tangent at 45 degrees"), touching, COMBINED, tangent, reads=("need",)),
-        Step(say("The least prime radius"), found, COMBINED, radius, reads=("prime_radius",)),
-    ]
+    why = say("Because the least of ρ = r₀ + s + a is r₀ less the greatest −(s + a), and must be the permitted ρ.")
+    return Step(say("The least prime radius"), said, OVER_ACCELERATION, marks, ("prime_radius",), why=why)
+
+
+def _sum(least: float, need: float) -> Caption:
+    """The permitted radius and the greatest -(s + a) [mm]."""
+    if abs(need) < READABLE / 10:
+        return say("ρ")
+    plus, minus = say("{least:g} + {need:.3f}"), say("{least:g} − {need:.3f}")
+    return (plus if need > 0 else minus).where(least=least, need=abs(need))
 
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
@@ -198,15 +339,31 @@ def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
     )
 
 
-def _curve(region: FlatRegion) -> tuple[Mark, ...]:
-    """The accelerations, and the smooth curves through their ends, each with the name of its first station."""
-    integrated, acts, smooth = region.givens.integrated, region.acts, showing(region)
-    stations, curve, jumps = integrated.givens.stations, acts["curve"].first, acts["before the jumps"]
-    lines, named = list[Mark]([acts["accelerations"].from_(acts["displacements"], Role.CONSTRUCTION)]), list[Mark]()
-    if jumps.shown.size:
-        lines.append(jumps.from_(jumps.shown.imag * UP, Role.CONSTRUCTION))
-    for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
-        begin, name = curve[piece.start], station_names(stations)[stretch.start]
-        lines.append(smooth.fair(f"from {name}", curve[piece], [slice(None)]).line(Role.RESULT))
-        named.append(begin.label(name, np.sign(begin.place.real) + 0j, small=True))
-    return (*lines, acts["rests"].dots(Role.RESULT), *named)
+def _draw_curvature(curved: FlatCurved) -> list[Step]:
+    centre, zero, rho = curved.acts["A"].first, complex(curved.first("zero")), curved.readings["rho"]
+    r0, value, mu = curved.givens.prime_radius, float(curved.value("rho")), rho.per_mm
+    placed = say(
+        "Set the dividers to {r0:g}/{mu:.5g} = {paper:.2f} mm, the adopted prime radius, and lay it off from the "
+        "crossing of the axes straight down to the cam centre A."
+    ).where(r0=r0, mu=mu, paper=r0 / mu)
+    measured = (
+        say("From A up to where the 45° line meets the axis it measures {paper:.2f} mm × {mu:.5g} = {rho:.3f} mm.")
+        if value > 0
+        else say(
+            "The 45° line meets the axis {paper:.2f} mm × {mu:.5g} below A: ρ = {rho:.3f} mm, so the profile would "
+            "have to turn inside out."
+        )
+    ).where(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
+    named = say("ρ = {rho:.2f}", rho=value)
+    marks = (centre.dots(Role.RESULT), centre.label("A", -1 - 1j), Dimension(centre.place, zero, named, -14.0, rho.act))
+    return [
+        Step(
+            say("The least radius of curvature"),
+            *(sequence([placed, measured], " "), OVER_ACCELERATION, marks, ("rho",)),
+            why=say(
+                "Because A lies r₀ below the axis of a and the line the greatest −(s + a): between them is the least "
+                "r₀ + s + a."
+            ),
+            parts=(Part(placed, (centre,)), Part(measured, ())),
+        )
+    ]

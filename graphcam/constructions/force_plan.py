@@ -19,10 +19,9 @@ import numpy as np
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.pressure_angle import MeasuredAngles, angle_at, moving_up, shown_station
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -31,6 +30,7 @@ from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.plane import dot
+from graphcam.words import sequence
 
 LOAD_LENGTH = 50.0
 """The load is drawn at the largest round scale at which its arrow is not longer [mm]."""
@@ -159,81 +159,184 @@ def round_scale(load: float) -> Scale:
 
 BEYOND = 8.0
 """How far a line runs on beyond its corner [mm]."""
+READABLE_FORCE = 0.05
+"""Forces of less are not told [N]: they are nothing."""
 
 
 def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
-    k, guide, mu = plan.givens.station, plan.givens.guide, plan.givens.mu_force.per_mm
-    measured, acts = plan.givens.measured, plan.acts
-    name = station_names(measured.givens.integrated.givens.stations)[k]
-    foot, corner, normal = acts["foot"], acts["corner"].first[0], acts["line of F"].first
-    side = -1.0 if normal.directions.real < 0 else 1.0
-    alpha, length = float(measured.first("alpha")[k]), float(plan.first("normal"))
-    forces = {key: float(plan.value(key)) for key in plan.readings}
-    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=mu))
-    loaded = say(
-        "At station {name} inertia, spring and preload hold the follower down with Q = {load:.1f} N, found from the "
-        "drawn a and s. At μF = {mu:g} N/mm its arrow is {paper:.1f} mm long, against the motion."
-    ).where(name=name, load=forces["load"], mu=mu, paper=float(plan.first("load")))
-    tail_and_head = Dots(np.array([0j, foot.place]), of=foot.act)
-    load = (foot.arrow(0j, Role.CURVE), Label(foot.place / 2, "Q", towards=-side + 0j, of=foot.act), tail_and_head)
-    parallel = say(
-        "Through the head of Q the line of the contact force is drawn parallel to the contact normal, at the measured "
-        "pressure angle of {alpha:.2f}° with the motion."
-    ).where(alpha=math.degrees(alpha))
-    steps = [
-        Step(say("Force plan at station {name}: the load", name=name), loaded, view, load, reads=("load",)),
-        Step(say("The line of the contact force"), parallel, view, _normal_line(normal, length, alpha)),
-        Step(say("The line of the guide's reaction"), _reaction_caption(guide), view, _reaction_line(plan, side)),
-    ]
-    if math.isnan(length):
-        unreadable = say(
-            "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
-            "guide, or the load does not press it on the cam."
-        )
-        return [*steps, Step(say("The triangle does not close"), unreadable, view, ())]
-    closing = say(
-        "The lines meet in the third corner. The contact force is F = {f_mm:.1f} mm · {mu:g} = {f:.1f} N; along the "
-        "motion it gives F cos α = {along:.1f} N, across it F sin α = {side:.1f} N, which the guide bears with the "
-        "friction of {friction:.1f} N."
-    ).where(f_mm=length, mu=mu, f=forces["normal"], **forces)
-    shown = showing(plan)
-    level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
-    marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT, of=acts["F"].act),
-        Arrow(corner.place, 0j, Role.RESULT, of=acts["R"].act),
-        *(level.line_from(corner, Role.CONSTRUCTION), corner.dots()),
-        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=acts["F"].act),
-        Label(corner.place / 2, "R", towards=UP, of=acts["R"].act),
+    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
+    last = _jammed if math.isnan(float(plan.first("normal"))) else _closed
+    return [draw(plan, view) for draw in (_load, _line_of_force, _line_of_reaction, last)]
+
+
+def _side(plan: Construction[ForcePlanGivens]) -> float:
+    """On which side of the load the triangle lies: -1 for the left, 1 for the right."""
+    return -1.0 if plan.acts["line of F"].first.directions.real < 0 else 1.0
+
+
+def _towards(side: float) -> Caption:
+    return say("to the left") if side < 0 else say("to the right")
+
+
+def _values(plan: Construction[ForcePlanGivens], *names: str) -> list[float]:
+    """The drawn displacement and its derivatives at the station."""
+    integrated = plan.givens.measured.givens.integrated
+    return [float(integrated.value(name)[plan.givens.station]) for name in names]
+
+
+def _direction(plan: Construction[ForcePlanGivens]) -> int:
+    """1 on a rise, -1 on a return."""
+    integrated = plan.givens.measured.givens.integrated
+    return integrated.givens.motion.phases[integrated.givens.stations.phase[plan.givens.station]].direction
+
+
+def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
+    """What the load consists of, term by term [N]."""
+    load, values = plan.givens.load, [np.array(value) for value in _values(plan, "s", "v", "a")]
+    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0)
+    alone = (
+        (say("inertia {force:.1f} N"), replace(none, mass=load.mass)),
+        (say("preload {force:.1f} N"), replace(none, preload=load.preload)),
+        (say("spring {force:.1f} N"), replace(none, stiffness=load.stiffness)),
+        (say("friction {force:.1f} N"), replace(none, friction=load.friction)),
     )
-    return [*steps, Step(say("The triangle of forces"), closing, view, marks, reads=tuple(MEANING.readings)[1:])]
+    return [(said, float(_force(part, _direction(plan), *values))) for said, part in alone]
 
 
-def _normal_line(normal: Drawn, length: float, alpha: float) -> tuple[Mark, ...]:
+def _load(plan: Construction[ForcePlanGivens], view: View) -> Step:
+    """The load, straight down from its tail."""
+    foot, integrated = plan.acts["foot"].first, plan.givens.measured.givens.integrated
+    name, mu = station_names(integrated.givens.stations)[plan.givens.station], plan.givens.mu_force.per_mm
+    terms, (s, a) = _terms(plan), _values(plan, "s", "a")
+    load = sum(force for _, force in terms)
+    told = sequence([said.where(force=force) for said, force in terms if abs(force) >= READABLE_FORCE])
+    said = say(
+        "At station {name} the drawn s = {s:.2f} mm and a = {a:.2f} mm/rad² give the load Q = {load:.1f} N: {terms}. "
+        "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
+        "straight {way}."
+    ).where(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
+    label = Label(foot.place / 2, "Q", towards=-_side(plan) + 0j, of=foot.act, index=foot.index)
+    tail_and_head = Dots(np.array([0j, foot.place]), of=foot.act, index=foot.index.repeat(2))
+    return Step(
+        say("Force plan at station {name}: the load", name=name),
+        *(said.where(way=say("down") if load > 0 else say("up")), view),
+        (foot.arrow(0j, Role.CURVE), label, tail_and_head),
+        reads=("load",),
+        why=say("Because inertia, spring and preload act along the motion: this force is known in size and direction."),
+    )
+
+
+def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
+    """The line of the contact force through the head of the load."""
+    normal, length = plan.acts["line of F"].first, float(plan.first("normal"))
+    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
+    said = say(
+        "At the head of Q set the protractor to α = {alpha:.2f}° from the upright {side}, and draw the line of the "
+        "contact force F there, parallel to the contact normal of this station."
+    ).where(alpha=abs(math.degrees(alpha)), side=_towards(_side(plan)))
     reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
     radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
-    said = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
-    return (
-        Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act),
+    named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
+    marks = (
+        Line(
+            np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)
+        ),
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, said, normal.act),
+        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
     )
+    why = say("Because the cam pushes along the contact normal, which leans by the pressure angle to the motion.")
+    return Step(say("The line of the contact force"), said, view, marks, why=why)
 
 
-def _reaction_caption(guide: Guide | None) -> Caption:
-    if guide is None:
-        return say("Without friction the guide only pushes across the motion: its line is drawn through the tail of Q.")
-    return say(
-        "The nearer bearing bears (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
-        "it. With l laid off across the motion and μ(l + 2b) along it, μ = {mu:g}, l = {length:g} mm, the slope of "
-        "the reaction through the tail of Q is found."
-    ).where(mu=guide.friction, length=guide.length)
+def _line_of_reaction(plan: Construction[ForcePlanGivens], view: View) -> Step:
+    """The line of the reaction through the tail of the load."""
+    line, guide, side, title = (
+        plan.acts["line of R"].first,
+        plan.givens.guide,
+        _side(plan),
+        say("The line of the guide's reaction"),
+    )
+    end = BASE * side + 0j if guide is None else plan.acts["incline"].first.place
+    across = Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
+    if guide is None or not guide.friction:
+        said = say(
+            "With the T-square draw the level line through the tail of Q: on it lies the reaction R of the guide."
+        )
+        why = say("Because a guide without friction only pushes square to the motion.")
+        return Step(title, said, view, (across,), why=why)
+    base, incline, (s,) = plan.acts["base"].first, plan.acts["incline"].first, _values(plan, "s")
+    height = float(_incline(guide, _direction(plan), np.array(s)))
+    values = {"base": BASE, "side": _towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
+    values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
+    told = (
+        say("With the dividers lay off {base:g} mm from the tail of Q level {side}, for l = {length:g} mm."),
+        say(
+            "From there lay off {base:g} · μ(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
+            "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
+        ),
+        say("Join the tail of Q to this place with the ruler: on this line lies the reaction R of the guide."),
+    )
+    told = [each.where(**values) for each in told]
+    marks = (*(across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)),)
+    why = say(
+        "Because the nearer bearing bears (l + b)/l of the side force and the farther one b/l, so friction is "
+        "μ(l + 2b)/l of it and acts against the motion."
+    )
+    parts = tuple(Part(each, (left,)) for each, left in zip(told, (base, incline, line), strict=True))
+    return Step(title, sequence(told, " "), view, marks, why=why, parts=parts)
 
 
-def _reaction_line(plan: Construction[ForcePlanGivens], side: float) -> tuple[Mark, ...]:
-    line, end, laid_off = plan.acts["line of R"], complex(BASE * side), list[Mark]()
-    if plan.givens.guide is not None:
-        base, incline = plan.acts["base"], plan.acts["incline"]
-        end = incline.place
-        if plan.givens.guide.friction:
-            laid_off = [base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)]
-    return (Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act), *laid_off)
+def _jammed(plan: Construction[ForcePlanGivens], view: View) -> Step:
+    """The last step where there is no third corner."""
+    said = say(
+        "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its guide, or "
+        "the load does not press it on the cam."
+    )
+    why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
+    return Step(say("The triangle does not close"), said, view, (), why=why)
+
+
+def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
+    """The triangle, and what is measured on it."""
+    foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
+    corner, shown, side, mu = corner[0], showing(plan), _side(plan), plan.givens.mu_force.per_mm
+    level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
+    values = {name: float(plan.value(name)) for name in plan.readings}
+    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings} | {"mu": mu}
+    borne = say("The friction in the guide is {friction_mm:.1f} mm × {mu:g} = {friction:.1f} N.")
+    told = (
+        (say("Mark where the two lines cross: the third corner."), corner),
+        (
+            say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N."),
+            force,
+        ),
+        (
+            say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N."),
+            reaction,
+        ),
+        (
+            say(
+                "With the T-square carry the corner level to the line of Q. Along the motion F cos α measures "
+                "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it F sin α {side_mm:.1f} mm × {mu:g} = "
+                "{side:.1f} N."
+            ),
+            level,
+        ),
+    )
+    parts = [Part(said.where(**values), (left,)) for said, left in told]
+    if values["friction"] >= READABLE_FORCE:
+        last = parts[-1]
+        parts[-1] = replace(last, caption=sequence([last.caption, borne.where(**values)], " "))
+    marks: tuple[Mark, ...] = (
+        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
+        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
+        *(level.line_from(corner, Role.CONSTRUCTION), corner.dots()),
+        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=force.act, index=force.index),
+        Label(corner.place / 2, "R", towards=UP, of=reaction.act, index=reaction.index),
+    )
+    return Step(
+        say("The triangle of forces"),
+        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
+        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        parts=tuple(parts),
+    )

@@ -5,31 +5,48 @@ the left: the ray.  A chord parallel to the ray carries the integral over the pa
 scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s from the known lift.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
-from graphcam.constructions.axes import SUBSCRIPTS, numbers, once, phi_axes, pole_marks
+from graphcam.constructions.axes import (
+    SUBSCRIPTS,
+    as_high,
+    height_names,
+    numbers,
+    part_names,
+    phase_names,
+    phase_title,
+    phi_axes,
+    pole_marks,
+    station_names,
+    together,
+)
+from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Dimension, Line, Role, Segments
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.marks import Dimension, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.motion import Motion
 from graphcam.given.stations import Stations
+from graphcam.words import sequence
 
+NOTHING = 5e-3
+"""What is shorter [mm of paper] is not told."""
+NEAR = 6.0
+"""Points of s so near to the axis [mm of paper] are called by the numbers there."""
 FLAT = 1e-9
 """A displacement of less, as part of what the greatest ordinate gives over the phase, is rounding."""
-SAME_HEIGHT = 2e-3
-"""Projections this near to one another [mm] fall on one line."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +80,7 @@ MEANING = Meaning(
         "max_a": ReadingMeaning(
             say("greatest a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
         ),
-        "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad"),
+        "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
     "report.paragraphs.integration",
@@ -128,8 +145,10 @@ def _integrated(
     pole = hand.lay_off(f"P{index}", hand.given("origin"), -RIGHT, givens.poles[index - 1])
     heights = hand.project(f"heights for {target}", ordinates, origin)
     rays = hand.join(f"rays of {target}", pole, heights)
+    # Of rays that fall on one another one is drawn, and serves for all.
+    each = hand.take(f"ray of each part for {target}", rays, which=as_high(heights.points.imag))
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
-    return heights, hand.end_to_end(f"chords of {target}", rays, uprights, chains)
+    return heights, hand.end_to_end(f"chords of {target}", each, uprights, chains)
 
 
 def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
@@ -175,12 +194,16 @@ def _top(motion: Motion, stations: Stations) -> int:
     return int(stations.last[np.argmax(reached)])
 
 
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
 def _draw(c: Integrated) -> list[Step]:
-    return [*(step for run in _PASSES for step in _draw_pass(c, run)), _draw_scales(c)]
+    passes = [step for run in _PASSES for step in (_draw_rays(c, run), _draw_chords(c, run), _draw_curve(c, run))]
+    return [*passes, _draw_scales(c)]
 
 
 @dataclass(frozen=True)
-class _Pass:
+class _Integrating:
     """What tells one integration from the other on the paper."""
 
     index: int
@@ -188,78 +211,215 @@ class _Pass:
     target: View
     symbols: tuple[str, str]
     closing: Caption
+    joined: Caption
+    met: Caption
+
+    @property
+    def subscript(self) -> str:
+        """Of its pole."""
+        return f"{self.index}".translate(SUBSCRIPTS)
 
 
 _AT_REST = say(
     "A phase ends at rest: the velocity left there, {left:.2f} mm at most, is taken up by turning the base line."
 )
 _SHARED_OUT = say("The displacement left at the end of the turn, {left:.2f} mm, is shared out along the returns.")
+_CORNERS = say("Because the slope of v is the acceleration, v has a corner where that jumps, and is smooth elsewhere.")
+_SMOOTH = say(
+    "Because the slope of s is the velocity, which never jumps, the pieces of s have one tangent at their ends."
+)
 _PASSES = (
-    _Pass(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST),
-    _Pass(2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT),
+    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST, _CORNERS, say("At {first} it turns a corner.")),
+    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT, _SMOOTH, say("At {first} it keeps its tangent.")),
 )
 
 
-def _draw_pass(c: Integrated, run: _Pass) -> list[Step]:
-    motion, stations, mu_phi = c.givens.motion, c.givens.stations, c.givens.mu_phi
-    distance, index = c.givens.poles[run.index - 1], f"{run.index}".translate(SUBSCRIPTS)
-    source, target = run.symbols
-    pole, levelled, polygon = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"{target}_chords"))
-    curve, left = c.acts[f"{target}_curve"], float(np.max(np.abs(c.first(f"closing_{target}"))))
-    # Projections that fall on one another are drawn once, from the farthest ordinate.
-    height, farthest, kept = levelled.shown.imag, c.first(f"{source}_projected").real, once(levelled)
-    reach = np.array([farthest[np.abs(height - height[k]) < SAME_HEIGHT].max() for k in kept])
-    laid_out = pole_marks(pole, distance, index, height[kept])
-    projected = levelled.first[kept]
-    rays = (
-        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, of=levelled.act),
-        c.acts[f"rays of {target}"].first[kept].ways(Role.CONSTRUCTION),
+def _draw_rays(c: Integrated, run: _Integrating) -> Step:
+    """The pole, and of all rays each that falls on no other."""
+    stations, distance, (source, target) = c.givens.stations, c.givens.poles[run.index - 1], run.symbols
+    pole, levelled, rays = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"rays of {target}"))
+    height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
+    alike = as_high(height)
+    kept = np.unique(alike).tolist()
+    same = [np.flatnonzero(alike == k).tolist() for k in kept]
+    # Their projections are drawn once too, from the farthest ordinate.
+    reach = np.array([farthest[parts].max() for parts in same])
+    projected, names = levelled.first[kept], [together(parts, stations) for parts in same]
+    laid_out = pole_marks(pole, distance, run.subscript, height[kept])
+    halves = [c.acts["middles of v"]] if run.index == 2 else []
+    marks = (
+        *(places.dots(Role.CONSTRUCTION) for places in halves),
+        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, projected.act, projected.index),
+        rays.first[kept].ways(Role.CONSTRUCTION),
+        *height_names(projected, names),
     )
-    axes = phi_axes(motion, mu_phi, curve.shown.imag, target)
-    polygons = (
+    told = kept[min(2, len(kept) - 1)]
+    joined = say(
+        "Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0. Carry each middle ordinate "
+        "of {source} level to the vertical axis with the T-square, join it there to the pole with the ruler, and "
+        "number the ray as the part; equal ordinates share one ray."
+    ).where(index=run.subscript, distance=distance, source=source)
+    cut = _SHARED_CUT if len(same[kept.index(told)]) > 1 else _CUT
+    joined = sequence([joined, cut.where(name=names[kept.index(told)], y=height[told])], " ")
+    why = say(
+        "Because a ray rises by the ordinate y over the distance H, its slope y/H is the slope that {target} has there."
+    ).where(target=target)
+    marked = say("Mark P{index} on the axis, {distance:.1f} mm to the left of 0.")
+    parts = [Part(marked.where(index=run.subscript, distance=distance), (pole.first,))]
+    for k, own, name in zip(kept, same, names, strict=True):
+        said = _SHARED_RAY if len(own) > 1 else _RAY
+        caption = said.where(name=name, y=height[k], source=source, index=run.subscript)
+        parts.append(Part(caption, (*(places.first[own] for places in halves), levelled.first[[k]], rays.first[[k]])))
+    titled = say("Pole and rays, {source} to {target}", source=source, target=target)
+    return Step(titled, joined, run.source, (*laid_out, *marks), given=laid_out, why=why, parts=tuple(parts))
+
+
+_CUT = say("Ray {name} cuts the vertical axis at {y:.2f} mm.")
+_SHARED_CUT = say("Rays {name}, which are one, cut the vertical axis at {y:.2f} mm.")
+_RAY = say(
+    "Ray {name}: carry the middle ordinate of part {name}, {source} = {y:z.2f} mm, level to the vertical axis; join it "
+    "to P{index}."
+)
+_SHARED_RAY = say(
+    "Rays {name} are one: the middle ordinates of these parts are equal, {source} = {y:z.2f} mm; carry one level to "
+    "the vertical axis, join it to P{index}."
+)
+
+
+def _draw_chords(c: Integrated, run: _Integrating) -> Step:
+    """The chords, each parallel to the ray of its part, and the ordinates of the curve at their ends."""
+    stations, (source, target) = c.givens.stations, run.symbols
+    polygon, curve = c.acts[f"{target}_chords"], c.acts[f"{target}_curve"]
+    y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
+    axes, far = phi_axes(c.givens.motion, c.givens.mu_phi, curve.shown.imag, target), np.abs(y) >= 0
+    if run.index == 2:
+        # What is near the numbers of the axis needs none of its own.
+        axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
+    marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
+        *numbers(polygon, stations, _outward(y, stations), far),
     )
-    smooth = showing(c)
-    curves = tuple(smooth.fair(f"{target}", curve.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
-    joined = say(
-        "The pole P{index} lies H{index} = {distance:.1f} mm to the left on the axis. Every middle ordinate of "
-        "{source} is projected on the vertical axis and joined to the pole."
-    ).where(index=index, distance=distance, source=source)
-    set_on = say(
-        "From the start of each phase a chord is drawn in every part parallel to its ray, each from the end of the one "
-        "before. {closing}"
-    ).where(closing=run.closing.where(left=left))
-    faired = say("A smooth curve is faired through the ends of the chords, from jump to jump of the acceleration.")
-    titles = say("Pole and rays, {source} to {target}"), say("Chords parallel to the rays: {target}")
-    to_rays, to_chords = (title.where(source=source, target=target) for title in titles)
-    return [
-        Step(to_rays, joined, run.source, (*laid_out, *rays), given=laid_out),
-        Step(to_chords, set_on, run.target, (*axes, *polygons), given=axes),
-        Step(say("Curve of {target}", target=target), faired, run.target, (*curves, *rests(c, curve))),
-    ]
+    # The fourth chord is worked in full, or the first one after it that climbs.
+    climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NOTHING)
+    part = int(climbing[min(np.searchsorted(climbing, 3), climbing.size - 1)]) if climbing.size else 0
+    k = int(stations.left[part]) + 1
+    width = polygon.shown.real[k] - polygon.shown.real[k - 1]
+    values = {"width": width, "distance": c.givens.poles[run.index - 1], "rise": y[k] - y[k - 1]}
+    values |= {"name": part_names(stations)[part], "height": c.acts[f"heights for {target}"].shown.imag[part]}
+    said = say(
+        "In each part draw a chord parallel to its ray with two set squares, from the end of the chord before to the "
+        "next upright, and number its end. Chord {name} climbs by y·Δx/H = {height:.2f}·{width:.2f}/{distance:.1f} = "
+        "{rise:.2f} mm."
+    ).where(**values)
+    if left > NOTHING:
+        said = sequence([said, run.closing.where(left=left)], " ")
+    why = say(
+        "Because a chord with the slope y/H climbs by y·Δx/H, the area of its part divided by H, chords set end to end "
+        "add up the area under {source}."
+    ).where(source=source)
+    parts = (*(part for k in range(len(stations.phases)) for part in _chord_parts(c, run, k)), *_ordinates(c, run))
+    title = say("Chords parallel to the rays: {target}", target=target)
+    return Step(title, said, run.target, (*axes, *marks), given=axes, why=why, parts=parts)
 
 
-def rests(c: Integrated, curve: Drawn) -> list[Line]:
-    """The level lines of the dwells: between the phases' curves, and to the start and the end of the turn."""
-    ends = [k for span in c.givens.stations.phases for k in (span.start, span.stop - 1)]
-    level = showing(c).erect("rests", curve.first[[*ends, -1]], RIGHT)
-    *places, last = level.points
-    turn = FULL_TURN / c.givens.mu_phi.per_mm
-    bounds = np.array([last.imag * UP, *places, turn + last.imag * UP])
-    return [Line(pair, Role.RESULT, of=level.act) for pair in bounds.reshape(-1, 2)]
+def _outward(y: Floats, stations: Stations) -> Points:
+    """Directions to the outer side of the curves: left where they leave the axis, right where they come back to it."""
+    leaving = np.concatenate([np.gradient(np.abs(y[span])) >= -NOTHING for span in stations.phases])
+    return np.where(leaving, -RIGHT, RIGHT) + 0j
+
+
+def _chord_parts(c: Integrated, run: _Integrating, phase: int) -> Iterator[Part]:
+    """The chords of a phase, one after another; of s first where they start."""
+    stations, polygon = c.givens.stations, c.acts[f"{run.symbols[1]}_chords"]
+    span, y, names = stations.phases[phase], polygon.shown.imag, station_names(stations)
+    if run.index == 2:
+        said = _STARTS[0 if abs(y[span.start]) < NOTHING else 1 if phase else 2]
+        title = phase_title(c.givens.motion, int(stations.phase[span.start]))
+        yield Part(said.where(phase=title, y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
+    for k in range(span.start + 1, span.stop):
+        rise = y[k] - y[k - 1]
+        change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
+        said = say(
+            "Chord {name}: slide the set square from ray {name} to point {before}, draw as far as upright {name}; "
+            "{change}."
+        )
+        # The first chord of v starts at rest, where the phase does.
+        drawn = [k - 1, k] if k == span.start + 1 and run.index == 1 else [k]
+        yield Part(said.where(name=names[k], before=names[k - 1], change=change), (polygon.first[drawn],))
+
+
+_STARTS = (
+    say("Start of {phase}: upright {name}, on the axis."),
+    say("Start of {phase}: carry the end of the phase before, {y:.2f} mm high, level to upright {name}."),
+    say("Start of {phase}: upright {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below."),
+)
+_CHANGES = say("it runs level"), say("it climbs {rise:.2f} mm"), say("it falls {rise:.2f} mm")
+
+
+def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
+    """The ordinates of each phase at the ends of its chords, moved by what is left at its end."""
+    stations, names = c.givens.stations, station_names(c.givens.stations)
+    polygon, curve = (c.acts[f"{run.symbols[1]}_{name}"] for name in ("chords", "curve"))
+    fastest = np.abs(c.acts["v_curve"].shown.imag)
+    for span in stations.phases:
+        first, last = span.start, span.stop - 1
+        k = first + int(np.argmax(fastest[span]))
+        off = (curve.shown - polygon.shown).imag[[first, last]]
+        # What is nothing has no sign.
+        y, end = (float(np.round(curve.shown.imag[each], 2)) + 0.0 for each in (k, last))
+        said = say("Check: {symbol} is {y:.2f} mm at {name} and {end:.2f} mm at {last}.", symbol=run.symbols[1])
+        ends = {"first": names[first], "last": names[last]}
+        said = said.where(y=y, name=names[k], end=end, **ends)
+        if np.abs(off).max() > NOTHING:
+            shared = _SHARED[int(np.abs(off[0]) > NOTHING)].where(start=off[0], by=off[1], **ends)
+            said = sequence([shared, said], " ")
+        yield Part(said, (curve.first[span],))
+
+
+_SHARED = (
+    say("Share out what is left, {by:+.2f} mm at {last} and in proportion less back to {first}."),
+    say("Share out what is left, {start:+.2f} mm at {first} to {by:+.2f} mm at {last} and in proportion between."),
+)
+
+
+def _draw_curve(c: Integrated, run: _Integrating) -> Step:
+    target = run.symbols[1]
+    said, lines, parts = curve_over_phi(c.givens, showing(c), target, c.acts[f"{target}_curve"], run.met)
+    return Step(say("Curve of {target}", target=target), said, run.target, lines, why=run.joined, parts=parts)
 
 
 def _draw_scales(c: Integrated) -> Step:
     motion, stations, curve = c.givens.motion, c.givens.stations, c.acts["s_curve"]
-    top = curve.first[_top(motion, stations)].place
-    named = numbers(c.acts["acceleration: axis"], stations, -UP)
+    at, (h1, h2), mu_phi, lift_unit = _top(motion, stations), c.givens.poles, c.givens.mu_phi.per_mm, c.givens.unit
+    top = curve.first[[at]]
     mu_s, mu_v, mu_a = (c.readings[name].per_mm for name in ("s", "v", "a"))
+    values = {"unit": unit(lift_unit), "paper": top.place.imag, "lift": motion.lift, "mu_phi": mu_phi}
+    values |= {"mu_s": mu_s, "mu_v": mu_v, "mu_a": mu_a, "h1": h1, "h2": h2}
     said = say(
-        "The greatest displacement measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
+        "The maximum of s measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
         "{mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = "
         "μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm."
-    ).where(paper=top.imag, unit=unit(c.givens.unit), lift=motion.lift, mu_s=mu_s, mu_v=mu_v, mu_a=mu_a)
-    height = Dimension(top.real + 0j, top, say("{y:.1f}", y=top.imag), -6.0, c.readings["s"].act)
+    ).where(**values)
+    divided = (
+        say("Divide the lift by its length: μₛ = {lift:.6g} {unit}/{paper:.2f} mm = {mu_s:.5g} {unit}/mm."),
+        say("Divide by μᵩ·H₂: μᵥ = {mu_s:.5g}/({mu_phi:.5g}·{h2:.6g}) = {mu_v:.5g} ({unit}/rad)/mm."),
+        say("Divide by μᵩ·H₁: μₐ = {mu_v:.5g}/({mu_phi:.5g}·{h1:.6g}) = {mu_a:.5g} ({unit}/rad²)/mm."),
+    )
+    parts = tuple(Part(each.where(**values), (top,) if k == 0 else ()) for k, each in enumerate(divided))
+    k = int(stations.left[min(3, stations.left.size - 1)]) + 1
+    read = {name: (c.first(name)[k], c.readings[name].per_mm, c.value(name)[k]) for name in ("s", "v", "a")}
+    told = say("{y:.2f} mm × {mu:.5g} = {value:.5g} {unit}")
+    each = {
+        name: told.where(y=y, mu=mu, value=value, unit=unit(c.readings[name].unit))
+        for name, (y, mu, value) in read.items()
+    }
+    last = say("Station {name}: s = {s}, v = {v}, a = {a}; repeat for the others.", name=station_names(stations)[k])
+    height = Dimension(top.place.real + 0j, top.place, say("{y:.1f}", y=top.place.imag), -6.0, top.act, top.index)
     reads = ("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s")
-    return Step(say("The scales"), said, DISPLACEMENT, (height, *named), reads, given=named)
+    why = say(
+        "Because the lift is known it fixes μₛ, and as a chord climbs by y·Δx/H, each integration divides the scale by "
+        "μᵩ·H once."
+    )
+    step = Step(say("The scales"), said, DISPLACEMENT, (height,), reads, why=why)
+    return replace(step, parts=(*parts, Part(last.where(**each), ())))

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from graphcam.given.motion import Dwell, Motion
 from graphcam.given.motion_law import Law
 from graphcam.words import Caption, Words, say
 
@@ -25,3 +26,13 @@ def law_name(law: Law) -> Words:
     ('cosine', '3-4-5')
     """
     return LAW_TITLES.get(law.name, law.name)
+
+
+def law_title(motion: Motion, k: int) -> Words:
+    """The name of a phase's law, with the ratio of its two parts where they are unequal; nothing for a dwell."""
+    phase = motion.phases[k]
+    if isinstance(phase, Dwell):
+        return ""
+    law = phase.normalised
+    name = law_name(law)
+    return say("{law}, ratio {ratio:g}", law=name, ratio=law.ratio) if law.ratio != 1 else name

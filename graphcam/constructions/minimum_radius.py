@@ -1,15 +1,24 @@
 """The least radius from the combined diagram: the shaded region.
 
-At every displacement s_i on the follower's line, v_i is laid off turned by 90 degrees in the sense of the cam's
-rotation, to D_i, in the scale of s.  Seen from a cam centre A, the angle between A D_i and the line of motion is the
-pressure angle; so the tangents to the curve of the D_i at the permitted angles bound the region in which A may lie.
+Seen from a cam centre A, the angle between A D_i, where D_i is the end of v in the combined diagram, and the line of
+motion is the pressure angle; so the tangents to the curve of the D_i at the permitted angles bound the region in which
+A may lie.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import OVERHANG, degrees, numbers, pieces_of, turning
+from graphcam.constructions.axes import degrees, pieces_of, station_names
+from graphcam.constructions.combined_diagram import (
+    NOTHING,
+    aside,
+    joined_up,
+    laid_off,
+    offset_caption,
+    offset_line,
+    velocities,
+)
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import (
     LEAST_RADIUS,
@@ -25,13 +34,14 @@ from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, Words, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
-from graphcam.words import say_in, sequence
+from graphcam.plane import dot
+from graphcam.words import joined, say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,19 +97,6 @@ def least_radius(
     return hand.finished(givens, _draw, places)
 
 
-def velocities(hand: Hand, integrated: Integrated, rotation: Rotation) -> Drawn:
-    """The ends of v, laid off at the displacements in the scale of s, turned by 90 degrees in the sense of the cam."""
-    s, v = integrated.readings["s"], integrated.readings["v"]
-    # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
-    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
-    return hand.lay_off("ends", heights, -sense(rotation) * RIGHT, hand.carry(v, v.scale / s.scale))
-
-
-def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
-    """The line on which the cam centre lies at an offset [mm], in the scale of s: downwards."""
-    return hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)), -UP)
-
-
 def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) -> list[Drawn]:
     """The lines that bound the region: the rise's tangent, the return's unless a spring drives it, the rest line.
 
@@ -138,124 +135,221 @@ REGION_DEPTH = 14.0
 """How far below the lowest of the marked cam centres the region is shaded [mm]."""
 ANGLE_RADIUS = 22.0
 """Radius of the arcs that show the permitted angles [mm]."""
+ON_A_STATION = 0.05
+"""A tangent that touches this near to a station, in parts of the way to the next one, touches at it."""
 LINES = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "rest")}
 """The lines that bound the region, by what they limit."""
+NAMED = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the rest line")}
+"""The same inside a sentence."""
+LIMITED = {
+    "rise": say_in("a limit", "on the rise"),
+    "return": say_in("a limit", "on the return"),
+    "rest": say_in("a limit", "at zero lift"),
+}
+"""Where each of them limits the pressure angle."""
+CURVES = {"rise": say("the curve of the rise"), "return": say("the curve of the return")}
+SLIDES = {
+    1: say("leaning to the right going up, and slide it in from the lower right"),
+    -1: say("leaning to the left going up, and slide it in from the lower left"),
+}
 PLACES = {"foot": say("foot"), "apex": say("apex"), "central": say("central")}
 """The places that textbooks take besides the nearest one."""
+FOUND = {
+    "foot": say("Foot: drop the perpendicular from B₀ to the rise line with two set squares, {distance:.1f} mm long."),
+    "apex": say("Apex: mark where the rise line and the return line cross, {distance:.1f} mm from B₀."),
+    "central": say("Central: mark where the line of motion enters the region, {distance:.1f} mm from B₀."),
+}
+"""How they are found."""
 
 
 def _draw(region: LeastRadius) -> list[Step]:
-    integrated, limits, hand = region.givens.integrated, region.givens.limits, showing(region)
-    stations, heights, ends = integrated.givens.stations, region.acts["displacements"], region.acts["ends"]
-    v, lines, others = ends.shown.real, _shown(region), _alternatives(region)
-    marked = [place.place for place in (region.acts["centre"].first, *others.values()) if not np.isnan(place.place)]
+    centre = region.acts["centre"].first
+    marked = [place.place for place in (centre, *_alternatives(region).values()) if not np.isnan(place.place)]
     bottom = min(0.0, *(place.imag for place in marked)) - REGION_DEPTH
-    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + OVERHANG]), Role.AXIS),)
-    laid_off = (ends.from_(heights, Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION))
-    # The ends of the phases lie on the line of motion and need no number.
-    named = numbers(ends, stations, np.sign(v) + 0j, shown=np.abs(v) > 1)
-    curves = tuple(hand.fair("curve", ends.first, [piece]).line(Role.RESULT) for piece in stations.pieces)
-    alternatives = [mark for name, place in others.items() for mark in _cross(hand, place, PLACES[name])]
-    left, right = float(ends.shown.real.min()), float(ends.shown.real.max())
-    paper = [complex(left, bottom), complex(right, bottom), complex(right, 0), complex(left, 0)]
-    permitted = hand.given("permitted places", permitted_part(lines, paper))
-    hatched = Region(permitted.points, permitted.act)
+    found = _unreadable() if np.isnan(centre.place) else _result(region)
+    return [laid_off(region, bottom), joined_up(region), _touching(region, bottom), _shaded(region, bottom), found]
+
+
+def _touching(region: LeastRadius, bottom: float) -> Step:
+    """The lines that bound the region, each at its permitted angle."""
+    hand, limits = showing(region), region.givens.limits
     floor = hand.given("lower edge", UP * bottom, RIGHT)
-    marked_on = say(
-        "On the follower's line the displacements are marked; at each of them v is laid off in the scale of s, turned "
-        "by 90° in the sense of the cam's rotation, {rotation}. The longest measures {longest:.1f} mm."
-    ).where(rotation=turning(region.givens.rotation), longest=float(np.abs(v).max()))
-    joined = say("The ends are joined by smooth curves, one for the rise and one for the return.")
-    leaning = [line for line in lines if line.name != "rest"]
-    angles = [say("{angle} {line}", angle=_limit(line, limits), line=LINES[line.name]) for line in leaning]
-    touching = say(
-        "To each curve that is limited the tangent is drawn at its permitted angle to the line of motion ({angles}); "
-        "{zero}{further}"
-    ).where(angles=sequence(angles), zero=_at_zero_lift(region), further=_spring_and_rest(limits))
-    tangents = tuple(mark for line in lines for mark in _limit_line(region, hand, line, floor))
-    shaded = say("Every place in the shaded region keeps all limits; thin crosses mark the alternatives: {names}.")
-    shaded = shaded.where(names=sequence([PLACES[name] for name in others]))
-    return [
-        Step(say("Velocities at the displacements"), marked_on, COMBINED, (*line, *laid_off, *named), given=line),
-        Step(say("Curves of rise and return"), joined, COMBINED, curves),
-        Step(say("Tangents at the permitted angles"), touching, COMBINED, tangents),
-        Step(say("The region of the cam centre"), shaded, COMBINED, (hatched, *alternatives)),
-        _result(region),
-    ]
-
-
-def _result(region: LeastRadius) -> Step:
-    title, offset = say("The least prime radius"), region.givens.offset
-    centre, start = region.acts["centre"].first, region.acts["start of the lift"].first
-    if np.isnan(centre.place):
-        unreadable = say(
-            "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
-            "at less than a degree."
-        )
-        return Step(title, unreadable, COMBINED, ())
-    place = say("The place of the region nearest to the start of the lift is the cam centre A.")
-    if offset is not None:
-        place = say("The highest permitted place on the line at e = {e:g} mm is the cam centre A.", e=offset)
-    reads = ("prime_radius", "offset", "s0")
-    # Adding zero makes a plain zero of the negative one that a central follower's offset is read as.
-    values = {name: float(region.value(name)) + 0.0 for name in reads}
-    said = say(
-        "{place} {binding} The distance to the start of the lift measures {paper:.2f} mm, so r₀ = {prime_radius:.3f} "
-        "mm with e = {offset:.3f} mm and s₀ = {s0:.3f} mm."
-    ).where(place=place, binding=_bound_by(active(region)), paper=float(region.first("prime_radius")), **values)
-    shown, read = say("r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
-    marks = (
-        showing(region).join("r₀", start, centre).way(Role.LIMIT),
-        region.acts["centre"].dots(Role.RESULT),
-        centre.label("A", towards=-1j + np.sign(centre.place.real)),
-        Dimension(start.place, centre.place, shown, aside=0.0, of=read),
-        *_centre_lines(region, centre.place),
+    lines = [_limit_line(region, hand, line, floor) for line in _shown(region)]
+    parts = tuple(part for part, _ in lines)
+    further = [_at_zero_lift(region)]
+    if not limits.return_:
+        further.append(say("A spring drives the return (force closure), so no line is drawn for the return."))
+    said = sequence([*(part.caption for part in parts), *further], " ")
+    why = say(
+        "Because from a place on a tangent the end of v that it touches is seen at just the permitted angle to the "
+        "motion, and from the places below it at less."
     )
-    return Step(title, said, COMBINED, marks, reads)
+    marks = tuple(mark for _, drawn in lines for mark in drawn)
+    return Step(say("Tangents at the permitted angles"), said, COMBINED, marks, why=why, parts=parts)
+
+
+def _limit_line(region: LeastRadius, hand: Hand, line: Boundary, floor: Drawn) -> tuple[Part, tuple[Mark, ...]]:
+    """The boundary from a little above its touch down to the bottom, with its angle to the vertical."""
+    drawn = region.acts[line.name].first
+    direction = region.acts.get(f"direction of {line.name}")
+    limit = drawn if direction is None else direction.first
+    above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
+    below = hand.cross(f"{line.name} at the edge", drawn, floor, flat=True)
+    # The angle is shown where the line has run a third of its way down.
+    level = hand.given(f"level of {line.name}", UP * (2 * drawn.place.imag + below.place.imag) / 3, RIGHT)
+    at = hand.cross(f"{line.name} on its way", drawn, level, flat=True)
+    upright, angle = hand.erect(f"upright at {line.name}", at), _limit(line, region.givens.limits)
+    first, last = sorted((-np.pi / 2, float(np.angle(line.along))))
+    marks = (
+        Line(np.array([above, below.place]), Role.LIMIT, of=drawn.act, index=drawn.index.repeat(2)),
+        Segments(at.shown, at.shown - UP * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act, index=upright.index),
+        AngleMark(at.place, ANGLE_RADIUS, first, last, angle, of=limit.act, index=limit.index),
+    )
+    lean = float(line.along.real)
+    if line.name == "rest":
+        said = say(
+            "From B₀ draw the rest line at {angle} to the line of motion, down {side}: it keeps the angle at zero lift "
+            "within its limit."
+        ).where(angle=angle, side=aside(lean))
+    else:
+        said = say(
+            "For the limit {limited} set a set square at {angle} to the line of motion, {slide} until it touches "
+            "{curve}: here {where}."
+        ).where(
+            limited=LIMITED[line.name],
+            angle=angle,
+            slide=SLIDES[-1 if lean > 0 else 1],
+            curve=CURVES[line.name],
+            where=_touch(region, drawn.place),
+        )
+    return Part(said, (drawn, upright) if limit is drawn else (limit, drawn, upright)), marks
+
+
+def _touch(region: LeastRadius, touch: complex) -> Caption:
+    """Which station a tangent touches at, or between which."""
+    integrated, ends = region.givens.integrated, region.acts["ends"].shown
+    stations, names = integrated.givens.stations, station_names(integrated.givens.stations)
+    ways = ends[stations.left + 1] - ends[stations.left]
+    # A part that has no length, where v and s both stay, is touched nowhere.
+    along = dot(ways, touch - ends[stations.left]) / np.maximum(np.abs(ways) ** 2, NOTHING)
+    along = np.clip(along, 0.0, 1.0)
+    part = int(np.argmin(np.abs(ends[stations.left] + along * ways - touch)))
+    first, share = int(stations.left[part]), float(along[part])
+    if min(share, 1 - share) < ON_A_STATION:
+        return say_in("a touch", "at {name}", name=names[first + (share > 0.5)])
+    return say_in("a touch", "between {first} and {last}", first=names[first], last=names[first + 1])
 
 
 def _at_zero_lift(region: LeastRadius) -> Caption:
     """How far from the line of motion the rise's boundary meets zero lift."""
     place = region.acts["rise at zero lift"].place
     if np.isnan(place):
-        return say("the rise's meets zero lift too flatly to be read.")
-    return say("the rise's meets zero lift {distance:.1f} mm from the line of motion.", distance=abs(place.real))
+        return say("The rise line meets the level of B₀ too flatly to be read.")
+    said = say("The rise line meets the level of B₀ {distance:.1f} mm {side} of it.")
+    return said.where(distance=abs(place.real), side=aside(place.real))
 
 
-def _spring_and_rest(limits: Limits) -> Caption:
-    """Which limits there are besides the rise's."""
-    further: list[Words] = [""]
-    if not limits.return_:
-        further.append(say("A spring drives the return, so it does not limit the radius."))
-    if limits.rest:
-        further.append(say("The rest line keeps the angle at the low rest permitted."))
-    return sequence(further, " ")
+def _shaded(region: LeastRadius, bottom: float) -> Step:
+    """The region, and the places that textbooks take."""
+    hand, lines, ends, others = showing(region), _shown(region), region.acts["ends"].shown, _alternatives(region)
+    left, right = float(ends.real.min()), float(ends.real.max())
+    paper = [complex(left, bottom), complex(right, bottom), complex(right, 0), complex(left, 0)]
+    permitted = hand.given("permitted places", permitted_part(lines, paper))
+    hatch = say("Hatch below the lines what none of them cuts off.")
+    sides = [
+        say(
+            "A cam centre {side} of {line} would give more than {angle} {limited}.",
+            side=aside(-float(line.inward.real)),
+            line=NAMED[line.name],
+            angle=_limit(line, region.givens.limits),
+            limited=LIMITED[line.name],
+        )
+        for line in lines
+    ]
+    further = say("Thin crosses mark places that textbooks take: {names}.")
+    said = [*sides, hatch, further.where(names=sequence([PLACES[name] for name in others]))]
+    marks: list[Mark] = [Region(permitted.points, permitted.act, permitted.index)]
+    parts = [Part(hatch, (permitted,))]
+    for name, place in others.items():
+        strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
+        starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
+        marks.append(Segments(starts, tips, Role.CONSTRUCTION, of=strokes.act, index=strokes.index))
+        marks.append(place.first.label(PLACES[name], towards=1 - 1j, small=True))
+        found = FOUND[name].where(distance=abs(place.place))
+        parts.append(Part(found, (place.first, strokes)))
+    why = say("Because the cam centre must keep every limit at once.")
+    title = say("The region of the cam centre")
+    return Step(title, sequence(said, " "), COMBINED, tuple(marks), why=why, parts=tuple(parts))
 
 
-def _bound_by(lines: list[Boundary]) -> Caption:
-    if not lines:
-        return say("No line binds it.")
-    return say("It lies on the limit of: {lines}.", lines=sequence([LINES[line.name] for line in lines]))
+def _unreadable() -> Step:
+    """The last step where no cam centre can be read."""
+    said = say(
+        "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
+        "at less than a degree."
+    )
+    why = say("Because lines that cross so flatly do not show where.")
+    return Step(say("The least prime radius"), said, COMBINED, (), why=why)
+
+
+def _result(region: LeastRadius) -> Step:
+    """The cam centre in the region, and its distance from the start of the lift."""
+    offset, centre, start = region.givens.offset, region.acts["centre"].first, region.acts["start of the lift"].first
+    hand, mu = showing(region), region.readings["prime_radius"].per_mm
+    reads = ("prime_radius", "offset", "s0")
+    # Adding zero makes a plain zero of the negative one that a central follower's offset is read as.
+    paper, values = ({name: float(get(name)) + 0.0 for name in reads} for get in (region.first, region.value))
+    joined, x = hand.join("r₀", start, centre), centre.place.real
+    level = hand.project("level", centre, hand.given("line of motion", along=UP))
+    parts: list[Part] = []
+    if offset:
+        parts.append(Part(offset_caption(offset, mu), (region.acts["line of the offset"].first,)))
+    parts.append(Part(_centre_caption(region), (centre,)))
+    measured = say("Join A₀ to B₀ and measure: {paper:.2f} mm × {mu:.5g} = {r0:.3f} mm = r₀.")
+    parts.append(Part(measured.where(paper=paper["prime_radius"], mu=mu, r0=values["prime_radius"]), (joined,)))
+    if abs(x) > ON_THE_LINE:
+        carried = say(
+            "Carry A₀ level to the line of motion with the T-square: {aside:.2f} mm × {mu:.5g}, so e = {e:.3f} mm, and "
+            "{height}."
+        ).where(aside=abs(paper["offset"]), mu=mu, e=values["offset"], height=_height(paper["s0"], mu, values["s0"]))
+        parts.append(Part(carried, (level,)))
+    shown, read = say("r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
+    marks = (
+        joined.way(Role.LIMIT),
+        centre.dots(Role.RESULT),
+        centre.label("A₀", towards=-1j + np.sign(x)),
+        Dimension(start.place, centre.place, shown, aside=0.0, of=read),
+        *_centre_lines(region, level),
+    )
+    why = say("Because the nearer the cam centre is to B₀, the smaller is the cam, and hatched places keep all limits.")
+    title, said = say("The least prime radius"), sequence([part.caption for part in parts], " ")
+    return Step(title, said, COMBINED, marks, reads, why=why, parts=tuple(parts))
+
+
+def _height(paper: float, mu: float, s0: float) -> Caption:
+    """How far below the start of the lift the cam centre lies."""
+    if paper < NOTHING:
+        return say("s₀ = 0, as it lies level with B₀")
+    return say("{paper:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀", paper=paper, mu=mu, s0=s0)
+
+
+def _centre_caption(region: LeastRadius) -> Caption:
+    """Which place of the region is the cam centre."""
+    offset, bound = region.givens.offset, [NAMED[line.name] for line in active(region)]
+    if offset is None:
+        nearest_place = say("The offset is open: A₀ is the hatched place nearest to B₀, {where}.")
+        if len(bound) == 1:
+            return nearest_place.where(where=say("where the perpendicular from B₀ meets {line}", line=bound[0]))
+        crossing = say("where it lies on {lines}", lines=joined(bound))
+        return nearest_place.where(where=crossing if bound else say("B₀ itself"))
+    on = say(", on {lines}", lines=joined(bound)) if bound else say(", level with B₀")
+    if not offset:
+        return say("With e = 0 A₀ is where the line of motion itself enters the hatching{on}.", on=on)
+    return say("Where this upright enters the hatching{on}, is A₀.", on=on)
 
 
 def _limit(line: Boundary, limits: Limits) -> Caption:
     return degrees(limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise)
-
-
-def _limit_line(region: LeastRadius, hand: Hand, line: Boundary, floor: Drawn) -> tuple[Mark, ...]:
-    """The boundary from a little above its touch down to the bottom, with its angle to the vertical."""
-    drawn, limit = region.acts[line.name].first, region.acts.get(f"direction of {line.name}", region.acts[line.name])
-    above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
-    below = hand.cross(f"{line.name} at the edge", drawn, floor, flat=True)
-    # The angle is shown where the line has run a third of its way down.
-    at = hand.divide(f"{line.name} on its way", drawn, below, 1 / 3)
-    upright = hand.erect(f"upright at {line.name}", at)
-    first, last = sorted((-np.pi / 2, float(np.angle(line.along))))
-    return (
-        Line(np.array([above, below.place]), Role.LIMIT, of=drawn.act),
-        Segments(at.shown, at.shown - UP * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act),
-        AngleMark(at.place, ANGLE_RADIUS, first, last, _limit(line, region.givens.limits), of=limit.act),
-    )
 
 
 def _alternatives(region: LeastRadius) -> dict[str, Drawn]:
@@ -265,18 +359,17 @@ def _alternatives(region: LeastRadius) -> dict[str, Drawn]:
     return {name: place for name, place in places.items() if place is not None and np.isfinite(place.place)}
 
 
-def _cross(hand: Hand, place: Drawn, name: Caption) -> tuple[Mark, ...]:
-    strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
-    starts, ends = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
-    return Segments(starts, ends, Role.CONSTRUCTION, of=strokes.act), place.label(name, towards=1 - 1j, small=True)
-
-
-def _centre_lines(region: LeastRadius, centre: complex) -> tuple[Mark, ...]:
-    """The follower's line seen from the cam centre, and how far the line of motion lies from it."""
+def _centre_lines(region: LeastRadius, level: Drawn) -> tuple[Mark, ...]:
+    """The follower's line seen from the cam centre, and how far the line of motion lies from it and B₀ above it."""
+    centre, offset = region.acts["centre"].place, region.givens.offset
     if abs(centre.real) < ON_THE_LINE:
         return ()
-    offset, of = region.givens.offset, region.readings["offset"].act
+    line, e, s0 = region.acts.get("line of the offset"), region.readings["offset"].act, region.readings["s0"].act
+    of, index = (line.act, line.first.index.repeat(2)) if offset and line is not None else (None, None)
+    shown = say("s₀ = {s0:.2f}", s0=float(region.value("s0")))
     return (
-        Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS),
-        Dimension(1j * centre.imag, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0, of=of),
+        Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS, of=of, index=index),
+        level.line_from(centre, Role.CONSTRUCTION),
+        Dimension(level.place, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0, of=e),
+        Dimension(0j, level.place, shown, aside=8.0 * np.sign(-centre.real), of=s0),
     )

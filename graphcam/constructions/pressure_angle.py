@@ -6,35 +6,42 @@ sense of the cam's rotation, it ends in D; the angle of D A with the motion is t
 needed.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.adoption import Adoption, adoption_step
+from graphcam.constructions.axes import station_names, turning
+from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities, worked_station
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.minimum_radius import offset_line, velocities
 from graphcam.constructions.views import COMBINED, PLAN, at_scale
-from graphcam.drafting.acts import Act, Drawn
+from graphcam.drafting.acts import Act, Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Arrow, Label, Line, Mark, Role, Segments
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import standard_scale
+from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
+from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
 class MeasuredGivens:
-    """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs."""
+    """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs.
+
+    adopted : tells how the prime radius came about, where it was adopted rather than tried
+    """
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
+    adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
 
 
 MeasuredAngles = Construction[MeasuredGivens]
@@ -51,7 +58,7 @@ ANGLES = {
     "alpha": ReadingMeaning(
         say("pressure angle α"), "α", "rad", converges=Converges("pressure angle", "pressure_angle", "at stations")
     ),
-    "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad"),
+    "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad", judged="least"),
 }
 """The angles at the stations, of any follower."""
 MEANING = Meaning(
@@ -102,6 +109,8 @@ def _complement(alpha: Floats) -> Floats:
 
 PLAN_HEIGHT = 70.0
 """The velocity plan is drawn at the largest standard scale at which the mechanism's triangle is not taller [mm]."""
+ARC = 7.0
+"""The compass draws so much of the prime circle to either side of the cam centre [mm]."""
 SLOW = 0.25
 """The plan is not drawn where the follower is slower than this part of its greatest velocity."""
 
@@ -121,83 +130,248 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
-    k, sigma = shown_station(measured), sense(measured.givens.rotation)
-    centre, end, mu = measured.acts["centre"].first, measured.acts["ends"].first[k], measured.readings["s0"].per_mm
+    k, mu, decided = shown_station(measured), measured.readings["s0"].per_mm, measured.givens.adopted
+    end, centre = measured.acts["ends"].first[k], measured.acts["centre"].first
     scale = standard_scale((end.place - centre.place).imag * mu, PLAN_HEIGHT)
-    plan, acts = at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm)
-    pole, v1, v2, v21 = (acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
-    across, along, ac = v1.place - pole.place, v2.place - pole.place, abs(acts["C"].place)
-    alpha, name = float(measured.first("alpha")[k]), station_names(measured.givens.integrated.givens.stations)[k]
-    closed = say(
-        "In the plan v₂ = v₁ + v₂₁ the cam's point has v₁ = ω·AB across the radius AB, {across:.1f} mm; the follower "
-        "has v₂ along the guide, {along:.1f} mm; v₂₁ along the profile closes the plan with {closing:.1f} mm."
-    ).where(across=abs(across), along=abs(along), closing=abs(along - across))
-    similar = say(
-        "Through the cam centre A the perpendicular to the motion meets the normal in C. The triangle ABC and the plan "
-        "have perpendicular sides, so AC = ds/dφ: {length:.1f} mm · {mu:.4g} = {value:.2f} mm/rad."
-    ).where(length=ac, mu=scale.per_mm, value=ac * scale.per_mm)
-    turned = say(
-        "AC is laid off from B across the motion, turned from v₂ by 90° in the sense of the rotation, to D. The angle "
-        "of DA with the motion is the pressure angle at station {name}: {alpha:.2f}°, and the transmission angle "
-        "{transmission:.2f}°."
-    ).where(name=name, alpha=np.degrees(alpha), transmission=90 - abs(np.degrees(alpha)))
-    everywhere = say(
-        "With the adopted cam centre, r₀ = {r0:g} mm and e = {e:g} mm, the rays from A to the ends D of the combined "
-        "diagram make the pressure angles with the motion at all stations."
-    ).where(r0=measured.givens.prime_radius, e=measured.givens.offset)
-    ray = Segments(centre.shown, end.shown, Role.CONSTRUCTION, of=measured.acts["rays"].act)
-    rays, reads = (centre.dots(Role.RESULT), ray), ("s0", "alpha", "transmission")
-    shown = say("α = {alpha:.1f}°", alpha=np.degrees(alpha))
+    shown = _Shown(measured, k, scale.per_mm, at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm))
+    rounding = [adoption_step(decided(), "e", mu, COMBINED)] if decided else []
     return [
-        Step(say("Velocity plan at station {name}", name=name), closed, plan, velocity_plan(pole, v1, v2, v21)),
-        Step(say("The mechanism's triangle"), similar, plan, _triangle(acts, sigma)),
-        Step(say("The pressure angle"), turned, plan, _angle(acts, sigma, shown, measured.readings["alpha"].act)),
-        Step(say("The pressure angle at every station"), everywhere, COMBINED, rays, reads),
+        *(*rounding, _cam_centre(measured)),
+        *(_mechanism(shown), _velocities(shown), _normal(shown), _angle(shown)),
+        _everywhere(measured, k),
     ]
 
 
-def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Mapping[str, Drawn]:
+@dataclass(frozen=True, eq=False)
+class _Shown:
+    """The station at which the plan is drawn, at ``mu`` mm, or mm/rad, to a millimetre of paper."""
+
+    measured: Construction[PressureAngleGivens]
+    station: int
+    mu: float
+    view: View
+    hand: Hand
+
+    @property
+    def acts(self) -> Mapping[str, Drawn]:
+        """What is drawn there."""
+        return self.hand.acts
+
+    @property
+    def name(self) -> str:
+        """Of the station."""
+        return station_names(self.measured.givens.integrated.givens.stations)[self.station]
+
+    @property
+    def sigma(self) -> int:
+        """1 for a cam that turns counter-clockwise."""
+        return sense(self.measured.givens.rotation)
+
+
+def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Hand:
     """The triangle of the mechanism at a station, enlarged about the cam centre A, and the plan beside it."""
     hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
-    a = hand.enlarged("A", centre, centre, times)
-    b = hand.enlarged("B", measured.acts["displacements"].first[k], centre, times)
-    d = hand.enlarged("D", measured.acts["ends"].first[k], centre, times)
-    v, radius = between(b, d), hand.join("AB", a, b)
+    low, high = measured.acts["displacements"].first[k], measured.acts["ends"].first[k]
+
+    def enlarged(length: Setting) -> Setting:
+        """A length of the combined diagram in this view."""
+        return reckoned(partial(np.multiply, times), length)
+
+    a = hand.given("A")
+    guide = hand.erect("guide", hand.lay_off("foot", a, RIGHT, enlarged(between(centre, low, RIGHT))))
+    b = hand.lay_off("B", guide, UP, enlarged(between(centre, low, UP)))
+    v, radius = enlarged(between(low, high)), hand.join("AB", a, b)
     # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
-    right = max(b.place.real, sigma * float(v.amount), d.place.real, 0.0) + max(0.0, sigma * b.place.imag) + 22.0
-    pole = hand.given("p", complex(right, 8.0))
+    right = max(b.place.real, b.place.real - sigma * float(v.amount), sigma * float(v.amount), 0.0)
+    pole = hand.given("p", complex(right + max(0.0, sigma * b.place.imag) + 22.0, 8.0))
     v1, v2 = hand.lay_off("v₁", pole, radius.turned(sigma * UP), between(a, b)), hand.lay_off("v₂", pole, UP, v)
     normal = hand.perpendicular("normal", hand.join("v₂₁", v1, v2), b)
     c = hand.cross("C", hand.erect("across the motion", a, RIGHT), normal, flat=True)
-    for name, start, other in (("AC", a, c), ("BD", b, d), ("DA", d, a)):
-        hand.join(name, start, other)
-    hand.take("A, B, C", a, b, c)
-    hand.erect("motion", d, -UP)
-    return hand.acts
+    ac = hand.join("AC", a, c)
+    d = hand.lay_off("D", b, ac.turned(-1), between(a, c))
+    hand.join("BD", b, d)
+    hand.angle("alpha", hand.erect("motion", d, -UP), hand.join("DA", d, a), sigma)
+    return hand
 
 
-def _triangle(acts: Mapping[str, Drawn], sigma: int) -> tuple[Mark, ...]:
-    """The triangle of the mechanism, with the cam centre A at the origin, and the guide through B."""
-    b, c = acts["B"].place, acts["C"].place
-    return (
-        Line(np.array([complex(b.real, -6.0), b + 12 * UP]), Role.AXIS),
-        *(acts[side].way(Role.CURVE) for side in ("AB", "AC")),
-        Line(np.array([b + (b - c) * 0.12, c]), Role.CONSTRUCTION, of=acts["normal"].act),
-        acts["A, B, C"].dots(),
-        *(acts["A"].label("A", -1j - sigma), acts["B"].label("B"), acts["C"].label("C", -1j + sigma)),
+def _told(
+    title: Caption, why: Caption, view: View, parts: Sequence[Part], marks: Sequence[Mark], reads: tuple[str, ...] = ()
+) -> Step:
+    """A step whose caption is that of its parts, one after another."""
+    said = sequence([part.caption for part in parts], " ")
+    return Step(title, said, view, tuple(marks), reads, why=why, parts=tuple(parts))
+
+
+def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
+    """So much of a line as is drawn out."""
+    return Line(np.array([start, end]), role, of=drawn.act, index=drawn.index.repeat(2))
+
+
+def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
+    """The cam centre, which the compass finds on the upright of the offset."""
+    mu, offset, r0 = measured.readings["s0"].per_mm, measured.givens.offset, measured.givens.prime_radius
+    centre, prime, line = (measured.acts[name].first for name in ("centre", "prime circle", "line of the offset"))
+    displacements, ends = measured.acts["displacements"].first, measured.acts["ends"].first
+    radius, towards = float(np.asarray(prime.radius)), float(np.angle(centre.place - prime.place))
+    span = towards - ARC / radius, towards + ARC / radius
+    marks: list[Mark] = [
+        Arc(prime.place, radius, *span, Role.CONSTRUCTION, of=prime.act, index=prime.index),
+        *(laid_off.dots(Role.CONSTRUCTION) for laid_off in (displacements, ends)),
+        centre.dots(Role.RESULT),
+        centre.label("A", -1j - np.sign(centre.place.real)),
+    ]
+    cut = say(
+        "Compass {paper:.2f} mm, {r0:g}/{mu:.5g}, about B₀: below it the arc cuts {upright} in A. Measured upright, A "
+        "lies {below:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀."
     )
+    upright = say("this upright") if offset else say("the line of motion itself, as e = 0,")
+    read = {"below": float(measured.first("s0")), "s0": float(measured.value("s0"))}
+    cut = cut.where(upright=upright, paper=r0 / mu, r0=r0, mu=mu, **read)
+    combined = say("Work in the combined diagram, with B₀ and the ends of v as laid off there.")
+    parts = [Part(combined, (displacements, ends)), Part(cut, (prime, centre))]
+    if offset:
+        parts.insert(1, Part(offset_caption(offset, mu), (line,)))
+        marks.append(_stroke(line, centre.place - 6 * UP, centre.place.real + 6 * UP, Role.AXIS))
+    why = say("Because A lies on the upright of the offset, as far from B₀ as the prime radius is long.")
+    return _told(say("The cam centre at the adopted radius"), why, COMBINED, parts, marks, ("s0",))
 
 
-def _angle(acts: Mapping[str, Drawn], sigma: int, shown: Caption, read: Act | None) -> tuple[Mark, ...]:
+def _mechanism(shown: _Shown) -> Step:
+    """A and B of the mechanism, and the guide through B."""
+    measured, acts, k = shown.measured, shown.acts, shown.station
+    a, b, guide, offset = acts["A"], acts["B"], acts["guide"], measured.givens.offset
+    taken = say(
+        "Take station {name}, where the rays will show the greatest angle of the rise while the follower is not slow."
+    ).where(name=shown.name)
+    beside = say("Mark A in a new drawing at {ratio}, and draw the guide upright through A.")
+    if offset:
+        beside = say("Mark A in a new drawing at {ratio}, and draw the guide upright, {paper:.2f} mm {side} of A.")
+    beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=aside(offset))
+    s0, s = float(measured.value("s0")), float(measured.givens.integrated.value("s")[k])
+    above = say(
+        "On the guide mark B, s₀ + s = {s0:.5g} + {s:.5g} = {sum:.5g} mm above A, which is {paper:.2f} mm of paper. "
+        "Join A to B: {ab:.2f} mm."
+    ).where(s0=s0, s=s, sum=s0 + s, paper=b.place.imag, ab=abs(b.place))
+    parts = Part(sequence([taken, beside], " "), (a, guide)), Part(above, (b, acts["AB"]))
+    marks = (
+        _stroke(guide, complex(b.place.real, -6.0), b.place + 12 * UP, Role.AXIS),
+        acts["AB"].way(Role.CURVE),
+        *(a.dots(), b.dots(), a.label("A", -1j - shown.sigma), b.label("B")),
+    )
+    why = say("Because the plan needs the radius AB, on which the point of the cam that drives B turns.")
+    title = say("The mechanism at station {name}", name=shown.name)
+    return _told(title, why, shown.view, parts, marks)
+
+
+def _velocities(shown: _Shown) -> Step:
+    """The velocity plan, with the angular velocity divided out."""
+    pole, v1, v2, v21 = (shown.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
+    one, two = v1.place - pole.place, v2.place - pole.place
+    combined = abs(shown.measured.acts["ends"].first[shown.station].place.real)
+    turned = say(
+        "Divide all speeds by ω, so 1 mm of the plan is {mu:.5g} mm/rad. From the pole p draw v₁ = AB = {across:.2f} "
+        "mm, with set squares square to AB, turned from it {rotation}."
+    ).where(mu=shown.mu, across=abs(one), rotation=turning(shown.measured.givens.rotation))
+    up = say(
+        "From p draw v₂ straight up: v of station {name} in the combined diagram, {combined:.2f} mm × {mu_s:.5g} = "
+        "{v:.2f} mm/rad, is {paper:.2f} mm here."
+    ).where(
+        name=shown.name,
+        combined=combined,
+        mu_s=shown.measured.readings["s0"].per_mm,
+        v=abs(two) * shown.mu,
+        paper=abs(two),
+    )
+    closing = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.2f} mm.", closing=abs(two - one))
+    parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
+    why = say(
+        "Because B of the follower moves as the point of the cam under it and slides along the profile besides: "
+        "v₂ = v₁ + v₂₁."
+    )
+    title = say("Velocity plan at station {name}", name=shown.name)
+    return _told(title, why, shown.view, parts, velocity_plan(pole, v1, v2, v21))
+
+
+def _normal(shown: _Shown) -> Step:
+    """The normal through B, and C where it meets the level through A."""
+    b, c, normal, ac = (shown.acts[name] for name in ("B", "C", "normal", "AC"))
+    square = say("With two set squares draw through B the normal, square to v₂₁.")
+    level = say(
+        "Draw the level through A with the T-square; it meets the normal in C, {length:.2f} mm {side} of A: AC = "
+        "{length:.2f} mm × {mu:.5g} = {value:.2f} mm/rad, as long as v₂."
+    ).where(length=abs(c.place), side=aside(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
+    parts = Part(square, (normal,)), Part(level, (c, ac))
+    marks = (
+        _stroke(normal, b.place + (b.place - c.place) * 0.12, c.place, Role.CONSTRUCTION),
+        ac.way(Role.CURVE),
+        *(c.dots(), c.label("C", -1j + shown.sigma)),
+    )
+    why = say(
+        "Because v₂₁ lies along the profile the normal is square to it, so ABC and the plan have sides square to one "
+        "another, and AC = v₂/ω = ds/dφ."
+    )
+    title = say("The normal and the triangle ABC")
+    return _told(title, why, shown.view, parts, marks)
+
+
+def _angle(shown: _Shown) -> Step:
     """A C laid off from B to D, and the angle of D A with the motion."""
-    d, height = acts["D"], acts["B"].place.imag
-    return (
-        acts["BD"].way(Role.CURVE),
-        acts["DA"].way(Role.LIMIT),
-        Line(np.array([d.place, d.place - UP * 0.62 * height]), Role.CONSTRUCTION, of=acts["motion"].act),
-        *(d.dots(), d.label("D", 1j - sigma)),
-        angle_at(d.place, -np.pi / 2, float(np.angle(-d.place)), 0.55 * height, shown, read),
+    acts, height, reading = shown.acts, shown.acts["B"].place.imag, shown.hand.readings["alpha"]
+    d, bd, da, motion = (acts[name] for name in ("D", "BD", "DA", "motion"))
+    alpha = float(np.degrees(reading.paper))
+    laid_off = say("Lay AC off from B level {side}, {length:.2f} mm to D: A, C, B and D make a parallelogram.").where(
+        side=aside((d.place - acts["B"].place).real), length=abs(acts["C"].place)
     )
+    joining = say("Join D to A: DA is parallel to the normal BC.")
+    measuring = say(
+        "Draw an upright at D and measure its angle to DA with the protractor: at station {name} the pressure angle is "
+        "α = {alpha:.2f}°, and the transmission angle 90° - |α| = {transmission:.2f}°."
+    ).where(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
+    parts = Part(laid_off, (d, bd)), Part(joining, (da,)), Part(measuring, (motion,))
+    label = say("α = {alpha:.1f}°", alpha=alpha)
+    marks = (
+        *(bd.way(Role.CURVE), da.way(Role.LIMIT)),
+        _stroke(motion, d.place, d.place - UP * 0.62 * height, Role.CONSTRUCTION),
+        *(d.dots(), d.label("D", 1j - shown.sigma)),
+        angle_at(d.place, -np.pi / 2, float(np.angle(-d.place)), 0.55 * height, label, reading.act),
+    )
+    why = say(
+        "Because DA is parallel to the normal, and D is the end of v in the combined diagram, where the angle can be "
+        "measured at every station."
+    )
+    title = say("The pressure angle at station {name}", name=shown.name)
+    return _told(title, why, shown.view, parts, marks)
+
+
+def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step:
+    """The rays from the cam centre to all ends, and the angle of each."""
+    integrated, rays = measured.givens.integrated, measured.acts["rays"]
+    names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
+    sigma, k, least = sense(measured.givens.rotation), worked_station(integrated), int(np.argmax(np.abs(alpha)))
+    said = say(
+        "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle of each "
+        "ray to the upright, positive where it leans {side} going up. Ray {worked}: {angle:.2f}°; ray {shown}, the "
+        "one of the plan: {again:.2f}°. The angle of greatest magnitude is {greatest:.2f}°, at {name}; there the "
+        "transmission angle 90° - |α| is least, {transmission:.2f}°. The greatest angle between stations is read "
+        "from the angle diagram."
+    ).where(
+        side=aside(-sigma),
+        worked=names[k],
+        angle=alpha[k],
+        shown=names[shown],
+        again=alpha[shown],
+        greatest=alpha[least],
+        name=names[least],
+        transmission=90 - abs(alpha[least]),
+    )
+    ray = say("Ray {name}: join A to end {name}; its angle to the upright is {alpha:z.2f}°.")
+    parts = [
+        Part(ray.where(name=name, alpha=angle), (rays.first[i],))
+        for i, (name, angle) in enumerate(zip(names, alpha, strict=True))
+    ]
+    why = say("Because the ray from A to an end is parallel to the normal at its station, as DA is.")
+    title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
+    return Step(title, said, COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why, parts=tuple(parts))
 
 
 def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn) -> tuple[Mark, ...]:
@@ -205,10 +379,10 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn) -> tuple[Mark, 
     start, one, other = pole.place, v1.place, v2.place
     side = np.sign((one - start).real)
     return (
-        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE, v21.act)),
-        Label((start + one) / 2, "v₁", -UP * side, of=v1.act),
-        Label((start + other) / 2, "v₂", -side, of=v2.act),
-        Label((one + other) / 2, "v₂₁", UP + side, of=v21.act),
+        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE, v21.act, v21.index)),
+        Label((start + one) / 2, "v₁", -UP * side, of=v1.act, index=v1.index),
+        Label((start + other) / 2, "v₂", -side, of=v2.act, index=v2.index),
+        Label((one + other) / 2, "v₂₁", UP + side, of=v21.act, index=v21.index),
         pole.label("p", -1 - 1j),
     )
 

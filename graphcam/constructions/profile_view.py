@@ -1,39 +1,50 @@
 """What every drawing about the cam centre has: closed curves, the phases' angles, the sense of the rotation."""
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, numbers, phase_angle, turning
+from graphcam.constructions.adoption import Adoption
+from graphcam.constructions.axes import degrees, numbers, phase_angle, phase_symbol, phase_title, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.acts import Drawn
+from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP, turned, unit
 from graphcam.drafting.hand import Direction, Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
+from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
 class InvertedGivens:
-    """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm]."""
+    """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm].
+
+    adopted : tells how the prime radius came about, where it was adopted rather than tried
+    """
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
     mu_l: Scale
+    adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
 
 
 Inverted = Construction[InvertedGivens]
 
 
+PRIME_WHY = say(
+    "Because only the motion of the cam relative to the follower counts: with the cam held still, its outline is what "
+    "the follower touches on its way round."
+)
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
 
@@ -68,11 +79,69 @@ def curve_readings(hand: Hand, curve: Drawn, mu_l: Scale) -> None:
     hand.angle("polar_angle", RIGHT, hand.join("polar rays", centre, curve))
 
 
+WORKED = 4
+"""The station that a caption works out, counted in the first moving phase."""
+
+
+def worked_station(stations: Stations) -> int:
+    """The station that a caption works out for all: the fourth, or the last of a phase of fewer parts."""
+    first = stations.phases[0]
+    return min(first.start + WORKED, first.stop - 1)
+
+
 def divided_by(inverted: Inverted) -> dict[str, Words]:
-    """What a caption says of the inverted positions: the ``rotation`` they are numbered against, and the ``angles``."""
-    phases = inverted.givens.integrated.givens.motion.phases
-    angles = sequence([degrees(phase.angle) for phase in phases])
-    return {"rotation": turning(inverted.givens.rotation), "angles": angles}
+    """What a caption says of the inverted positions.
+
+    rotation, against : how the cam turns, and how the follower goes round it
+    angles : of the phases;  steps : from station to station in each moving phase
+    name, angle : of the station that is worked out, counted from the start of the turn
+    """
+    motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
+    at = worked_station(stations)
+    return {
+        "rotation": turning(inverted.givens.rotation),
+        "against": against(inverted),
+        "angles": sequence([degrees(phase.angle) for phase in motion.phases]),
+        "steps": sequence([_step_of(motion, stations, span) for span in stations.phases]),
+        "name": station_names(stations)[at],
+        "angle": turn_of(inverted, at),
+    }
+
+
+def _step_of(motion: Motion, stations: Stations, span: slice) -> Caption:
+    """By how much one goes on from station to station in a moving phase: its stretches may be divided differently."""
+    steps = np.diff(stations.phi[span])
+    new = np.append(True, ~np.isclose(np.diff(steps), 0.0))
+    symbol = phase_symbol(motion, int(stations.phase[span.start]))
+    each = [_turn(step) for step in steps[new]]
+    return say("{steps} in {symbol}", steps=sequence(each, "/"), symbol=symbol)
+
+
+def _turn(angle: float) -> Caption:
+    """An angle in radians, to hundredths of a degree."""
+    return say("{angle:g}°", angle=round(math.degrees(angle), 2))
+
+
+def turn_of(inverted: Inverted, station: int) -> Caption:
+    """By how much the follower has gone round at a station, from the start of the turn."""
+    return _turn(float(inverted.givens.integrated.givens.stations.phi[station]))
+
+
+def against(inverted: Inverted) -> Caption:
+    """The sense in which the follower goes round the cam that stands still."""
+    return turning("ccw" if inverted.givens.rotation == "cw" else "cw")
+
+
+@dataclass(frozen=True, eq=False)
+class PiecewiseCurve:
+    """A closed curve on the paper, piece by piece: faired between jumps, an arc about the cam centre in every dwell.
+
+    whole : all of it;  parts : how each piece is drawn;  arcs : the compass's settings for the dwells, if there are any
+    """
+
+    whole: Drawn
+    parts: tuple[Part, ...]
+    arcs: Caption | None
 
 
 def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
@@ -80,10 +149,33 @@ def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
 
     points : (m,) places on the paper, NaN where there is none
     """
+    return piecewise_curve(name, inverted, points).whole
+
+
+def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCurve:
+    """A :func:`closed_curve`, and how it is drawn."""
+    motion, pieces = inverted.givens.integrated.givens.motion, _pieces(name, inverted, points.first)
+    known = np.flatnonzero(~np.isnan(np.concatenate([piece.points for _, piece in pieces])))
+    whole = showing(inverted).take(name, *(piece for _, piece in pieces), which=known)
+    ends = [0, *np.searchsorted(known, np.cumsum([piece.points.size for _, piece in pieces])).tolist()]
+    # Where a phase has lost all its points there is no piece of it.
+    left = [(k, piece, whole[a:b]) for (k, piece), (a, b) in zip(pieces, pairwise(ends), strict=True) if a < b]
+    arcs = [
+        say("{symbol}: {radius:.1f} mm", symbol=phase_symbol(motion, k), radius=abs(piece.shown[0]))
+        for k, piece, _ in left
+        if piece.act.kind is Kind.LAY_OFF
+    ]
+    parts = tuple(Part(_piece_said(inverted, k, piece), (at,)) for k, piece, at in left)
+    said = say("In the dwells swing arcs about A: {arcs}.", arcs=sequence(arcs)) if arcs else None
+    return PiecewiseCurve(whole, parts, said)
+
+
+def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Drawn]]:
+    """The pieces of a closed curve in order, each with the number of its phase."""
     hand, integrated = showing(inverted), inverted.givens.integrated
     motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(inverted.givens.rotation)
     spans = {int(stations.phase[span.start]): span for span in stations.phases}
-    points, centre, parts = points.first, hand.given("cam centre"), list[Drawn]()
+    centre, found = hand.given("cam centre"), list[tuple[int, Drawn]]()
     missing = np.isnan(points.points)
     at, since = missing.size - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
     for k, phase in enumerate(motion.phases):
@@ -91,7 +183,7 @@ def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
             span = spans[k]
             pieces = [p for p in stations.pieces if span.start <= p.start < span.stop - 1]
             kept = [np.flatnonzero(~missing[piece]) + piece.start for piece in pieces]
-            parts += [hand.fair(f"{name} {k}", points[places], [slice(None)]) for places in kept]
+            found += [(k, hand.fair(f"{name} {k}", points[places], [slice(None)])) for places in kept]
             at, since = span.stop - 1, stations.phi[span.stop - 1]
         else:
             turns = motion.starts[k] - since + np.linspace(0, phase.angle, max(2, round(phase.angle / ARC_STEP)))
@@ -100,9 +192,20 @@ def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
             end, back = (after, (stations.phi[after] - since) % FULL_TURN) if missing[at] else (at, 0.0)
             ray = hand.join(f"ray to the dwell {k}", centre, points[end])
             rays = hand.protractor(f"rays of the dwell {k}", centre, ray, sigma * (back - turns))
-            parts.append(hand.lay_off(f"{name} {k}", centre, rays, between(centre, points[end])))
-    known = ~np.isnan(np.concatenate([part.points for part in parts]))
-    return hand.take(name, *parts, which=np.flatnonzero(known))
+            found.append((k, hand.lay_off(f"{name} {k}", centre, rays, between(centre, points[end]))))
+    return found
+
+
+def _piece_said(inverted: Inverted, k: int, piece: Drawn) -> Caption:
+    """With which instrument a piece of a closed curve is drawn, from which station to which."""
+    motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
+    phase = phase_title(motion, k)
+    if piece.act.kind is Kind.FAIR:
+        names, at = station_names(stations), piece.act.takes["points"].index
+        said = say("From {start} to {end}, {phase}: draw along the French curve through the points.")
+        return said.where(start=names[at[0]], end=names[at[-1]], phase=phase)
+    said = say("In the {phase}: set the compass to {radius:.1f} mm and swing an arc of {angle} about A.")
+    return said.where(phase=phase, radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
 
 
 ROTATION_ARC = 0.9
@@ -111,10 +214,16 @@ ARC_STEP = math.radians(1)
 """The arcs of a closed curve are drawn through points this far apart [rad]."""
 
 
-def radius_arrow(inverted: Inverted, circle: Drawn, start: complex, symbol: str, radius: float) -> tuple[Mark, ...]:
+def radius_arrow(
+    inverted: Inverted, circle: Drawn, start: complex, symbol: str, radius: float
+) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:
     """An arrow to a circle from its centre, in the middle of the longest phase, where there is most room.
 
     start : the direction in which the circle is at the start of the turn; radius : of the machine [mm]
+
+    Returns
+    -------
+    its marks, and what they are of
     """
     motion: Motion = inverted.givens.integrated.givens.motion
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
@@ -123,11 +232,9 @@ def radius_arrow(inverted: Inverted, circle: Drawn, start: complex, symbol: str,
     towards = complex(turned(start / abs(start), -sigma * middle))
     ray = hand.erect(f"radius {symbol}", circle.first, towards)
     tip = hand.cross(f"tip of {symbol}", ray, circle.first)
-    text = say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
-    return (
-        Arrow(ray.place, tip.place, Role.DIMENSION, of=ray.act),
-        hand.divide(symbol, ray, tip, 0.6).label(text, tip.place * UP),
-    )
+    named, text = hand.divide(symbol, ray, tip, 0.6), say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
+    arrow = Arrow(ray.place, tip.place, Role.DIMENSION, of=ray.act, index=ray.index)
+    return (arrow, named.label(text, tip.place * UP)), (ray, named)
 
 
 def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
@@ -143,15 +250,23 @@ def start_of_turn(inverted: Inverted) -> complex:
     return complex(np.append(back[~np.isnan(back)], UP)[0])
 
 
-def phase_angles(inverted: Inverted, start: complex) -> list[Mark]:
-    """The angles of the phases outside the curve, against the rotation, from the point where the lift starts."""
+def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
+    """The angles of the phases outside the curve, against the rotation, from the point where the lift starts.
+
+    They are marked last, when all positions are drawn.
+    """
     motion: Motion = inverted.givens.integrated.givens.motion
     sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
-    rays: Points = np.exp(1j * limits[:-1])
-    turns, of = enumerate(pairwise(limits)), inverted.acts["inverted positions"].act
-    angles = [AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of) for k, (a, b) in turns]
-    return [Segments(0.0 * rays, (radius + BEYOND / 2) * rays, Role.AXIS), *angles]
+    hand = showing(inverted)
+    rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
+    of, index, ends = rays.act, rays.index, (radius + BEYOND / 2) * rays.directions
+    angles = [
+        AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of, index[k : k + 1])
+        for k, (a, b) in enumerate(pairwise(limits))
+    ]
+    said = say("Mark the angles of the phases outside, {against}: {angles}.").where(**divided_by(inverted))
+    return [Segments(0.0 * ends, ends, Role.AXIS, of, index), *angles], Part(said, (rays,))
 
 
 def _outer_radius(inverted: Inverted) -> float:
@@ -170,6 +285,7 @@ def ground(inverted: Inverted) -> tuple[Mark, ...]:
         rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
         Label(0.6 * prime * complex(turned(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
         Dots(np.array([0j]), Role.RESULT),
+        Label(0j, "A", towards=1 - 1j),
     )
 
 
@@ -180,23 +296,52 @@ def prime_step(
     start: complex,
     circles: tuple[Mark, ...] = (),
     further: tuple[Mark, ...] = (),
+    *,
+    why: Caption = PRIME_WHY,
+    parts: tuple[Part, ...] = (),
 ) -> Step:
-    """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them."""
+    """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them.
+
+    parts : what is drawn after the prime circle
+    """
     centre, circle = ground(inverted), inverted.acts["prime circle"]
-    arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
+    arrow, of_arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
     marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
-    return Step(title, said, PROFILE, marks, given=centre)
+    first = Part(compass_said(inverted, "r₀", inverted.givens.prime_radius), (circle, *of_arrow))
+    return Step(title, said, PROFILE, marks, given=centre, why=why, parts=(first, *parts))
+
+
+def compass_said(inverted: Inverted, symbol: str, radius: float) -> Caption:
+    """How a circle about the cam centre is drawn; radius : of the machine [mm]."""
+    mu_l = inverted.givens.mu_l.per_mm
+    said = say("Set the compass to {paper:.1f} mm ({symbol} = {radius:g} mm at {ratio}) and draw the circle about A.")
+    return said.where(paper=radius / mu_l, symbol=symbol, radius=radius, ratio=ratio_text(mu_l))
 
 
 PITCH_CURVE = say("Pitch curve")
-PITCH_SAID = say("A smooth curve through the points, with arcs about the centre in the dwells, is the pitch curve.")
+PITCH_SAID = say("Join the points of each phase with the French curve, from jump to jump of the acceleration.")
+PITCH_WHY = say(
+    "Because the follower moves smoothly between the stations, and in a dwell keeps its distance from the cam centre."
+)
 
 
 def pitch_steps(
-    inverted: Inverted, laid_off: Step, title: Caption = PITCH_CURVE, said: Caption = PITCH_SAID
+    inverted: Inverted,
+    laid_off: Step,
+    title: Caption = PITCH_CURVE,
+    said: Caption = PITCH_SAID,
+    why: Caption = PITCH_WHY,
 ) -> list[Step]:
-    """The points of the pitch curve, or of the profile under a flat face, and the curve through them."""
+    """The points of the pitch curve, or of the profile under a flat face, and the curve through them.
+
+    laid_off : how the points are found, with its reason and its parts
+    said : how the curve is drawn between the dwells
+    """
     pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
     points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, unit(pitch.shown)))
-    curve = closed_curve("pitch curve", inverted, pitch).line(Role.CURVE, closed=True)
-    return [replace(laid_off, marks=(*laid_off.marks, *points)), Step(title, said, PROFILE, (curve,))]
+    curve = piecewise_curve("pitch curve", inverted, pitch)
+    line, told = curve.whole.line(Role.CURVE, closed=True), sequence([said, curve.arcs], " ") if curve.arcs else said
+    return [
+        replace(laid_off, marks=(*laid_off.marks, *points)),
+        Step(title, told, PROFILE, (line,), why=why, parts=curve.parts),
+    ]

@@ -1,6 +1,6 @@
 """What a step reads off the paper, as a reader writes it down: millimetres times a scale are a value."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from graphcam.drafting.ink import Caption, Construction, Step, say
 from graphcam.drafting.units import unit
 from graphcam.given.laws import Floats
 from graphcam.given.stations import Stations
+from graphcam.words import Words
 
 PAPER = "mm of paper"
 """The unit of a reading that stands for nothing but its own length."""
@@ -24,7 +25,9 @@ class ReadingRow:
     paper : what was measured, () or (m,) [mm, or degrees of an angle that was measured itself]
     mu : what a millimetre stands for [``unit``/mm], None where what was measured is itself the value
     value : () or (m,) [``unit``];  unit : with "°" for an angle
-    places : (m,) names of the stations that the values belong to, else their numbers from 1; empty for a scalar
+    places : (m,) names of what the values belong to; empty for a scalar
+    stations : whether these are stations
+    judged : which of several values counts, as the meaning of the reading says
     """
 
     name: str
@@ -33,12 +36,26 @@ class ReadingRow:
     mu: float | None
     value: Floats
     unit: str
-    places: tuple[str, ...]
+    places: tuple[Words, ...] = ()
+    stations: bool = False
+    judged: str = "extremes"
+
+    @property
+    def extremes(self) -> list[tuple[Caption, int]]:
+        """Of several values what is told first, and at which place: the least, the greatest, or of both signs both."""
+        least = say("minimum"), int(np.nanargmin(self.value))
+        greatest = say("maximum"), int(np.nanargmax(self.value))
+        if self.judged == "least" or self.value[greatest[1]] < 0:
+            return [least]
+        return [greatest] if self.value[least[1]] >= 0 else [least, greatest]
+
+    def at(self, what: Caption, place: int) -> Caption:
+        """An extreme and where it is, such as "minimum (station 4)"."""
+        name = self.places[place]
+        return say("{what} ({place})", what=what, place=say("station {name}", name=name) if self.stations else name)
 
     def said(self, place: int | None = None) -> Caption:
-        """The reading in one line: of an array that at a ``place``, by default the one of greatest magnitude."""
-        if self.paper.ndim:
-            place = int(np.nanargmax(np.abs(self.paper))) if place is None else place
+        """The reading in one line: of an array that at a ``place``."""
         at = () if place is None else (place,)
         paper, value = float(self.paper[at]), float(self.value[at])
         if self.mu is None:
@@ -71,19 +88,24 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     # Not Construction.first: a place of the same name would come before the reading.
     paper = reading.paper[0] if construction.pencil.samples is not None else reading.paper
     paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
-    title = construction.meaning.reading(name).title
-    places = _stations(construction) if paper.ndim else ()
-    if paper.ndim and len(places) != paper.size:
-        places = tuple(str(k) for k in range(1, paper.size + 1))
+    meaning = construction.meaning.reading(name)
     mu = reading.per_mm
     if reading.unit == PAPER:
-        return ReadingRow(name, title, paper, None, paper, "mm", places)
-    if reading.unit == "rad":
+        row = ReadingRow(name, meaning.title, paper, None, paper, "mm")
+    elif reading.unit == "rad":
         degrees = np.degrees(paper * mu)
         # An angle that was measured as such has the scale 1 on every sheet.
         measured, scale = (degrees, None) if mu == 1 else (paper, float(np.degrees(mu)))
-        return ReadingRow(name, title, measured, scale, degrees, "°", places)
-    return ReadingRow(name, title, paper, mu, paper * mu, reading.unit, places)
+        row = ReadingRow(name, meaning.title, measured, scale, degrees, "°")
+    else:
+        row = ReadingRow(name, meaning.title, paper, mu, paper * mu, reading.unit)
+    if not paper.ndim:
+        return row
+    names = meaning.over(construction) if meaning.over else _stations(construction)
+    # What its meaning does not tell, and is not over the stations, is counted.
+    counted = tuple(str(k) for k in range(1, paper.size + 1)) if len(names) != paper.size else ()
+    of_stations = meaning.over is None and not counted
+    return replace(row, places=counted or tuple(names), stations=of_stations, judged=meaning.judged)
 
 
 def _stations(construction: Construction) -> tuple[str, ...]:

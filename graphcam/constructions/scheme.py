@@ -1,60 +1,85 @@
-"""The scheme of the mechanism: cam, follower and frame at the start of the turn, small, for the eye alone."""
+"""The kinematic diagram and the data: what is given, and what is to be found, before the first line is drawn."""
 
-from dataclasses import dataclass, replace
+from __future__ import annotations
 
-import numpy as np
+from dataclasses import dataclass
 
-from graphcam.constructions.board import DrawnFollower
-from graphcam.constructions.profile_view import closed_curve, rotation_arrow
-from graphcam.constructions.roller import Profile
-from graphcam.constructions.views import SCHEME, at_scale
-from graphcam.drafting.hand import showing
-from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.marks import Label, Role
+from graphcam.constructions.axes import degrees, phase_title
+from graphcam.constructions.board import Board
+from graphcam.constructions.law_names import law_title
+from graphcam.constructions.views import SCHEME
+from graphcam.drafting.ink import Caption, Construction, Step, Words, say
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.scale import ratio_text, standard_scale
-from graphcam.given.follower import sense
-
-SIZE = 60.0
-"""The cam is drawn at the largest standard scale at which it is not wider [mm]."""
+from graphcam.drafting.pencil import Pencil
+from graphcam.given.motion import Motion
+from graphcam.words import joined, sequence
 
 
 @dataclass(frozen=True, eq=False)
 class SchemeGivens:
-    """The profile, and the follower on it."""
+    """The task, and the draughtsman's choices."""
 
-    profile: Profile
-    follower: DrawnFollower
-
-
-MEANING = Meaning("scheme", say("Scheme of the mechanism"), say("The mechanism at the start of the turn."))
+    board: Board
 
 
-def scheme(profile: Profile, follower: DrawnFollower) -> Construction[SchemeGivens]:
-    """Cam, follower and frame at the start of the turn."""
-    return Construction(MEANING, SchemeGivens(profile, follower), profile.pencil, {}, {}, _draw)
+MEANING = Meaning(
+    "scheme",
+    say("Kinematic diagram"),
+    say(
+        "The kinematic diagram shows how the links are joined, and names the points and the sizes. It is a sketch: it "
+        "is not to scale, and its cam is a plain one, for the profile is only found at the end."
+    ),
+    calculation="report.note.task_data",
+)
+WHY = say("Because everything that follows is drawn from these data, and names its points as this diagram does.")
+
+
+def scheme(board: Board, pencil: Pencil) -> Construction[SchemeGivens]:
+    """Cam, follower and frame, and the data of the task."""
+    return Construction(MEANING, SchemeGivens(board), pencil, {}, {}, _draw)
 
 
 def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
-    profile = drawn.givens.profile
-    inverted, roller = profile.givens.inverted, profile.givens.roller_radius
-    mu_l, sigma = inverted.givens.mu_l, sense(inverted.givens.rotation)
-    hand, curve = showing(drawn), closed_curve("outline", inverted, profile.acts["touch"])
-    scale = standard_scale(2 * float(np.abs(curve.points).max()) * mu_l.per_mm, SIZE)
-    centre, scheme = hand.given("A"), at_scale(SCHEME, scale)
-    outline = hand.enlarged("outline", curve, centre, mu_l.per_mm / scale.per_mm)
-    radius = 0.5 * inverted.givens.prime_radius / scale.per_mm
-    circle = hand.circle("circle of the rotation", centre, radius)
-    ground = hand.given("ground", np.arange(-3, 3.1, 1.5) - 5j, -1.2 - 1.5j)
-    marks = (
-        outline.line(Role.RESULT, closed=True),
-        *drawn.givens.follower.scheme(inverted, roller, scale),
-        hand.circle("shaft", centre, 1.2).drawn_circle(Role.CURVE),
-        hand.given("support", np.array([-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j])).line(Role.CURVE),
-        ground.ways(Role.HATCH),
-        replace(rotation_arrow(np.pi / 2 - sigma * 1.9, sigma, radius), of=circle.act),
-        Label(radius * complex(-sigma, 1), "ω", towards=complex(-sigma), of=circle.act),
-        centre.label("A", 1 - 1j),
-    )
-    said = say("Cam, follower and frame at the start of the turn, at {ratio}.", ratio=ratio_text(scale.per_mm))
-    return [Step(say("Scheme of the mechanism"), said, scheme, marks)]
+    board = drawn.givens.board
+    marks = board.follower.scheme(board.rotation, board.roller_radius)
+    said = sequence(data_sentences(board), " ")
+    # All of it is given, so that it stands on a worksheet too.
+    return [Step(say("Kinematic diagram and data"), said, SCHEME, marks, given=marks, why=WHY)]
+
+
+def data_sentences(board: Board) -> list[Caption]:
+    """What the task gives and asks for, in sentences."""
+    follower, r0 = board.follower, board.prime_radius
+    phases = sequence([_phase(board.motion, k, follower.unit) for k in range(len(board.motion.phases))], "; ")
+    return [
+        *follower.described(board.rotation, board.roller_radius),
+        *([] if r0 is None else [say("The prime radius is r₀ = {radius:g} mm.", radius=r0)]),
+        say("One turn of the cam: {phases}.", phases=phases),
+        follower.limited(board.limits),
+        say("To be found: {sizes}.", sizes=joined(_to_be_found(board))),
+    ]
+
+
+def _phase(motion: Motion, k: int, unit: str) -> Caption:
+    phase, named = motion.phases[k], {"phase": phase_title(motion, k), "angle": degrees(motion.phases[k].angle)}
+    if not phase.lift:
+        return say("{phase} = {angle}", **named)
+    lift = degrees(phase.lift) if unit == "rad" else say("{length:g} mm", length=phase.lift)
+    return say("{phase} = {angle} by {lift} (law: {law})", **named, lift=lift, law=law_title(motion, k))
+
+
+SYMBOLS = {
+    "offset": say("offset e"),
+    "distance": say("centre distance c"),
+    "roller_radius": say("roller radius r"),
+}
+"""The sizes of a follower that a task may leave open, by their names."""
+
+
+def _to_be_found(board: Board) -> list[Words]:
+    """What the task leaves open of the sizes that the cam and its follower have, and the profile."""
+    follower = board.follower
+    has = [size.name for size in follower.sizes(0.0, 0.0) if size.value is not None]
+    given = {size.name: size.value for size in follower.sizes(follower.place, board.roller_radius)}
+    radius = [say("prime radius r₀")] if board.prime_radius is None else []
+    return [*radius, *(SYMBOLS.get(name, name) for name in has if given[name] is None), say("the profile of the cam")]

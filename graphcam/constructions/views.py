@@ -27,7 +27,7 @@ PROFILE = View(
     "profile", say("Cam profile by inversion"), across="cam x", up="cam y", scale=say("Cam profile, {ratio}")
 )
 CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
-SCHEME = View("scheme", say("Scheme of the mechanism"), across="scheme x", up="scheme y")
+SCHEME = View("scheme", say("Kinematic diagram"), across="scheme x", up="scheme y")
 REGION = View("region", say("Arm positions: the least radius"), across="region x", up="region y")
 FORCES = View("forces", say("Force plan"), across="forces", up="forces")
 

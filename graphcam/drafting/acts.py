@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.drafting.marks import Arrow, Circle, Dots, Label, Line, Points, Role, Segments
+from graphcam.drafting.marks import Arrow, Circle, Dots, Label, Line, Places, Points, Role, Segments
 from graphcam.words import Words
 
 Floats = NDArray[np.floating[Any]]
@@ -78,12 +78,14 @@ class Act:
     """One kind of move at all stations at once.
 
     takes : by argument: what is drawn already, settings, given numbers and directions
+    size : at so many places
     """
 
     kind: Kind
     construction: str
     name: str
     takes: Mapping[str, Any]
+    size: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +127,21 @@ class Drawn:
         if not self.sampled:
             return self
         parts = [None if each is None else each[0] for each in (self.points, self.along, self.radius)]
-        return Drawn(self.act, *parts)  # pyright: ignore[reportArgumentType]
+        whole = None if self.whole is None else self.whole.first
+        return Drawn(self.act, *parts, whole=whole, at=self.at, turn=self.turn)  # pyright: ignore[reportArgumentType]
+
+    @property
+    def root(self) -> Drawn:
+        """All that the act left."""
+        return self if self.whole is None else self.whole.root
+
+    @property
+    def index(self) -> Places:
+        """Which of the places that its act left these are, in a row."""
+        if self.whole is None:
+            return np.arange(self.shown.size)
+        index = self.whole.index
+        return index if self.at is None else np.atleast_1d(index[self.at])
 
     # --- what it looks like, in the first sample ---------------------------------------------------------------------
 
@@ -141,39 +157,41 @@ class Drawn:
 
     def dots(self, role: Role = Role.CURVE) -> Dots:
         """The places, plotted."""
-        return Dots(self.shown, role, of=self.act)
+        return Dots(self.shown, role, self.act, self.index)
 
     def line(self, role: Role, *, closed: bool = False) -> Line:
         """The places joined one after another."""
-        return Line(self.shown, role, closed, of=self.act)
+        return Line(self.shown, role, closed, self.act, self.index)
 
     def from_(self, start: Drawn | Points | complex, role: Role) -> Segments:
         """A segment to each place from ``start``, one for all or one for each."""
         begin = start.shown if isinstance(start, Drawn) else np.asarray(start)
         ends = self.shown
-        return Segments(np.broadcast_to(begin, ends.shape), ends, role, of=self.act)
+        return Segments(np.broadcast_to(begin, ends.shape), ends, role, self.act, self.index)
 
     def ways(self, role: Role) -> Segments:
         """Of lines that join places: from each to the other."""
         first = self.first
-        return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, of=self.act)
+        return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, self.act, self.index)
 
     def way(self, role: Role) -> Line:
         """Of the line that joins two places: from one to the other."""
-        return Line(self.place + np.array([0j, complex(self.first.directions)]), role, of=self.act)
+        ends = self.place + np.array([0j, complex(self.first.directions)])
+        return Line(ends, role, False, self.act, self.index.repeat(2))
 
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""
-        return Line(np.array([start.place if isinstance(start, Drawn) else start, self.place]), role, of=self.act)
+        ends = np.array([start.place if isinstance(start, Drawn) else start, self.place])
+        return Line(ends, role, False, self.act, self.index.repeat(2))
 
     def arrow(self, start: Drawn | complex, role: Role) -> Arrow:
         """An arrow to the place."""
-        return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role, of=self.act)
+        return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role, self.act, self.index)
 
     def drawn_circle(self, role: Role) -> Circle:
         """The circle."""
-        return Circle(self.place, float(np.asarray(self.first.radius)), role, of=self.act)
+        return Circle(self.place, float(np.asarray(self.first.radius).item()), role, self.act, self.index)
 
     def label(self, text: Words, towards: complex = 1 + 1j, *, small: bool = False) -> Label:
         """The name of the place."""
-        return Label(self.place, text, towards, small, of=self.act)
+        return Label(self.place, text, towards, small, self.act, self.index)

@@ -4,6 +4,7 @@ Every act errs as :mod:`~graphcam.drafting.slips` says, is recorded, and returns
 and lines are :class:`~graphcam.drafting.acts.Drawn`; a direction is one of them, or a given complex number.
 """
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -354,10 +355,14 @@ class Hand:
         return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
     def _read(self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str) -> Reading:
-        act = Act(Kind.READ, self.meaning.name, name, takes)
+        act = Act(Kind.READ, self.meaning.name, name, takes, self._size(paper))
         of = unit or self.meaning.readings[name].unit.replace("lift", self.lift)
         self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, of, act)
         return self.readings[name]
+
+    def _size(self, values: Points | Floats) -> int:
+        """How many values there are on one sheet."""
+        return math.prod(values.shape[self.pencil.samples is not None :])
 
     # --- errors ------------------------------------------------------------------------------------------------------
 
@@ -386,7 +391,7 @@ class Hand:
     ) -> Drawn:
         if along is not None and along.shape != points.shape:
             along = np.broadcast_to(along, points.shape)  # one direction for all places
-        act = Act(kind, self.meaning.name, name, takes)
+        act = Act(kind, self.meaning.name, name, takes, self._size(points))
         self.acts[name] = Drawn(act, points, along, radius, self.pencil.samples is not None)
         return self.acts[name]
 

@@ -45,10 +45,25 @@ class View:
     scale: Caption | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part of a step: what is done at one place, as a student would do it with the page beside the board.
+
+    caption : what is drawn, from where to where, by which instrument, set to what
+    draws : what is left on the paper, of what may be many places those of this part; what was drawn in order to find
+        it belongs to it too
+    """
+
+    caption: Caption
+    draws: tuple[Drawn, ...]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Step(Shown):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
+    why : the reason, in one sentence
+    parts : the step part by part, in the order of the drawing; none where it is done at one stroke
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
     """
@@ -61,6 +76,8 @@ class Step(Shown):
     marks: tuple[Mark, ...]
     reads: tuple[str, ...] = ()
     given: tuple[Mark, ...] = ()
+    why: Caption = field(kw_only=True, default_factory=lambda: Caption(""))
+    parts: tuple[Part, ...] = field(kw_only=True, default=())
 
     def __repr__(self) -> str:
         said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
@@ -85,10 +102,11 @@ class Step(Shown):
             for mark in (*self.marks, *self.given)
         }
         marks, given = (tuple(told[id(mark)] for mark in part) for part in (self.marks, self.given))
-        title, caption = _plain(self.title, tell), _plain(self.caption, tell)
+        title, caption, why = (_plain(said, tell) for said in (self.title, self.caption, self.why))
+        parts = tuple(replace(part, caption=_plain(part.caption, tell)) for part in self.parts)
         answer = None if self.view.answer is None else _plain(self.view.answer, tell)
         view = replace(self.view, title=_plain(self.view.title, tell), answer=answer)
-        return replace(self, title=title, caption=caption, view=view, marks=marks, given=given)
+        return replace(self, title=title, caption=caption, why=why, parts=parts, view=view, marks=marks, given=given)
 
 
 def _plain(caption: Caption, tell: Tell) -> Caption:

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from graphcam.words import Words
 
 Points = NDArray[np.complexfloating[Any, Any]]
+Places = NDArray[np.intp]
+"""Which of the places of its act the pieces of a mark are: of a line its corners, of segments and dots each."""
 
 
 class Origin(Protocol):
@@ -47,6 +49,7 @@ class Line:
     role: Role
     closed: bool = False
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +60,7 @@ class Segments:
     ends: Points
     role: Role
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -67,6 +71,7 @@ class Circle:
     radius: float
     role: Role
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,7 @@ class Arc:
     role: Role
     arrow: str = ""
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +95,7 @@ class Dots:
     points: Points
     role: Role = Role.CURVE
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -99,6 +106,7 @@ class Arrow:
     end: complex
     role: Role
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -110,6 +118,7 @@ class Label:
     towards: complex = 1 + 1j
     small: bool = False
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -121,6 +130,7 @@ class Dimension:
     text: Words
     aside: float = 0.0
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
@@ -133,6 +143,7 @@ class AngleMark:
     end: float
     text: Words
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +152,7 @@ class Region:
 
     boundary: Points
     of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region

@@ -4,7 +4,7 @@ Whoever shows, compares or asks for a construction goes by this alone.  Exact co
 named here, not computed: the drawn and the exact side meet in the comparison.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
-from graphcam.words import Caption
+from graphcam.words import Caption, Words
 
 Rank = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 """Which of several candidates is taken: the one of highest rank.  A rank undoes itself: of a rank it is the value."""
 Measured = Literal["value", "at stations", "from the pitch curve", "from the profile"]
 """How far a reading is off: itself, the greatest at the stations, or the greatest distance of points from a curve."""
+Named = Callable[[Any], Sequence[Words]]
+"""What the several values of a reading belong to, of its construction: the names of parts, of phases, of proposals."""
 
 
 def sharpness(radii: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
@@ -72,6 +74,8 @@ class ReadingMeaning:
     unit : of the value, in which ``lift`` stands for the unit of the lift, such as ``lift/rad``
     compared : the quantities of the results that it is, if any
     converges : how its convergence is measured, if it is
+    over : what several values of it belong to, if not to the stations
+    judged : which of them counts: the least, or whichever is greatest on either side
     """
 
     title: Caption
@@ -79,6 +83,8 @@ class ReadingMeaning:
     unit: str
     compared: tuple[Compared, ...] = ()
     converges: Converges | None = None
+    over: Named | None = None
+    judged: Literal["extremes", "least"] = "extremes"
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,10 @@
 import nbformat.v4 as nb
 from nbformat import NotebookNode
 
-from graphcam.drafting.ink import Construction
 from graphcam.drafting.units import unit
 from graphcam.notebooks.running import PYTHON
 from graphcam.report import markdown
-from graphcam.report.sheet_contents import UNNAMED, title_name
+from graphcam.report.sheet_contents import UNNAMED, all_drawn, title_name
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
@@ -57,7 +56,7 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
     >>> import graphcam as gc
     >>> notebook = write_notebook(gc.builtin_task("flat"))
     >>> [cell.source.splitlines()[0] for cell in notebook.cells if cell.source.startswith("## ")][:3]
-    ['## The task', '## Acceleration diagram', '## Velocity, displacement and the scales']
+    ['## The task', '## 1. Kinematic diagram', '## 2. Acceleration diagram']
 
     Raises
     ------
@@ -80,8 +79,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
         _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
         _hidden(SETUP),
         *(_text(f"> {tell(warning)}") for warning in warned),
-        *(cell for name, c in solution.drawn.items() for cell in _chapter(c, f'solution.drawn["{name}"]', tell)),
-        *_spring(solution),
+        *(cell for number, name in enumerate(all_drawn(solution), 1) for cell in _chapter(number, name, solution)),
         _section(tell, say("Try it yourself"), CHECKED),
         *(cell for name in _asked(solution) for cell in _question(solution, name)),
         _section(tell, say("Move it"), MOVED),
@@ -117,19 +115,15 @@ def _hidden(source: str) -> NotebookNode:
     return nb.new_code_cell(source, metadata={"tags": ["remove-input"], "jupyter": {"source_hidden": True}})
 
 
-def _chapter(drawn: Construction, construction: str, tell: Tell) -> list[NotebookNode]:
-    """Title, why and steps of a construction, which stands in the notebook's code as an expression."""
+def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode]:
+    """Number, title, why and steps of a construction of the solution, or of its spring."""
+    meaning = all_drawn(solution)[name].meaning
+    title = say("{number}. {title}", number=number, title=meaning.title)
+    of = "solution" if name in solution.drawn else "solution.spring"
     # Its rays are drawn in the combined diagram.
-    on = ', on=solution.drawn["minimum_radius"]' * (drawn.name == "pressure_angle")
-    shown = _hidden(f"show_steps({construction}, tell=tell{on})")
-    return [_section(tell, drawn.meaning.title, drawn.meaning.why), shown]
-
-
-def _spring(solution: AnySolution) -> list[NotebookNode]:
-    """The force plan of a follower that a spring holds on its cam."""
-    if isinstance(solution, ArcsSolution) or not solution.spring or not solution.spring.force_plan:
-        return []
-    return _chapter(solution.spring.force_plan, "solution.spring.force_plan", solution.tell)
+    on = ', on=solution.drawn["minimum_radius"]' * (name == "pressure_angle")
+    shown = _hidden(f'show_steps({of}.drawn["{name}"], within=solution{on})')
+    return [_section(solution.tell, title, meaning.why), shown]
 
 
 def _asked(solution: AnySolution) -> list[str]:

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.notebooks.picture import Picture
 from graphcam.plots.step_board import board_of
-from graphcam.report.documents import sheet_of
+from graphcam.report.documents import contents_of, drawing_of
+from graphcam.report.sheet_contents import all_drawn, chapters_of
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Page
 from graphcam.solving.arcs_solution import AnySolution
-from graphcam.words import Tell, say
+from graphcam.words import Tell, say, sequence
 
 if TYPE_CHECKING:
     from IPython.display import HTML
@@ -29,18 +28,20 @@ if TYPE_CHECKING:
 class Stage:
     """One step of a construction, as a notebook shows it.
 
-    number : of the step, from 1
+    number : of the step, within its task such as "3.2", or of a construction alone such as "2."
     step : what is done, in words
-    page : the drawing so far; None for a step of words alone
+    page : the drawing so far; None for a step of words alone, before which nothing was drawn
     reads : what is read off the paper with this step
     tell : says all texts
+    strip : some of its parts, by their indices, each with the drawing so far; the only part is the step itself
     """
 
-    number: int
+    number: str
     step: Step
     page: Page | None
     reads: tuple[ReadingRow, ...]
     tell: Tell
+    strip: Mapping[int, Page] = field(default_factory=dict[int, Page])
 
     @property
     def picture(self) -> Picture | None:
@@ -51,15 +52,31 @@ class Stage:
         from graphcam.sheets.matplotlib_renderer import svg
 
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
-        said = {"view": view, "number": self.number, "title": title, "caption": self.step.caption}
+        said = {"view": view, "number": self.number.rstrip("."), "title": title, "caption": self.step.caption}
         alt = say("{view}. Drawn so far, with step {number} in colour: {title}. {caption}", **said)
         return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
+    def pictures(self) -> list[Picture]:
+        """The drawing as far as some of its parts, each of them in colour."""
+        from graphcam.sheets.matplotlib_renderer import svg
+
+        number, count = self.number.rstrip("."), len(self.step.parts)
+        alt = say("Drawn as far as part {part} of step {number}, which is in colour: {caption}", number=number)
+        said = say("Part {part} of {count}: {caption}", count=count)
+        shown = [({"part": k + 1, "caption": self.step.parts[k].caption}, page) for k, page in self.strip.items()]
+        return [Picture(svg(page), self.tell(alt.where(**part)), self.tell(said.where(**part))) for part, page in shown]
+
+    @property
     def html(self) -> str:
-        """Title, caption, drawing and readings."""
-        title, caption = escape(self.tell(self.step.title)), escape(self.tell(self.step.caption))
-        words = f"<h4>{self.number}. {title}</h4><p>{caption}</p>"
+        """Title, caption and reason; some parts side by side, and all of them in words; the whole step; readings."""
+        title, caption, why = (escape(self.tell(said)) for said in (self.step.title, self.step.caption, self.step.why))
+        words = f"<h4>{self.number} {title}</h4><p>{caption}</p>" + (f'<p class="why">{why}</p>' if why else "")
+        parts = "".join(f"<li>{escape(self.tell(part.caption))}</li>" for part in self.step.parts)
+        if len(self.step.parts) > 1:
+            strip = "".join(picture.html for picture in self.pictures)
+            summary = escape(self.tell(say("All parts in words")))
+            words += f'<div class="stills">{strip}</div><details><summary>{summary}</summary><ol>{parts}</ol></details>'
         shown = self.picture.html if self.picture else ""
         read = "".join(f"<li>{_reading(row, self.tell)}</li>" for row in self.reads)
         readings = f'<ul class="readings">{read}</ul>' if read else ""
@@ -68,29 +85,50 @@ class Stage:
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {
             "text/html": self.html,
-            "text/plain": f"{self.number}. {self.tell(self.step.title)}: {self.tell(self.step.caption)}",
+            "text/plain": f"{self.number} {self.tell(self.step.title)}: {self.tell(self.step.caption)}",
         }
 
 
 def _reading(row: ReadingRow, tell: Tell) -> str:
-    """A reading as mm x mu = value; of one at many stations the greatest, and all of them to be unfolded."""
+    """A reading as mm x mu = value; of several values the extremes, and all of them to be unfolded."""
     if not row.paper.ndim:
         return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
-    greatest = int(np.nanargmax(np.abs(row.paper)))
-    lines = "".join(f"<li>{place}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places))
-    place, said = row.places[greatest], row.said(greatest)
-    first = say("{title}, the greatest at {place} = {said}", title=row.title, place=place, said=said)
+    lines = "".join(
+        f"<li>{escape(tell(place))}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places)
+    )
+    extremes = [say("{at} = {said}", at=row.at(what, k), said=row.said(k)) for what, k in row.extremes]
+    first = say("{title}: {extremes}", title=row.title, extremes=sequence(extremes, "; "))
     return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 
 
-def stages(construction: Construction, tell: Tell = str, on: Construction | None = None) -> Iterator[Stage]:
-    """The steps of a construction, each with the drawing so far; ``tell`` says all texts, ``on`` as for board_of."""
+def stages(
+    construction: Construction,
+    tell: Tell | None = None,
+    on: Construction | None = None,
+    within: AnySolution | None = None,
+) -> Iterator[Stage]:
+    """The steps of a construction, each with the drawing so far; see :func:`show_steps`."""
+    tell = tell or (within.tell if within else str)
+    chapter = chapters_of(all_drawn(within)).get(construction.name) if within else None
     of_view, drawn = board_of(construction, tell, on).by_view, Counter[str]()
     for number, step in enumerate(construction.steps(), 1):
         name = step.view.name
-        page = of_view[name].page(drawn[name]) if name in of_view else None
+        board, k = of_view.get(name), drawn[name]
         drawn[name] += 1
-        yield Stage(number, step, page, tuple(rows(construction, step)), tell)
+        strip = {part: board.page(k, part) for part in shown_parts(len(step.parts))} if board else {}
+        numbered = f"{number}." if chapter is None else f"{chapter}.{number}"
+        page = board.page(k) if board else None
+        empty = page is None or not any(group.entities for group in page.groups)
+        yield Stage(numbered, step, None if empty else page, tuple(rows(construction, step)), tell, strip)
+
+
+def shown_parts(count: int) -> list[int]:
+    """Which of so many parts stand beside the whole: the first and the middle one, which fill a line of a page.
+
+    >>> [shown_parts(count) for count in (0, 1, 2, 3, 24)]
+    [[], [], [0], [0, 1], [0, 12]]
+    """
+    return [0, count // 2][: count - 1] if count else []
 
 
 def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:
@@ -114,16 +152,23 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
     return Picture(svg(board.page()), f"{title}. {board.steps[-1].caption}", title)
 
 
-def show_steps(construction: Construction, *numbers: int, tell: Tell = str, on: Construction | None = None) -> None:
-    """Show steps of a construction in a notebook, by their numbers from 1; without a number all of them.
+def show_steps(
+    construction: Construction,
+    *numbers: int,
+    within: AnySolution | None = None,
+    tell: Tell | None = None,
+    on: Construction | None = None,
+) -> None:
+    """Show steps of a construction in a notebook, by their places in it from 1; without a number all of them.
 
-    tell : says all texts, such as ``task.drawing.tell`` in the language of the task
+    within : the solution that it belongs to: the steps bear the numbers that they have there, such as "3.2"
+    tell : says all texts; by default in the language of that solution's task
     on : a construction that this one does not start from, but is drawn over: it is shown below it
     """
     from IPython.display import display
 
-    for stage in stages(construction, tell, on):
-        if not numbers or stage.number in numbers:
+    for number, stage in enumerate(stages(construction, tell, on, within), 1):
+        if not numbers or number in numbers:
             display(stage)
 
 
@@ -140,7 +185,8 @@ def player(solution: AnySolution) -> HTML:
     """
     from IPython.display import HTML
 
-    page = escape(player_of(solution, sheet_of(solution)))
+    contents = contents_of(solution)
+    page = escape(player_of(contents, drawing_of(contents)))
     title = escape(solution.tell(say("Step player")))
     frame = f'<iframe title="{title}" style="width: 100%; height: {HEIGHT}px" srcdoc="{page}"></iframe>'
     return HTML(f'<div class="player">{frame}</div>')

@@ -8,14 +8,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphcam.drafting.ink import Construction, Step, View
-from graphcam.drafting.marks import Label
+from graphcam.drafting.marks import Origin
+from graphcam.drafting.moves import pieces_of
 from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.model import Entity, Group, Page
+from graphcam.sheets.model import Entity, Group, Page, Source
 from graphcam.sheets.panels import Panel, clusters, panels, stand
-from graphcam.sheets.styles import CURRENT_STEP, FORMER_STEP, in_progress
+from graphcam.sheets.places import by_place
+from graphcam.sheets.styles import CURRENT_PART, CURRENT_STEP, FORMER_STEP, in_progress
 from graphcam.words import Tell
 
 LETTERS = Lettering(3.5, 3.0, 2.4)
@@ -96,39 +98,86 @@ class StepBoard:
         expanded = [expand(s.marks, places.get(s.view.name, Placement(0j)), LETTERS) for s in steps]
         return lettered(expanded, self._titles, self._box.moved(self.origin))
 
-    def page(self, current: int | None = None) -> Page:
-        """The drawing up to the own step of that index, which is in colour; by default the finished drawing."""
+    def page(self, current: int | None = None, part: int | None = None) -> Page:
+        """The drawing up to the own step of that index, which is in colour; by default the finished drawing.
+
+        part : index of the part up to which the step is drawn, which alone is in colour then; by default all are
+        """
         count = len(self._drawn) if current is None else len(self.former) + current + 1
         groups = [Group("titles", self._titles)] if self._titled else []
-        for k, entities in enumerate(shading_parted(self._drawn[:count])):
-            stage = CURRENT_STEP if k == count - 1 else FORMER_STEP
+        stages = [(FORMER_STEP, entities) for entities in self._drawn[:count]]
+        if current is not None:
+            *stages, (_, last) = stages
+            stages += [(CURRENT_STEP, last)] if part is None else _up_to(self.steps[current], part, last)
+        for k, entities in enumerate(shading_parted([entities for _, entities in stages])):
             if current is not None:
-                entities = tuple(replace(e, role=in_progress(e.role, stage)) for e in entities)
+                entities = tuple(replace(e, role=in_progress(e.role, stages[k][0])) for e in entities)
             groups.append(Group(f"step-{k + 1:02d}", entities))
         box = self._box.moved(self.origin)
         return Page(box.width, box.height, box, tuple(groups))
+
+
+def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str, list[Entity]]]:
+    """What stands of a step before a part of it, and what the part adds.
+
+    What no part draws, such as the number of a reading, comes with the last of them; what is given is there before.
+    """
+    last, places = len(step.parts) - 1, dict[Origin, dict[int, int]]()
+    for k, each in enumerate(step.parts):
+        for piece in pieces_of(each.draws):
+            of_act = places.setdefault(piece.act, {})
+            of_act |= {at: of_act.get(at, k) for at in piece.at}
+    given = {mark.of for mark in step.given}
+
+    def since(source: Source | None, at: int | None) -> int:
+        """The part with which a piece is drawn; -1 if it is there before."""
+        if source is None or (source.of in given and source.of not in places):
+            return -1
+        of_act = places.get(source.of, {})
+        return max(of_act.values(), default=last) if at is None else of_act.get(at, last)
+
+    pieces = [(since(entity.source, at), piece) for entity in entities for at, piece in by_place(entity)]
+    before, own = ([e for k, e in pieces if k < part], [e for k, e in pieces if k == part])
+    return [(FORMER_STEP, before), (CURRENT_PART, own)]
 
 
 def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
     return tuple(step for step in steps if step.view.name == name)
 
 
+@dataclass
+class Column:
+    """Views one under the other.
+
+    left, width : where it stands
+    down : how far it is filled
+    """
+
+    left: float
+    width: float
+    down: float = 0.0
+
+
 def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
     """Views by name with their origins, the first one's 0: those that share an axis as it asks, others in columns."""
     if len(views) == 1:
         return {views[0].view.name: (views[0], 0j)}
-    # In the order of their first views.
-    groups = [(group, stand(group, GAP)) for group in sorted(clusters(views), key=lambda group: views.index(group[0]))]
+    groups = [(group, stand(group, GAP)) for group in clusters(views)]
     boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
     room = max(*(box.height for box in boxes), math.sqrt(sum(box.width * box.height for box in boxes) / LYING))
     placed: dict[str, tuple[Panel, complex]] = {}
-    left = right = down = 0.0
-    for (group, origins), box in zip(groups, boxes, strict=True):
-        if down > 0 and down + box.height > room:
-            left, down = right + GAP, 0.0
-        by = complex(left, -down) - complex(box.left, box.top)
-        placed |= {panel.view.name: (panel, at + by) for panel, at in zip(group, origins, strict=True)}
-        right, down = max(right, left + box.width), down + box.height + GAP
+    columns, right = list[Column](), 0.0
+    # The highest first: the low ones find room under them, where no column grows wider.
+    for k in sorted(range(len(groups)), key=lambda k: -boxes[k].height):
+        box = boxes[k]
+        column = next((c for c in columns if box.width <= c.width and c.down + box.height <= room), None)
+        if column is None:
+            column = Column(right, box.width)
+            columns.append(column)
+            right += box.width + GAP
+        by = complex(column.left, -column.down) - complex(box.left, box.top)
+        placed |= {panel.view.name: (panel, at + by) for panel, at in zip(*groups[k], strict=True)}
+        column.down += box.height + GAP
     _, first = placed[views[0].view.name]
     return {panel.view.name: (panel, placed[panel.view.name][1] - first) for panel in views}
 
@@ -155,7 +204,4 @@ def board_of(construction: Construction, tell: Tell = str, on: Construction | No
     board = StepBoard((), tuple(step.told(tell) for step in construction.steps()))
     before = (*ancestors(construction), *([on] if on else ()))
     former = tuple(step.told(tell) for c in before for step in c.steps() if step.view.name in board.views)
-    # Where no point is named, lines were drawn over what is not here: alone they say nothing.
-    named = {s.view.name for s in (*former, *board.steps) if any(isinstance(mark, Label) for mark in s.marks)}
-    steps = (step if step.view.name in named else replace(step, marks=()) for step in board.steps)
-    return StepBoard(former, tuple(steps))
+    return StepBoard(former, board.steps)

@@ -27,7 +27,12 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
     >>> len(blank.pages) == len(finished.pages), len(blank.pages[0].groups) < len(finished.pages[0].groups)
     (True, True)
     """
-    contents, paper = contents_of(solution), solution.task.drawing
+    return drawing_of(contents_of(solution), upto, per_construction=per_construction)
+
+
+def drawing_of(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
+    """The same of contents that are at hand."""
+    paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
     drawn = contents.parts if per_construction else [contents.whole]
     return compose_parts(drawn, contents.title, Format(paper.format, paper.frame, paper.orientation), last, paper.tell)

@@ -1,7 +1,8 @@
 """The coursework note: the calculation that goes with the sheet, in Markdown."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
 from graphcam.comparison.speed import PER_SPEED
@@ -15,13 +16,13 @@ from graphcam.report.budget_table import budget_table
 from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
-from graphcam.report.sheet_contents import title_name
+from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of, title_name
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
 from graphcam.sheets.tables import Table
 from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import SpringDesign, at_side
+from graphcam.solving.spring_design import at_side
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
 
@@ -37,8 +38,6 @@ def note(solution: Solution) -> str:
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
     chapters.append((say("Kind of impact"), _impact(solution)))
-    if spring := solution.spring:
-        chapters.append((say("Spring"), _spring(spring, solution.tell)))
     chapters += [
         (say("Result"), _result(solution)),
         (say("Values at the stations"), at_stations(solution)),
@@ -46,16 +45,27 @@ def note(solution: Solution) -> str:
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),
     ]
-    return whole_note(_head(solution), chapters, solution)
+    head = blocks(heading(solution.task.title, solution.tell), drawn_how(solution.chain.pencil), tell=solution.tell)
+    return whole_note(head, chapters, solution)
 
 
 def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: AnySolution) -> str:
-    """Head, numbered chapters, and the appendix with the captions of all steps."""
+    """Head, numbered chapters, and the appendix with what is said of all steps."""
     tell = solution.tell
     numbered = [f"## {k}. {tell(title)}\n\n{said}" for k, (title, said) in enumerate(chapters, 1)]
-    steps = [step for construction in solution.drawn.values() for step in construction.steps()]
-    drawn = "\n".join(f"{k}. *{tell(step.title)}.* {tell(step.caption)}" for k, step in enumerate(steps, 1))
-    return in_formulas(blocks(head, *numbered, tell(say("## Appendix: how it was drawn")), drawn) + "\n")
+    drawn = [tell(say("## Appendix: how it was drawn")), *_steps(solution)]
+    return in_formulas(blocks(head, *numbered, *drawn) + "\n")
+
+
+def _steps(solution: AnySolution) -> Iterator[str]:
+    """What is done in every step, and why, by the numbers that the steps have on every page."""
+    tell, drawn = solution.tell, all_drawn(solution)
+    steps = steps_of(drawn)
+    numbers, chapters = chapter_numbers(steps), chapters_of(drawn)
+    for name, of_one in groupby(steps, key=lambda step: step[1]):
+        lines = [f"- *{numbers[k]} {tell(step.title)}.* {tell(step.caption)} {tell(step.why)}" for k, _, step in of_one]
+        yield f"### {chapters[name]}. {tell(drawn[name].meaning.title)}"
+        yield "\n".join(map(str.rstrip, lines))
 
 
 def comparison_file(solution: AnySolution) -> str:
@@ -65,9 +75,8 @@ def comparison_file(solution: AnySolution) -> str:
 
 
 def constructions(solution: AnySolution) -> list[tuple[Caption, str]]:
-    """A chapter on each construction that reads something: why it is drawn, and its numbers."""
-    read = [drawn for drawn in solution.drawn.values() if drawn.meaning.readings]
-    return [(drawn.meaning.title, _told(drawn, solution)) for drawn in read]
+    """A chapter on each construction: why it is drawn, and its numbers."""
+    return [(drawn.meaning.title, _told(drawn, solution)) for drawn in all_drawn(solution).values()]
 
 
 def _told(drawn: Construction, solution: AnySolution) -> str:
@@ -99,16 +108,15 @@ MOVED = {
 """What is to be designed, without a roller and with one."""
 
 
-def _head(solution: Solution) -> str:
+def task_data(solution: Solution) -> str:
+    """What is given, and what is to be found."""
     tell, roller, given = solution.tell, solution.chain.board.roller_radius != 0, data(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED else value) for name, value, by in given.rows)
     return blocks(
-        heading(solution.task.title, tell),
         MOVED[solution.task.follower.kind][roller],
         markdown_table(phases(solution), tell),
         say("These are the data."),
         markdown_table(Table(given.title, given.header[:2], rows), tell),
-        drawn_how(solution.chain.pencil),
         tell=tell,
     )
 
@@ -195,8 +203,10 @@ def _impact(solution: Solution) -> str:
     return tell(say("Velocity and acceleration are continuous: there is no impact."))
 
 
-def _spring(spring: SpringDesign, tell: Tell) -> str:
-    """The preload, the least contact force, and where contact is lost."""
+def contact(solution: Solution) -> str:
+    """The spring's preload, the least contact force, and where contact is lost."""
+    tell, spring = solution.tell, solution.spring
+    assert spring is not None
     load, needed, least, lost = spring.load, spring.least, spring.contact.least_force(), joined(spring.lost)
     keeps = say(
         "A preload of at least {preload} N keeps contact over the whole turn; it is needed at φ = {phi}.",

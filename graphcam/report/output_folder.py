@@ -20,7 +20,7 @@ from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import profile_spline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
-from graphcam.report.documents import contents_of, note_of, sheet_of
+from graphcam.report.documents import contents_of, drawing_of, note_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Drawing
@@ -109,17 +109,18 @@ def write(
     check_choices(solution, upto, dxf=dxf, files=files)
     wanted, report = FILES if files is None else files, progress or unheard
     written: dict[str, str | None] = dict.fromkeys(FILES)
+    contents = contents_of(solution)
     with whole_folder(directory) as folder:
         sheets = [kind for kind in SHEETS if kind in wanted]
         drawing = None
         if sheets:
             report("laying out the sheet")
-            drawing = sheet_of(solution, upto, per_construction=per_construction)
+            drawing = drawing_of(contents, upto, per_construction=per_construction)
             written |= _write_sheet(drawing, folder, "sheet" if upto is None else "worksheet", sheets, dxf, report)
         if "player" in wanted and upto is None:
             report("writing the step player")
-            whole = sheet_of(solution) if drawing is None or per_construction else drawing
-            (folder / "player.html").write_text(player_of(solution, whole), encoding="utf-8")
+            whole = drawing_of(contents) if drawing is None or per_construction else drawing
+            (folder / "player.html").write_text(player_of(contents, whole), encoding="utf-8")
             written["player"] = "player.html"
         report("writing tables and note")
         for kind, (name, text) in TABLES.items():

@@ -8,12 +8,12 @@ import numpy as np
 
 from graphcam.constructions.acceleration import equal_parts, moving_phases
 from graphcam.constructions.axes import degrees, phase_title, station_names
+from graphcam.constructions.law_names import law_title
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
 from graphcam.given.motion import FULL_TURN, Moving
 from graphcam.report.markdown import blocks, formula, number, numbers, table
-from graphcam.report.sheet_data import law_title
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, joined, say, sequence
 

@@ -1,8 +1,10 @@
 """What stands on the sheets of a solution, and which of it is drawn: finished, half done, or a blank worksheet."""
 
 import math
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import count
 
 import numpy as np
@@ -13,7 +15,7 @@ from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
-from graphcam.sheets.layout import Numbered, Part
+from graphcam.sheets.layout import Numbered, SheetPart
 from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.arcs_solution import AnySolution
@@ -43,38 +45,71 @@ class Contents:
     givens: tuple[Table, ...]
     results: tuple[Table, ...]
 
+    @cached_property
+    def numbers(self) -> Mapping[int, str]:
+        """The number of each step within the task, such as "3.2", by its running number."""
+        return chapter_numbers(self.steps)
+
     def last_step(self, upto: int | str) -> int:
-        """The number of the last step that is drawn.
+        """The running number of the last step that is drawn; it may be named as within the task, "3.2".
 
         Raises
         ------
         DesignError : there is no such step or construction
         """
-        numbers = {name: number for number, name, _ in self.steps}
-        if isinstance(upto, str) and upto in numbers:
-            return numbers[upto]
+        last = {name: number for number, name, _ in self.steps}
+        known = last | {said: number for number, said in self.numbers.items()}
+        if isinstance(upto, str) and upto in known:
+            return known[upto]
         if isinstance(upto, int) and 0 <= upto <= len(self.steps):
             return upto
-        known = f"a number of steps from 0 to {len(self.steps)}, or one of {', '.join(numbers)}"
-        raise DesignError("upto", upto, known)
+        limit = f"a number of steps from 0 to {len(self.steps)}, or one of {', '.join(last)}, or a step such as 2.1"
+        raise DesignError("upto", upto, limit)
 
     @property
-    def whole(self) -> Part:
+    def whole(self) -> SheetPart:
         """All of it as one part."""
-        return Part(self.steps, self.givens + self.results, tuple(self.solution.warnings))
+        return SheetPart(self.steps, self.givens + self.results, tuple(self.solution.warnings), self.numbers)
 
     @property
-    def parts(self) -> list[Part]:
+    def parts(self) -> list[SheetPart]:
         """A part for each construction that draws something, with what was drawn before in its views."""
         drawing = list(dict.fromkeys(name for _, name, step in self.steps if step.marks))
         return [self._part(name, first=name == drawing[0], last=name == drawing[-1]) for name in drawing]
 
-    def _part(self, construction: str, *, first: bool, last: bool) -> Part:
+    def _part(self, construction: str, *, first: bool, last: bool) -> SheetPart:
         own = [(number, step) for number, name, step in self.steps if name == construction]
         views = {step.view.name for _, step in own if step.marks}
         shown = tuple(row for row in self.steps if row[0] <= own[-1][0] and row[2].view.name in views)
         tables = (self.givens if first else ()) + (self.results if last else ())
-        return Part(shown, tables, tuple(self.solution.warnings) if last else ())
+        return SheetPart(shown, tables, tuple(self.solution.warnings) if last else (), self.numbers)
+
+
+def chapter_numbers(steps: Numbered) -> dict[int, str]:
+    """The number of each step within the task by its running number: "3.2" is the second of the third construction.
+
+    >>> import graphcam as gc
+    >>> from graphcam.report.documents import contents_of
+    >>> list(chapter_numbers(contents_of(gc.solve(gc.builtin_task("flat"))).steps).values())[:3]
+    ['1.1', '2.1', '2.2']
+    """
+    chapters, taken = chapters_of(name for _, name, _ in steps), Counter[str]()
+    numbers = dict[int, str]()
+    for number, name, _ in steps:
+        taken[name] += 1
+        numbers[number] = f"{chapters[name]}.{taken[name]}"
+    return numbers
+
+
+def chapters_of(names: Iterable[str]) -> dict[str, int]:
+    """The numbers of chapters, each on a construction, by their names in order."""
+    return {name: k for k, name in enumerate(dict.fromkeys(names), 1)}
+
+
+def all_drawn(solution: AnySolution) -> dict[str, Construction]:
+    """All constructions of a solution by name, in the order in which they are shown: its chain, what a spring adds."""
+    spring = solution.spring if isinstance(solution, Solution) else None
+    return dict(solution.drawn) | (spring.drawn if spring else {})
 
 
 def motion_contents(solution: Solution) -> Contents:
@@ -85,11 +120,10 @@ def motion_contents(solution: Solution) -> Contents:
     DesignError : the lift is too small to be drawn beside the cam
     """
     _check_drawable(solution.cam)
-    spring, drawn = solution.spring, dict(solution.drawn)
+    drawn = all_drawn(solution)
     results = [comparison(solution.comparison.quantities)]
-    if spring:
-        drawn |= spring.drawn
-        results.append(spring.table())
+    if solution.spring:
+        results.append(solution.spring.table())
     title = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
     return Contents(
         solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)
@@ -127,9 +161,15 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
 
 def scaled_steps(drawn: Mapping[str, Construction]) -> Numbered:
     """The steps of all constructions; the titles of their views say the scales that were settled."""
-    settled, numbers = {view: by for by in drawn.values() for view in by.meaning.scales}, count(1)
-    steps = ((name, step) for name, construction in drawn.items() for step in construction.steps())
-    return tuple((next(numbers), name, _scaled(step, settled.get(step.view.name))) for name, step in steps)
+    settled = {view: by for by in drawn.values() for view in by.meaning.scales}
+    steps = steps_of(drawn)
+    return tuple((number, name, _scaled(step, settled.get(step.view.name))) for number, name, step in steps)
+
+
+def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
+    """The steps of all constructions, in order, with their running numbers."""
+    numbers = count(1)
+    return tuple((next(numbers), name, step) for name, each in drawn.items() for step in each.steps())
 
 
 def _scaled(step: Step, by: Construction | None) -> Step:

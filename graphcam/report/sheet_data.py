@@ -5,10 +5,9 @@ from itertools import product
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, turning
-from graphcam.constructions.law_names import law_name
+from graphcam.constructions.law_names import law_title
 from graphcam.drafting.units import unit
 from graphcam.given.measured import MeasuredMotion
-from graphcam.given.motion import Dwell, Motion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
 from graphcam.solving.solution import Solution
@@ -124,16 +123,6 @@ def phases_at_speed(solution: Solution) -> Table:
     header = (*table.header, *AT_SPEED[solution.chain.board.follower.unit])
     found = frozenset(product(range(len(rows)), range(len(table.header), len(header))))
     return Table(say("Motion, greatest v and a"), header, rows, found)
-
-
-def law_title(motion: Motion, k: int) -> Words:
-    """The name of a phase's law, with the ratio of its two parts where they are unequal; nothing for a dwell."""
-    phase = motion.phases[k]
-    if isinstance(phase, Dwell):
-        return ""
-    law = phase.normalised
-    name = law_name(law)
-    return say("{law}, ratio {ratio:g}", law=name, ratio=law.ratio) if law.ratio != 1 else name
 
 
 def on_paper(q: Quantity) -> tuple[Caption, Caption]:

@@ -1,59 +1,129 @@
 """The step player of a solution: its sheet step by step with what is read off, and its mechanism."""
 
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import groupby
 
 from graphcam.constructions.readings import ReadingRow, rows
-from graphcam.drafting.ink import Construction, Step, say
+from graphcam.drafting.acts import Act
+from graphcam.drafting.ink import Construction, Reading, Step, say
+from graphcam.drafting.moves import ActPlaces, FollowedBoard, Moves, all_of, visible_in
+from graphcam.drafting.written_acts import WrittenActs
 from graphcam.language import language
-from graphcam.report.documents import contents_of, scene_of
+from graphcam.report.documents import scene_of
+from graphcam.report.instruments import instruments
 from graphcam.report.mechanism_view import mechanism_view
+from graphcam.report.sheet_contents import Contents
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.player import WORDS, ReadingText, Slide, player
-from graphcam.solving.arcs_solution import AnySolution
+from graphcam.sheets.player import WORDS, Acts, PartText, Pieces, ReadingText, RowText, Slide, player
 from graphcam.words import Tell
 
 
-def player_of(solution: AnySolution, drawing: Drawing) -> str:
+def player_of(contents: Contents, drawing: Drawing) -> str:
     """The page of HTML.
 
-    drawing : the solution's finished sheet, all of it
+    drawing : the finished sheet of these contents, all of it
     """
+    solution = contents.solution
     spoken = language(solution.task.drawing.language)
     words = {name: spoken.text(word) for name, word in WORDS.items()}
     turning = mechanism_view(scene_of(solution), spoken.text, spoken.decimal)
-    return player(drawing, slides(solution, spoken.text), turning, words, spoken.name)
+    said, acts = slides(contents, spoken.text)
+    return player(drawing, said, turning, words, spoken.name, acts)
 
 
-def slides(solution: AnySolution, tell: Tell = str) -> list[Slide]:
-    """What is said of each step of the sheet, in order."""
-    sheets = contents_of(solution)
-    chapters = groupby(sheets.steps, key=lambda step: step[1])
-    return [
-        _slide(sheets.drawn[name], step, tell, opens=k == 0)
-        for name, steps in chapters
-        for k, (_, _, step) in enumerate(steps)
+def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
+    """What is said of each step of the sheet, in order, and the acts that it is drawn by."""
+    steps = [step for _, _, step in contents.steps]
+    telling = _Telling(tell, FollowedBoard(visible_in(steps)), WrittenActs(), _views(steps))
+    chapters = groupby(contents.steps, key=lambda step: step[1])
+    said = [
+        telling.slide(contents.drawn[name], step, contents.numbers[number], opens=k == 0)
+        for name, of_one in chapters
+        for k, (number, _, step) in enumerate(of_one)
     ]
+    shown = {
+        mark.of: telling.record.number(mark.of) for step in steps for mark in step.marks if isinstance(mark.of, Act)
+    }
+    pieces = (piece for slide in said for part in slide.parts for piece in (*part.draws, *part.lit))
+    return said, Acts(telling.record, shown, {number for number, places in pieces if places is not None})
 
 
-def _slide(construction: Construction, step: Step, tell: Tell, *, opens: bool) -> Slide:
-    """What is said of a step; that which opens a chapter says why the construction is drawn."""
-    title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
-    read = tuple(_reading(row, tell) for row in rows(construction, step))
-    return Slide(title, step.view.name, tell(step.title), tell(step.caption), read, why if opens else "")
+def _views(steps: Iterable[Step]) -> dict[Act, str]:
+    """The view in which an act is shown first."""
+    found: dict[Act, str] = {}
+    for step in steps:
+        for mark in step.marks:
+            if isinstance(mark.of, Act):
+                found.setdefault(mark.of, step.view.name)
+    return found
 
 
-def _reading(row: ReadingRow, tell: Tell) -> ReadingText:
-    taken, _, value = tell(row.said()).rpartition(" = ")
-    title = tell(row.title)
-    if not row.places:
-        return ReadingText(title, taken, value)
-    at = say("{title}, greatest of {count}", title=title, count=len(row.places))
-    return ReadingText(tell(at), taken, value, tuple(_line(row, k, tell) for k in range(len(row.places))))
+@dataclass(frozen=True)
+class _Telling:
+    """What is needed to tell the steps, one after another.
 
+    tell : says all texts;  board, record : what lies there and what is written down so far
+    views : the names of the views in which acts are shown
+    """
 
-def _line(row: ReadingRow, place: int, tell: Tell) -> tuple[str, str, str]:
-    """One value of many: where, on paper, value."""
-    if row.paper[place] != row.paper[place]:
-        return row.places[place], "–", "–"
-    taken, _, value = tell(row.said(place)).rpartition(" = ")
-    return row.places[place], taken.partition(" × ")[0], value
+    tell: Tell
+    board: FollowedBoard
+    record: WrittenActs
+    views: Mapping[Act, str]
+
+    def slide(self, construction: Construction, step: Step, number: str, *, opens: bool) -> Slide:
+        """What is said of a step; that which opens a chapter says why the construction is drawn."""
+        tell, read = self.tell, {name: construction.readings[name] for name in step.reads}
+        moves = self.board.followed(step, read.values())
+        captions = [tell(part.caption) for part in step.parts] or [""]
+        title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
+        return Slide(
+            title,
+            step.view.name,
+            tell(step.title),
+            tell(step.caption),
+            tuple(text for row in rows(construction, step) for text in self._reading(row, read[row.name])),
+            why if opens else "",
+            number=number,
+            reason=tell(step.why),
+            parts=tuple(self._part(*part, step) for part in zip(captions, moves, strict=True)),
+            reads={name: self.record.number(each.act) for name, each in read.items() if each.act is not None},
+        )
+
+    def _part(self, caption: str, moves: Moves, step: Step) -> PartText:
+        draws, lit, done = (self._pieces(found) for found in (moves.draws, moves.lit, moves.done + moves.closing))
+        tools = tuple(self.tell(said) for said in instruments(moves.done or moves.closing))
+        shown = (self.views[piece.act] for piece in moves.lit if piece.act in self.views)
+        return PartText(caption, tools, draws, lit, done, tuple(dict.fromkeys((step.view.name, *shown))))
+
+    def _pieces(self, pieces: Iterable[ActPlaces]) -> Pieces:
+        return [self.record.piece(piece) for piece in pieces]
+
+    def _reading(self, row: ReadingRow, read: Reading) -> Iterator[ReadingText]:
+        """A reading; of several values the extremes, the last of them with all values."""
+        tell = self.tell
+        if not row.places:
+            taken, _, value = tell(row.said()).rpartition(" = ")
+            yield ReadingText(tell(row.title), taken, value, lit=self._lit(read))
+            return
+        lines = tuple(self._line(row, read, k) for k in range(len(row.places)))
+        _, last = row.extremes[-1]
+        for what, k in row.extremes:
+            title = say("{title}, {extreme}", title=row.title, extreme=row.at(what, k))
+            taken, _, value = tell(row.said(k)).rpartition(" = ")
+            yield ReadingText(tell(title), taken, value, lines if k == last else (), self._lit(read, k))
+
+    def _lit(self, read: Reading, *places: int) -> Pieces:
+        """What is seen of what is read, all or at some places."""
+        if read.act is None:
+            return []
+        return self._pieces(self.board.seen([ActPlaces(read.act, places) if places else all_of(read.act)]))
+
+    def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
+        """One value of many: where, on paper, value."""
+        name = self.tell(row.places[place])
+        if row.paper[place] != row.paper[place]:
+            return RowText(name, "–", "–")
+        taken, _, value = self.tell(row.said(place)).rpartition(" = ")
+        return RowText(name, taken.partition(" × ")[0], value, self._lit(read, place))

@@ -6,12 +6,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.drafting import marks
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.fonts import extent
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
+from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Source, Stroke, Strokes
 from graphcam.sheets.styles import STYLES
 from graphcam.sheets.writing import Writing, along, around, outside, over, unit
 
@@ -53,8 +54,26 @@ Drawn = tuple[list[Entity], list[Writing]]
 
 def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering) -> Drawn:
     """The entities of marks, and the texts that still have to find their place."""
-    drawn = [_expanded(mark, place, letters) for mark in step_marks]
+    drawn = [_sourced(mark, *_expanded(mark, place, letters)) for mark in step_marks]
     return [e for entities, _ in drawn for e in entities], [writing for _, writings in drawn for writing in writings]
+
+
+def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[Writing]) -> Drawn:
+    """The same with what the mark shows, where it is not known in more detail."""
+    if mark.of is None:
+        return entities, writings
+    source = Source(mark.of, mark.index)
+    return (
+        [entity if entity.source else replace(entity, source=source) for entity in entities],
+        [replace(writing, source=source) for writing in writings],
+    )
+
+
+def _kept(mark: marks.Line | marks.Segments, kept: NDArray[np.bool_]) -> Source | None:
+    """What a mark shows, of some of its pieces alone."""
+    if mark.of is None:
+        return None
+    return Source(mark.of, None if mark.index is None else mark.index[kept])
 
 
 def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
@@ -64,7 +83,8 @@ def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
         case marks.Segments():
             starts, ends = place(mark.starts), place(mark.ends)
             long = np.abs(ends - starts) > SAME
-            return [Strokes(starts[long], ends[long], mark.role)] if np.any(long) else [], []
+            strokes = Strokes(starts[long], ends[long], mark.role, _kept(mark, long))
+            return [strokes] if np.any(long) else [], []
         case marks.Circle():
             return [Circles(np.array([place.point(mark.centre)]), mark.radius * place.factor, mark.role)], []
         case marks.Arc():
@@ -89,12 +109,13 @@ def _line(mark: marks.Line, place: Placement) -> list[Entity]:
     points = place(mark.points)
     # A repeated point would make a piece of no length.
     following = np.roll(points, -1) if mark.closed else np.append(points[1:], np.inf)
-    points = points[np.abs(following - points) > SAME]
+    apart = np.abs(following - points) > SAME
+    points, source = points[apart], _kept(mark, apart)
     if len(points) < 2:
         return []
     if mark.closed and mark.role is Role.RESULT and len(points) >= SMOOTH:
-        return [Curve(points, mark.role)]
-    return [Stroke(points, mark.role, mark.closed)]
+        return [Curve(points, mark.role, source)]
+    return [Stroke(points, mark.role, mark.closed, source)]
 
 
 def _head_length(role: str) -> float:

@@ -166,7 +166,7 @@ def _set(writing: Writing, k: int) -> list[Entity]:
     drawn: list[Entity] = [writing.set_at(k)]
     if np.isfinite(writing.anchors[k]):
         end = _leader_end(writing, writing.centres[k : k + 1], writing.anchors[k : k + 1])
-        drawn.append(Strokes(writing.anchors[k : k + 1], end, Role.DIMENSION))
+        drawn.append(Strokes(writing.anchors[k : k + 1], end, Role.DIMENSION, writing.source))
     return drawn
 
 

@@ -12,8 +12,8 @@ agrees line for line.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from graphcam.drafting.ink import Step
 from graphcam.sheets.expand import Drawn, Placement, expand
@@ -39,21 +39,28 @@ Numbered = tuple[tuple[int, str, Step], ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class SheetPart:
     """What stands together on sheets of its own.
 
     steps : each with the number that stays with it in every part
     notes : sentences that are numbered on the sheet
+    numbers : of steps within the task, such as "3.2", by the number that stays with them
     """
 
     steps: Numbered
     tables: tuple[Table, ...] = ()
     notes: tuple[str, ...] = ()
+    numbers: Mapping[int, str] = field(default_factory=dict[int, str])
 
-    def told(self, tell: Tell) -> Part:
+    def told(self, tell: Tell) -> SheetPart:
         """The same part with every text as ``tell`` says it."""
         steps = tuple((number, name, step.told(tell)) for number, name, step in self.steps)
-        return Part(steps, tuple(table.told(tell) for table in self.tables), tuple(map(tell, self.notes)))
+        tables, notes = tuple(table.told(tell) for table in self.tables), tuple(map(tell, self.notes))
+        return replace(self, steps=steps, tables=tables, notes=notes)
+
+    def group_name(self, number: int, construction: str) -> str:
+        """The name of the group of a step: its number on the sheet, the construction, its number within the task."""
+        return f"step-{number:02d} {construction} {self.numbers.get(number, '')}".rstrip()
 
 
 def compose(
@@ -79,12 +86,12 @@ def compose(
     DesignError : there is no such format, frame or orientation
     """
     numbered = tuple((number, name, step) for number, (name, step) in enumerate(steps, 1))
-    part = Part(numbered, tuple(tables), tuple(notes))
+    part = SheetPart(numbered, tuple(tables), tuple(notes))
     return compose_parts([part], title, Format(paper, frame, orientation), tell=tell)
 
 
 def compose_parts(
-    parts: Sequence[Part], title: TitleBlock, sheet: Format, upto: int | None = None, tell: Tell = str
+    parts: Sequence[SheetPart], title: TitleBlock, sheet: Format, upto: int | None = None, tell: Tell = str
 ) -> Drawing:
     """Lay parts out, each on sheets of its own.
 
@@ -115,7 +122,7 @@ def profile_room(paper: str, frame: str, orientation: str = "landscape") -> tupl
     return max(above, beside, key=min)
 
 
-def _leaves(sheet: Format, part: Part, tell: Tell) -> list[Leaf]:
+def _leaves(sheet: Format, part: SheetPart, tell: Tell) -> list[Leaf]:
     """The pages of a part."""
     views = panels((step for _, _, step in part.steps), sheet.lettering, tell)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
@@ -127,7 +134,7 @@ def _leaves(sheet: Format, part: Part, tell: Tell) -> list[Leaf]:
     return fill(sheet, views, ways)
 
 
-def _blocks(sheet: Format, part: Part, height: float) -> list[Block]:
+def _blocks(sheet: Format, part: SheetPart, height: float) -> list[Block]:
     # Room is found on a grid: a cell is lost at either edge.
     room = sheet.content.width - 2 * BORDER - 2 * MESH
     blocks = [_fitted(table, height, room) for table in part.tables]
@@ -142,11 +149,13 @@ def _fitted(table: Table, height: float, room: float) -> Block:
     return block if block.box.width <= room else table_block(table, height * room / block.box.width)
 
 
-def _in_order(part: Part, leaves: Sequence[Leaf]) -> list[Leaf]:
-    """The pages in the order of the first step on each; those without a view come last."""
+def _in_order(part: SheetPart, leaves: Sequence[Leaf]) -> list[Leaf]:
+    """The pages in the order of the first step that is drawn on each; those without one come last."""
+    # What is given as a whole, as the kinematic diagram, stands where there is room.
+    drawn = [(number, step.view.name) for number, _, step in part.steps if step.own]
 
-    def first(leaf: Leaf) -> int:
-        return min((number for number, _, step in part.steps if step.view.name in leaf.views), default=len(part.steps))
+    def first(leaf: Leaf) -> float:
+        return min((number for number, view in drawn if view in leaf.views), default=math.inf)
 
     return sorted(leaves, key=first)
 
@@ -160,7 +169,7 @@ class StepPart:
     drawn: Drawn
 
 
-def _pieces(part: Part, leaf: Leaf) -> Iterator[StepPart]:
+def _pieces(part: SheetPart, leaf: Leaf) -> Iterator[StepPart]:
     """What the steps of a part draw on a page."""
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
@@ -170,7 +179,7 @@ def _pieces(part: Part, leaf: Leaf) -> Iterator[StepPart]:
                     yield StepPart(number, since, expand(marks, Placement(origin, panel.factor), panel.letters))
 
 
-def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: float) -> Page:
+def _page(sheet: Format, leaf: Leaf, part: SheetPart, empty: Group, upto: float) -> Page:
     """Draw all that a page holds; the labels when every line of the finished page stands."""
     pieces = list(_pieces(part, leaf))
     finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
@@ -181,7 +190,7 @@ def _page(sheet: Format, leaf: Leaf, part: Part, empty: Group, upto: float) -> P
         steps.setdefault(number, []).extend(entities)
     tables = _tables(leaf, upto)
     groups = [empty, *([Group("tables", tables)] if tables else []), Group("titles", _titles(leaf, part, upto))]
-    names = {number: f"step-{number:02d} {name}" for number, name, _ in part.steps}
+    names = {number: part.group_name(number, name) for number, name, _ in part.steps}
     groups += [Group(names[number], tuple(entities)) for number, entities in steps.items()]
     origins = {name: origin for name, (panel, origin) in leaf.views.items() if panel.factor == 1}
     return Page(*sheet.size, sheet.content, tuple(groups), origins)
@@ -192,7 +201,7 @@ def _tables(leaf: Leaf, upto: float) -> tuple[Entity, ...]:
     return tuple(e for block, at in leaf.blocks for e in block.drawn(at, answered=upto == math.inf))
 
 
-def _titles(leaf: Leaf, part: Part, upto: float) -> tuple[Entity, ...]:
+def _titles(leaf: Leaf, part: SheetPart, upto: float) -> tuple[Entity, ...]:
     """The titles of the views of a page, with what has been found up to a step."""
     last = {name: number for number, name, _ in part.steps}
     views = leaf.views.values()

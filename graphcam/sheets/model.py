@@ -10,8 +10,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
-from graphcam.drafting.marks import Points
+from graphcam.drafting.marks import Origin, Places, Points
 from graphcam.sheets.box import Box
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """What an entity is a picture of: an act, and which of its places; of a polyline one for each corner."""
+
+    of: Origin
+    index: Places | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +29,7 @@ class Stroke:
     points: Points
     role: str
     closed: bool = False
+    source: Source | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +39,7 @@ class Strokes:
     starts: Points
     ends: Points
     role: str
+    source: Source | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +48,7 @@ class Curve:
 
     points: Points
     role: str
+    source: Source | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +59,7 @@ class Circles:
     radius: float
     role: str
     opaque: bool = False
+    source: Source | None = None
 
 
 @dataclass(frozen=True)
@@ -59,6 +71,7 @@ class ArcEntity:
     start: float
     end: float
     role: str
+    source: Source | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +80,7 @@ class Heads:
 
     corners: Points
     role: str
+    source: Source | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +114,8 @@ class Text:
     of : the dimension that it is the text of
     field : of the title block, that it is the entry of: a name such as "author"
     view : that it is the title of
+
+    What an entity shows is its ``source``; a frame and a table have none.
     """
 
     at: complex
@@ -111,6 +127,7 @@ class Text:
     of: Length | Angle | None = None
     field: str = ""
     view: str = ""
+    source: Source | None = None
 
 
 Entity = Stroke | Strokes | Curve | Circles | ArcEntity | Heads | Text
@@ -137,11 +154,12 @@ class Group:
 
     def runs(self) -> Iterator[tuple[str, str, list[Entity]]]:
         """Neighbours of one kind ("line", "filled", "opaque" or "text") and role, which one path can draw."""
-        for (kind, role), run in groupby(self.entities, key=lambda entity: (_kind(entity), entity.role)):
+        for (kind, role), run in groupby(self.entities, key=lambda entity: (kind_of(entity), entity.role)):
             yield kind, role, list(run)
 
 
-def _kind(entity: Entity) -> str:
+def kind_of(entity: Entity) -> str:
+    """How an entity is painted: "line", "filled", "opaque" or "text"."""
     match entity:
         case Text():
             return "text"

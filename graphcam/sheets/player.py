@@ -4,45 +4,66 @@ The page holds the sheets as SVG with one group for each step, the words and rea
 templates stand in ``data/player``.
 """
 
+from __future__ import annotations
+
 import base64
-import cmath
 import json
-import math
-import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
 from io import BytesIO
 from itertools import groupby
-from typing import Any, cast
-from xml.sax.saxutils import escape
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.drafting.marks import Points
+from graphcam.drafting.written_acts import WrittenActs
 from graphcam.sheets.box import Box, around_all
-from graphcam.sheets.fonts import font_file, points_size
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.fonts import font_file
+from graphcam.sheets.model import (
+    Drawing,
+    Entity,
+    Group,
+    Page,
+    Source,
+    Text,
+)
+from graphcam.sheets.player_svg import group_svg, roles_css
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import STYLES, Style
 
-MM_PER_POINT = 25.4 / 72
-ANCHORS = {"left": "", "center": " middle", "right": " end"}
+if TYPE_CHECKING:
+    from jinja2 import Template
+
 WORDS: Mapping[str, Caption] = {
     "construction": say("Construction"),
     "mechanism": say("Mechanism"),
     "contents": say("Contents"),
     "readings": say("Readings"),
     "drawing": say("The drawing"),
+    "looking": say("Zoom"),
+    "said": say("What is done"),
+    "live": say("The mechanism at this angle"),
     "steps": say("Steps"),
     "step": say("Step"),
-    "first": say("First step"),
-    "previous": say("Previous step"),
-    "next": say("Next step"),
-    "last": say("Last step"),
-    "chapter_back": say("Previous construction"),
-    "chapter_on": say("Next construction"),
+    "step_of": say("step {step} of {steps}", step="{step}", steps="{steps}"),
+    "part_of": say("part {part} of {parts}", part="{part}", parts="{parts}"),
+    "part_by_part": say("Part by part"),
+    "whole_step": say("Whole step"),
+    "why": say("Why"),
+    "previous": say("Back"),
+    "next": say("Next"),
+    "whole_back": say("Previous step, whole"),
+    "whole_on": say("Next step, whole"),
+    "run": say("Play the steps"),
+    "halt": say("Stop playing"),
+    "pace": say("Speed"),
+    "protocol": say("Construction protocol"),
+    "print_protocol": say("Print the protocol"),
+    "close": say("Close"),
+    "no": say("No."),
+    "name": say("Name"),
+    "done": say("Caption"),
+    "shown": say("Shown"),
     "closer": say("Closer"),
     "farther": say("Farther away"),
     "whole": say("Whole sheet"),
@@ -50,9 +71,12 @@ WORDS: Mapping[str, Caption] = {
     "sheet": say("Sheet"),
     "print": say("Print the sheet"),
     "theme": say("Light or dark"),
-    "keyboard": say("Keys: ← → steps, Page Up and Page Down constructions, Home and End, + − 0 zoom, M mechanism"),
+    "keyboard": say(
+        "Keys: ← → part by part, with Shift step by step, Page Up and Page Down constructions, space plays, "
+        "P protocol, + − 0 zoom, M mechanism"
+    ),
     "all_values": say("All values"),
-    "place": say("station"),
+    "place": say("where"),
     "paper": say("on paper"),
     "value": say("value"),
     "play": say("Turn"),
@@ -67,103 +91,57 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("Without JavaScript the finished sheet is shown."),
 }
 """What the page itself says."""
-IDLE = re.compile(r"\.00|(?<=\.\d)0")
-"""The idle digits of a number with two decimals."""
+SCRIPTS = ("camera.js", "board.js", "player.js")
+"""What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
 """Around what a step shows when it is looked at closely [mm]."""
 
 
-def group_svg(group: Group, height: float) -> str:
-    """The elements of a group on a page of that height [mm]; 1 unit is 1 mm, y points down.
-
-    >>> import numpy as np
-    >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
-    <path class="line axis" d="M0 297L10 297M0 292L10 292"/>
-    """
-    return "".join(_run(kind, role, run, height) for kind, role, run in group.runs())
+Pieces = list[list[Any]]
+"""Places of acts as the page knows them: [number of the act, [its places] or None for all of them]."""
 
 
-def roles_css() -> str:
-    """The width, the line type and the ink in print of every role, as variables of its class."""
-    # Roles of a drawing in progress have two words: the style sheet knows what is former and what current.
-    return "\n".join(_role_css(role, style) for role, style in STYLES.items() if " " not in role)
+@dataclass(frozen=True)
+class RowText:
+    """One value of a reading of many, as it is shown; ``lit`` are the pieces that it was read off."""
 
-
-def _role_css(role: str, style: Style) -> str:
-    dashes = f"stroke-dasharray:{' '.join(f'{mm:g}' for mm in style.pattern)};" if style.pattern else ""
-    return f".page .{role}{{--width:{style.width:g}px;--print:{style.colour};{dashes}}}"
-
-
-def _run(kind: str, role: str, run: Iterable[Entity], height: float) -> str:
-    if kind == "text":
-        return "".join(_text(cast(Text, text), height) for text in run)
-    paths = "".join(_path(entity, height) for entity in run)
-    return f'<path class="{kind} {role}" d="{paths}"/>'
-
-
-def _text(text: Text, height: float) -> str:
-    x, y = _number(text.at.real), _number(height - text.at.imag)
-    size = f"{points_size(text.height) * MM_PER_POINT:.3f}"
-    turn = f' transform="rotate({-math.degrees(text.angle):.2f} {x} {y})"' if text.angle else ""
-    classes = f"text{ANCHORS[text.align]}" + (f" {text.role}" if text.role != "text" else "")
-    return f'<text class="{classes}" x="{x}" y="{y}" font-size="{size}"{turn}>{escape(text.text)}</text>'
-
-
-def _path(entity: Entity, height: float) -> str:
-    match entity:
-        case Strokes(starts=starts, ends=ends):
-            return _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
-        case Stroke(points=points, closed=closed):
-            return _numbers("M" + "L".join(["%.2f %.2f"] * len(points)) + "Z" * closed, points, height)
-        case Curve(points=points):
-            control = bezier(points)
-            return _numbers("M%.2f %.2fC" + " ".join(["%.2f %.2f"] * (len(control) - 1)) + "Z", control, height)
-        case Circles(centres=centres, radius=radius):
-            # Two half turns: an arc of a whole turn is none in SVG.
-            r, d = _number(radius), _number(2 * radius)
-            turns = f"a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z"
-            return _numbers(f"M%.2f %.2f{turns}" * len(centres), centres - radius, height)
-        case ArcEntity():
-            return _arc(entity, height)
-        case Heads(corners=corners):
-            return _numbers("M%.2f %.2fL%.2f %.2fL%.2f %.2fZ" * len(corners), corners, height)
-        case Text():
-            raise AssertionError("a text has no path")
-
-
-def _arc(arc: ArcEntity, height: float) -> str:
-    # In two halves, so that the angle that each turns is never in doubt.
-    turns = arc.start, (arc.start + arc.end) / 2, arc.end
-    points = np.array([arc.centre + cmath.rect(arc.radius, turn) for turn in turns])
-    r = _number(arc.radius)
-    return _numbers(f"M%.2f %.2fA{r} {r} 0 0 0 %.2f %.2fA{r} {r} 0 0 0 %.2f %.2f", points, height)
-
-
-def _numbers(template: str, points: Points, height: float) -> str:
-    """A template with the coordinates of points: lengths to 0.01 mm, y down, without idle digits."""
-    flat = np.ravel(points)
-    written = template % tuple(np.column_stack([flat.real, height - flat.imag]).ravel().tolist())
-    return _without_idle(written)
-
-
-def _number(mm: float) -> str:
-    """A length to 0.01 mm, without idle digits."""
-    return _without_idle(f"{mm:.2f}")
-
-
-def _without_idle(numbers: str) -> str:
-    """Numbers of two decimals without the digits and signs that say nothing."""
-    return IDLE.sub("", numbers.replace("-0.00", "0.00"))
+    place: str
+    paper: str
+    value: str
+    lit: Pieces = field(default_factory=Pieces)
 
 
 @dataclass(frozen=True)
 class ReadingText:
-    """A reading as it is shown: how it came about, and the value; of many values a table (place, on paper, value)."""
+    """A reading as it is shown: how it came about, and the value; of many values a table.
+
+    lit : the pieces of the drawing that it was read off
+    """
 
     title: str
     taken: str
     value: str
-    table: tuple[tuple[str, str, str], ...] = ()
+    table: tuple[RowText, ...] = ()
+    lit: Pieces = field(default_factory=Pieces)
+
+
+@dataclass(frozen=True)
+class PartText:
+    """A part of a step as it is shown.
+
+    caption : what is done; of a step that has no parts it is empty
+    tools : the instruments, with what they are set to
+    draws, lit : the pieces that it draws, and those from which they are found
+    moves : all that is done, in order, with what is not seen
+    views : names of the views that show what is drawn or lit, that of the step first
+    """
+
+    caption: str
+    tools: tuple[str, ...]
+    draws: Pieces
+    lit: Pieces
+    moves: Pieces
+    views: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -171,6 +149,9 @@ class Slide:
     """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing.
 
     why : what is said of the construction before its first step
+    number : of the step within the task, such as "3.2";  reason : for the step
+    parts : at least one
+    reads : the numbers of the acts by which something is read, by the reading's name
     """
 
     chapter: str
@@ -179,6 +160,32 @@ class Slide:
     caption: str
     readings: tuple[ReadingText, ...] = ()
     why: str = ""
+    number: str = ""
+    reason: str = ""
+    parts: tuple[PartText, ...] = ()
+    reads: Mapping[str, int] = field(default_factory=dict[str, int])
+
+
+@dataclass(frozen=True)
+class Acts:
+    """The acts of a drawing as plain data, for who would draw it again.
+
+    record : of all acts
+    numbers : of the acts that the drawing shows
+    in_parts : of those that are drawn part by part
+    """
+
+    record: WrittenActs = field(default_factory=WrittenActs)
+    numbers: Mapping[Any, int] = field(default_factory=dict[Any, int])
+    in_parts: Set[int] = frozenset()
+
+    def shown_by(self, source: Source) -> tuple[int | None, bool]:
+        """The number of the act that an entity shows, and whether it is drawn in parts."""
+        number = self.numbers.get(source.of)
+        return number, number in self.in_parts
+
+
+UNKNOWN = Acts()
 
 
 def player(
@@ -187,36 +194,35 @@ def player(
     mechanism: Mapping[str, Any] | None,
     words: Mapping[str, str],
     language: str,
+    acts: Acts = UNKNOWN,
 ) -> str:
     """The page.
 
     slides : one for each step of the drawing, in order
+    acts : what the drawing shows, by the numbers that the slides' parts have it
     mechanism : what turns, see ``data/player/mechanism.js``; None for a drawing that nothing turns in
     words : what the page itself says, by the names of :data:`WORDS`
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
     from markupsafe import Markup
 
-    loader = PackageLoader("graphcam", "data/player")
-    environment = Environment(autoescape=True, loader=loader, undefined=StrictUndefined)
-    environment.trim_blocks = environment.lstrip_blocks = True
-
     def whole(name: str) -> Markup:
-        return Markup(loader.get_source(environment, name)[0])
+        """A file of the page, as it is."""
+        return Markup((files("graphcam") / "data" / "player" / name).read_text(encoding="utf-8"))
 
-    data = {"steps": _places(drawing, slides), "mechanism": mechanism, "words": dict(words)}
+    steps, views = _places(drawing, slides)
+    data = {"steps": steps, "views": views, "acts": acts.record.rows, "mechanism": mechanism, "words": dict(words)}
     entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)
     lettering = (entity.text for entity in entities if isinstance(entity, Text))
     said = [drawing.title, *words.values(), *(text for slide in slides for text in _texts(slide))]
-    return environment.get_template("page.html").render(
+    return _template().render(
         title=drawing.title,
         language=language,
         words=words,
-        pages=[_page(page) for page in drawing.pages],
+        pages=[_page(page, acts) for page in drawing.pages],
         slides=slides,
         chapters=[(name, [k for k, _ in run]) for name, run in groupby(enumerate(slides), key=lambda s: s[1].chapter)],
         style=whole("player.css") + Markup(roles_css()),
-        scripts=[whole("player.js"), *([whole("mechanism.js")] if mechanism else [])],
+        scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js",) if mechanism else ()))],
         mechanism=mechanism,
         font=_font([*said, *lettering]),
         # No text of a drawing may end the script that holds it.
@@ -224,11 +230,22 @@ def player(
     )
 
 
-def _page(page: Page) -> dict[str, Any]:
+@cache
+def _template() -> Template:
+    """The page's template, which is compiled once."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    loader = PackageLoader("graphcam", "data/player")
+    environment = Environment(autoescape=True, loader=loader, undefined=StrictUndefined)
+    environment.trim_blocks = environment.lstrip_blocks = True
+    return environment.get_template("page.html")
+
+
+def _page(page: Page, acts: Acts) -> dict[str, Any]:
     from markupsafe import Markup
 
     groups = [
-        (group.key, group.key.startswith("step-"), view, Markup(group_svg(group, page.height)))
+        (group.key, group.key.startswith("step-"), view, Markup(group_svg(group, page.height, acts.shown_by)))
         for whole in page.groups
         for view, group in _by_view(whole)
     ]
@@ -244,23 +261,43 @@ def _by_view(group: Group) -> list[tuple[str, Group]]:
     return [(view, Group(f"{group.key}-{view}", tuple(own))) for view, own in titles.items()] or [("", group)]
 
 
-def _places(drawing: Drawing, slides: Sequence[Slide]) -> list[dict[str, Any]]:
-    """For each step its group, its page, and the box of its view there: x, y from the upper left corner, size [mm]."""
+def _places(drawing: Drawing, slides: Sequence[Slide]) -> tuple[list[dict[str, Any]], dict[str, dict[str, Any]]]:
+    """For each step its group and its parts, and where it stands; for each view its page and the box there.
+
+    A box is x, y from the upper left corner, width and height [mm].
+    """
     views = {f"step-{k:02d}": slide.view for k, slide in enumerate(slides, 1)}
     found: list[dict[str, Any]] = []
-    for key, view in views.items():
+    stand: dict[str, dict[str, Any]] = {}
+    for slide, (key, view) in zip(slides, views.items(), strict=True):
         number, page = next((n, p) for n, p in enumerate(drawing.pages) if any(group.key == key for group in p.groups))
-        boxes = [box_of(group.entities) for group in page.groups if views.get(group.key) == view]
-        box = around_all([box for box in boxes if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
-        left, top = max(0.0, box.left), max(0.0, page.height - box.top)
-        width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
-        around = [round(x, 1) for x in (left, top, width, height)]
-        found.append({"group": key, "page": number, "view": view, "box": around})
-    return found
+        if view not in stand or stand[view]["page"] != number:
+            box = _box_of_view(page, view, {key for key, own in views.items() if own == view})
+            stand[view] = {"page": number, "box": box}
+        parts = [
+            {"draws": part.draws, "lit": part.lit, "moves": part.moves, "views": part.views} for part in slide.parts
+        ]
+        said = {"number": slide.number, "reads": dict(slide.reads), "parts": parts}
+        found.append({"group": key, "view": view, **stand[view], **said})
+    return found, stand
+
+
+def _box_of_view(page: Page, view: str, keys: Set[str]) -> list[float]:
+    """The box about what the steps of those keys draw, and about the title of their view."""
+    shown = [
+        box_of(e for e in group.entities if group.key in keys or (isinstance(e, Text) and e.view == view))
+        for group in page.groups
+    ]
+    box = around_all([box for box in shown if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
+    left, top = max(0.0, box.left), max(0.0, page.height - box.top)
+    width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
+    return [round(x, 1) for x in (left, top, width, height)]
 
 
 def _texts(slide: Slide) -> Iterable[str]:
-    yield from (slide.chapter, slide.why, slide.title, slide.caption)
+    yield from (slide.chapter, slide.why, slide.number, slide.title, slide.caption, slide.reason)
+    for part in slide.parts:
+        yield from (part.caption, *part.tools)
     for reading in slide.readings:
         yield from (reading.title, reading.taken, reading.value)
 

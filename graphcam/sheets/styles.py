@@ -41,7 +41,8 @@ _FINISHED: dict[str, Style] = {
 }
 FADED, CURRENT = "#9b9b9b", "#0b57a4"
 """Ink of a drawing in progress: what stood before the current step, and what the step adds."""
-FORMER_STEP, CURRENT_STEP = "former", "current"
+FORMER_STEP, CURRENT_STEP, CURRENT_PART = "former", "current", "part"
+"""What a part of a step adds is bold, as it is shown small."""
 
 
 def in_progress(role: str, stage: str) -> str:
@@ -58,6 +59,10 @@ def _current(style: Style) -> Style:
     return style if style.colour == ACCENT else Style(style.width, style.pattern, CURRENT)
 
 
+def _bold(style: Style) -> Style:
+    return Style(BOLD, style.pattern, style.colour)
+
+
 STYLES: dict[str, Style] = {
     **_FINISHED,
     **{
@@ -65,5 +70,6 @@ STYLES: dict[str, Style] = {
         for role, style in _FINISHED.items()
     },
     **{in_progress(role, CURRENT_STEP): _current(style) for role, style in _FINISHED.items()},
+    **{in_progress(role, CURRENT_PART): _bold(_current(style)) for role, style in _FINISHED.items()},
 }
 """The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import extent
-from graphcam.sheets.model import Angle, Length, Text
+from graphcam.sheets.model import Angle, Length, Source, Text
 
 Floats = NDArray[np.float64]
 GAPS = np.array([1.2, 1.8, 2.5, 3.4, 4.6, 6.5, 9.0, 12.0, 16.0, 21.0, 27.0, 35.0])
@@ -36,6 +36,7 @@ class Writing:
     anchors : (k,) where a leader ends; NaN where there is none
     bound : whether the text belongs to a line, not to a point: such texts choose first
     of : the dimension that it is the text of
+    source : what it names
     """
 
     text: str
@@ -46,6 +47,7 @@ class Writing:
     anchors: Points
     bound: bool = False
     of: Length | Angle | None = None
+    source: Source | None = None
 
     @property
     def size(self) -> complex:
@@ -57,7 +59,7 @@ class Writing:
         _, below, above = extent(self.text, self.height)
         angle = float(self.angles[k])
         base = self.centres[k] - cmath.rect((above - below) / 2, angle + math.pi / 2)
-        return Text(complex(base), self.text, self.height, "center", angle, of=self.of)
+        return Text(complex(base), self.text, self.height, "center", angle, of=self.of, source=self.source)
 
     def on_line(self, centres: Points, angle: float, cost: Floats, dearer: float) -> Writing:
         """The text of a line, with places on it before these, which cost so much more."""

@@ -30,8 +30,8 @@ def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
       Cam that turns cw, prime radius 44 mm
       translating follower, offset -10 mm, roller radius 17 mm
       rise 80°, dwell 45°, return 60°, dwell 175°
-      drawn: acceleration, integration, minimum_radius, pressure_angle, angle_diagram, inversion,
-      curvature, roller, working_profile, scheme
+      drawn: scheme, acceleration, integration, minimum_radius, pressure_angle, angle_diagram, inversion,
+      curvature, roller, working_profile
     .drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files
     """
     return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solve_motion(task, pencil)

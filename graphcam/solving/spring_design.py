@@ -29,6 +29,7 @@ CONTACT_MEANING = Meaning(
     "contact",
     say("Contact force"),
     say("A spring presses the follower on the cam, but no cam can pull: where it would have to, contact is lost."),
+    calculation="report.note.contact",
 )
 CONTACT = View("contact", say("Contact force ξ"), across="contact phi", up="contact force")
 WIDTH = 120.0

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from graphcam.comparison.quantities import Comparison
-from graphcam.constructions.roller import _covered
+from graphcam.constructions.working_profile import _covered
 from graphcam.drafting.pencil import Pencil
 from graphcam.solving.solve import solve
 from graphcam.tasks.motion_tables import MotionTable, ReturnTable, RiseTable

@@ -454,6 +454,25 @@ def _smooth(points: list[complex], parts: int) -> list[complex]:
     return [*line, points[-1]]
 
 
+BOARD = 100.0
+"""mm: a crossing at a few degrees enlarges the rounding of what lies far away, and shrinks as far away as it lies."""
+
+
+def off(here: Any, there: list[float] | list[complex]) -> float:
+    """The greatest difference [mm, or rad], of what reaches farther than ``BOARD`` as a part of that.
+
+    What neither board finds does not count.
+    """
+    ours, theirs = np.ravel(np.asarray(here)), np.asarray(there)
+    assert ours.shape == theirs.shape
+    unknown = np.isnan(ours)
+    assert np.array_equal(unknown, np.isnan(theirs))
+    finite = np.isfinite(ours)
+    assert np.array_equal(ours[~finite & ~unknown], theirs[~finite & ~unknown])
+    apart = np.abs(ours[finite] - theirs[finite]) / max(1.0, np.max(np.abs(ours[finite]), initial=0.0) / BOARD)
+    return float(np.max(apart, initial=0.0))
+
+
 def followed(construction: Construction) -> tuple[dict[str, list[float]], dict[str, Figure]]:
     """What the second board reads, by name, and what lies on it, by the name of the act."""
     text, formulas = written(construction)

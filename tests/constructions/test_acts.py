@@ -8,12 +8,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
 from golden_random import TASKS as RANDOM
-from replay import Figure, SecondBoard, figure_of, followed, written
+from replay import Figure, SecondBoard, figure_of, followed, off, written
 
 import graphcam as gc
 from graphcam.drafting.acts import Act, Drawn, Kind
@@ -36,8 +35,6 @@ from graphcam.errors import DesignError
 
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
-BOARD = 100.0
-"""mm: a crossing at a few degrees enlarges the rounding of what lies far away, and shrinks as far away as it lies."""
 HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
 TASKS = BUILT_IN | RANDOM
@@ -58,21 +55,6 @@ def drawn(name: str, pencil: gc.Pencil | None = None) -> dict[str, Construction]
 
 
 # --- the acts suffice ------------------------------------------------------------------------------------------------
-
-
-def off(here: Any, there: list[float] | list[complex]) -> float:
-    """The greatest difference [mm, or rad], of what reaches farther than ``BOARD`` as a part of that.
-
-    What neither board finds does not count.
-    """
-    ours, theirs = np.ravel(np.asarray(here)), np.asarray(there)
-    assert ours.shape == theirs.shape
-    unknown = np.isnan(ours)
-    assert np.array_equal(unknown, np.isnan(theirs))
-    finite = np.isfinite(ours)
-    assert np.array_equal(ours[~finite & ~unknown], theirs[~finite & ~unknown])
-    apart = np.abs(ours[finite] - theirs[finite]) / max(1.0, np.max(np.abs(ours[finite]), initial=0.0) / BOARD)
-    return float(np.max(apart, initial=0.0))
 
 
 @EVERY
@@ -221,7 +203,7 @@ def traces(act: Act, figure: Figure) -> list[tuple[complex, complex]]:
 
 def whole_figure(drawn: Drawn) -> Figure:
     """What is taken, by the second board."""
-    taken = Act(Kind.TAKE, "test", "taken", {"of": (drawn,), "which": None})
+    taken = Act(Kind.TAKE, "test", "taken", {"of": (drawn,), "which": None}, drawn.shown.size)
     return figure_of(taken)
 
 

@@ -125,7 +125,8 @@ def test_every_mark_lies_on_the_paper(name, pencil):
 
 
 def fields(mark: Any) -> dict[str, Any]:
-    return {entry.name: getattr(mark, entry.name) for entry in dataclasses.fields(mark) if entry.name != "of"}
+    names = {entry.name for entry in dataclasses.fields(mark)} - {"of", "index"}
+    return {name: getattr(mark, name) for name in names}
 
 
 def test_the_captions_carry_the_numbers_of_the_built_in_task():
@@ -136,13 +137,34 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
     expected = {
         "acceleration": ["360.0 mm", "0.01745 rad/mm", "50.0, 88.9 mm", "rise φ₁ rectangular, return φ₃ rectangular"],
         "integration": ["H₁ = 40.0 mm", "H₂ = 40.0 mm", f"μₛ = {mu_s:.5g} mm/mm", "known lift of 30 mm"],
-        "minimum_radius": ["30° rise", "r₀ = 43.280 mm with e = -10.000 mm and s₀ = 42.109 mm", "spring"],
-        "pressure_angle": ["r₀ = 44 mm and e = -10 mm"],
+        "minimum_radius": [
+            "at 30° to",
+            "× 0.6 = 43.280 mm = r₀",
+            "e = -10.000 mm",
+            "42.109 mm = s₀",
+            "spring",
+            "here at 6.",
+        ],
+        "pressure_angle": ["43.28 mm, up to r₀ = 44 mm", "44/0.6 = 73.33 mm", "e = -10 mm", "Ray 4: 20.64°", "40.68°"],
         "angle_diagram": ["1° a millimetre"],
-        "inversion": ["r₀ = 44 mm", "e = -10 mm", "80°, 45°, 60°, 175°", "against the rotation (clockwise)"],
-        "curvature": ["station 1′"],
+        "inversion": [
+            *("Set the compass to 44.0 mm", "r₀ = 44 mm at 1:1", "set it to 10.0 mm", "e = -10 mm"),
+            *("on the left: line 0", "The cam turns clockwise", "follower the other way, anticlockwise"),
+            *("6.67° in φ₁, 5° in φ₃", "station 4 at 26.67°", "80°, 45°, 60°, 175°"),
+            *("0.6 mm × 1 = 0.6 mm here", "station 4: 11.11 mm × 0.6 = 6.7 mm", "φ₂: 73.5 mm, φ₄: 44.0 mm"),
+        ],
+        "curvature": [
+            "station 1′",
+            "enlarged to 2 times its size, at 2:1",
+            "wrong by 43 %",
+            "OB measures 61.49 mm",
+            "ρ = 30.743 mm",
+        ],
         "roller": ["0.4 r₀ = 17.60 mm"],
-        "working_profile": ["r = 17 mm"],
+        "working_profile": [
+            *("Round 17.60 mm down to 17 mm", "Set the compass to 17.0 mm (r = 17 mm at 1:1)"),
+            *("station 6: 29.7° (29.7° in the diagram)", "station 6′: 49.5° (49.3° in the diagram)"),
+        ],
     }
     for name, parts in expected.items():
         for part in parts:
@@ -183,25 +205,30 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
             {
                 "integration": ["known lift of 0.261799 rad"],
                 "minimum_radius": [
-                    "At 1:1 the arm, 125.0 mm",
-                    "up to 15.00°",
-                    "on the rise outward",
-                    "45° on the rise",
+                    "At 1:1 the arm is 125.0 mm long",
+                    "the largest angle is 15.00°",
+                    "on the rise away from C",
+                    "the line at 45° to this normal",
                 ],
-                "pressure_angle": ["away from the pivot to D", "v₂ = v₁ + v₂₁"],
-                "inversion": ["r₀ = 61 mm", "c = 150 mm", "the arm is turned by the displacement, at most 15.00°"],
+                "pressure_angle": ["At 1:2 draw AC = 75.0 mm level", "ψ₀ + s = 23.45° + 7.50° = 30.95°"],
+                "inversion": ["r₀ = 61 mm", "c = 150 mm", "= 7.50°, a chord of 8.18 mm"],
             },
         ),
         (
             flat_board(flat_motion("3-4-5"), rotation="cw"),
             {
-                "minimum_radius": ["tangent at 45°", "arctan(μₐ/μₛ)", "ρ = 8 mm, r₀ = ρ + "],
-                "inversion": [
-                    "numbered against the rotation (clockwise)",
-                    "26.77 mm to the left",
-                    "32.12 mm to the right",
+                "minimum_radius": [
+                    "set square at 45°",
+                    "arctan(μₐ/μₛ) = 64.0°",
+                    "ρ = 8 mm: r₀ = 8 + 28.038 = 36.038 mm",
                 ],
-                "curvature": ["below the start of the lift"],
+                "inversion": [
+                    "Round the least radius, 36.038 mm, up to r₀ = 37 mm",
+                    "The cam turns clockwise",
+                    "on a rise to the left, seen from the cam centre",
+                    "26.77 mm and 32.12 mm",
+                ],
+                "curvature": ["crossing of the axes straight down"],
             },
         ),
     ],

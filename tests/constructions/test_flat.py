@@ -246,9 +246,9 @@ def test_the_tangent_leans_by_45_degrees_and_no_place_of_the_curve_lies_below_it
     assert zero.real == pytest.approx(0, abs=1e-12)
     assert zero.imag == pytest.approx(touch.real + touch.imag, rel=1e-12)  # places of equal s + a
     assert np.all(curve.real + curve.imag >= zero.imag - 1e-9)
-    limit = next(m for m in region.steps()[1].marks if isinstance(m, Line) and m.role is Role.LIMIT)
+    limit = next(m for m in region.steps()[2].marks if isinstance(m, Line) and m.role is Role.LIMIT)
     assert np.degrees(np.angle(limit.points[1] - limit.points[0])) == pytest.approx(-45)
-    angle = next(m for m in region.steps()[1].marks if isinstance(m, AngleMark))
+    angle = next(m for m in region.steps()[2].marks if isinstance(m, AngleMark))
     assert angle.end - angle.start == pytest.approx(math.pi / 4)
 
 
@@ -256,7 +256,7 @@ def test_with_unequal_scales_the_tangent_leans_by_the_arctangent_of_their_ratio(
     """The remark of the caption: drawn in the scale of the acceleration diagram, the touch is at the same place."""
     chain = drawn("cosine", n=48)
     region, readings = chain["minimum_radius"], chain["integration"].readings
-    assert "arctan(μₐ/μₛ)" in str(region.steps()[1].caption)
+    assert "arctan(μₐ/μₛ)" in str(region.steps()[2].caption)
     mu_s, mu_a = (float(readings[name].scale) for name in "sa")
     assert mu_a / mu_s != pytest.approx(1, abs=0.1)
     # On paper a/mu_a to the right and s/mu_s upwards; lines of equal s + a fall by mu_a/mu_s.

@@ -13,14 +13,18 @@ import graphcam as gc
 from graphcam.constructions.axes import (
     DEGREES_ROOM,
     OVERHANG,
+    as_high,
     axes_over_phi,
     degree_ticks,
+    height_names,
     numbered,
     numbers,
     once,
+    part_names,
     phase_symbol,
     phi_axes,
     station_names,
+    together,
 )
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
@@ -105,6 +109,29 @@ def test_of_heights_that_fall_on_one_another_each_is_drawn_once():
     heights = hand().given("heights", np.array([3, 1, 3.0001, -2, 1.0]) * 1j)
     kept = once(heights)
     assert_allclose(np.round(heights.points[kept].imag, 3), [-2, 1, 3])
+
+
+def test_of_equal_heights_the_first_stands_for_all_in_every_sample():
+    heights = np.array([[3.0, 1.0, 3.0 + 1e-12, -2.0, 1.0], [5.0, 4.0, 3.0, 2.0, 5.0]])
+    assert as_high(heights).tolist() == [[0, 1, 0, 3, 1], [0, 1, 2, 3, 0]]
+    assert as_high(heights[0]).tolist() == [0, 1, 0, 3, 1]
+    assert as_high(np.array([1.0, 1.0 + 1e-8])).tolist() == [0, 1]
+
+
+def test_of_heights_the_farthest_are_named_and_none_near_the_other_axis():
+    heights = hand().given("heights", np.array([5.9, 6.0, 13.0, 20.0, 25.0, -6.5, -12.0]) * 1j)
+    labels = height_names(heights, [*"abcdefg"])
+    assert [label.text for label in labels] == ["e", "c", "g", "b"]
+    assert [label.at for label in labels] == [25j, 13j, -12j, 6j]
+    assert [label.towards for label in labels] == [1 - 1j, 1 - 1j, 1 + 1j, 1 - 1j]
+    assert all(label.small and label.of is heights.act for label in labels)
+
+
+def test_neighbours_are_named_together_within_a_phase_only():
+    stations = divide(MOTION, 6)
+    assert part_names(stations) == [*"123456", *(f"{k}′" for k in range(1, 7))]
+    assert together([3, 4, 5, 6, 7], stations) == "4-6, 1′, 2′"
+    assert together([0, 2, 3, 11], stations) == "1, 3, 4, 6′"
 
 
 @pytest.mark.parametrize("parts", [9, 10, 100])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from functools import cache
@@ -12,6 +13,7 @@ from numpy.testing import assert_allclose
 
 import graphcam as gc
 from graphcam.constructions.differentiation import TANGENT, differentiation
+from graphcam.constructions.slope_numbers import NUMBERS_ROOM, RAYS_ROOM
 from graphcam.drafting.acts import Act
 from graphcam.drafting.ink import Construction, Step
 from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Role, Segments
@@ -36,6 +38,11 @@ def displacement(x):
 BUILT_IN = ("the built-in task",)
 KINDS = [(by, turn) for by in ("chords", "tangents") for turn in (TURN, None)]
 EVERY = pytest.mark.parametrize("kind", [*KINDS, BUILT_IN], ids=lambda kind: " ".join(map(str, kind)))
+
+
+@cache
+def steps_of(kind: tuple, pencil: Pencil | None = None) -> list[Step]:
+    return drawn(kind, pencil).steps()
 
 
 @cache
@@ -67,8 +74,8 @@ def number(caption: object, pattern: str) -> float:
 def passes(kind: tuple, pencil: Pencil | None = None):
     """Of both derivations the plotted curve that is derived, the steps, the pole's distance and its index."""
     c = drawn(kind, pencil)
-    steps = c.steps()
-    plotted = [one(step, Dots).points for step in (steps[0], steps[3], steps[6])]
+    steps = steps_of(kind, pencil)
+    plotted = [one(steps[0], Dots).points, *(one(steps[k], Dots, 1).points for k in (2, 5))]
     pole_dots = [one(steps[k], Dots).points for k in (2, 5)]
     assert all(dot.shape == (1,) for dot in pole_dots)
     for k in (0, 1):
@@ -94,7 +101,12 @@ def test_the_displacement_stands_upright_on_its_stations(kind):
     assert_allclose(uprights.starts, c.givens.x, atol=EXACT)
     assert_allclose(uprights.ends, dots.points, atol=EXACT)
     assert number(step.caption, r"at (\d+) stations") == c.givens.x.size
-    assert ("goes on with the first" in str(step.caption)) == cyclic(kind)
+    assert ("the next turn begins with station 0" in str(step.caption)) == cyclic(kind)
+    k = int(number(step.caption, r"station (\d+) lies"))
+    assert number(step.caption, r"lies ([\d.]+) mm") == pytest.approx(dots.points[k].real, abs=0.0051)
+    assert number(step.caption, r"ordinate is ([\d.]+) mm") == pytest.approx(dots.points[k].imag, abs=0.0051)
+    assert number(step.caption, r"axis, 1 mm = (\S+)°") == pytest.approx(math.degrees(c.givens.mu_phi.per_mm), rel=1e-3)
+    assert number(step.caption, r"each, 1 mm = (\S+) mm") == pytest.approx(c.givens.mu_s.per_mm, rel=1e-3)
 
 
 @EVERY
@@ -102,7 +114,7 @@ def test_every_diagram_has_its_axes_and_their_names_at_the_heads(kind):
     c = drawn(kind)
     for at, symbol in ((0, "s"), (2, "v"), (5, "a")):
         step = c.steps()[at]
-        heights = one(c.steps()[{"s": 0, "v": 3, "a": 6}[symbol]], Dots).points.imag
+        heights = one(step, Dots, int(symbol != "s")).points.imag
         end = c.givens.turn or c.givens.x[-1]
         across, up = one(step, Arrow), one(step, Arrow, 1)
         assert (across.start, across.end) == (0, pytest.approx(end + 8))
@@ -118,8 +130,8 @@ def test_every_diagram_has_its_axes_and_their_names_at_the_heads(kind):
 @pytest.mark.parametrize("at", [0, 3, 6])
 def test_the_curve_runs_through_every_plotted_point_and_over_the_ends_of_the_turn(kind, at):
     c = drawn(kind)
-    step = c.steps()[at]
-    curve, dots = one(step, Line), one(step, Dots)
+    steps = c.steps()
+    curve, dots = one(steps[at], Line), one(steps[max(at - 1, 0)], Dots, int(at > 0))
     assert curve.role is Role.RESULT
     # A place in the interval over the end of the turn may lie beyond it: there the curve begins anew.
     places = np.where(dots.points.real > (c.givens.turn or np.inf), dots.points - (c.givens.turn or 0), dots.points)
@@ -150,7 +162,7 @@ def test_chords_join_neighbouring_ordinates_and_come_round(kind, pencil):
         polygon = one(chords, Line)
         assert_allclose(polygon.points, ends_of_chords(kind, plotted), atol=EXACT)
         assert polygon.role is Role.LIMIT
-        assert number(chords.caption, r", (\d+) of them") == polygon.points.size - 1
+        assert number(chords.caption, r"others, (\d+) in all") == polygon.points.size - 1
 
 
 def neighbours(kind: tuple, plotted):
@@ -169,7 +181,7 @@ def test_a_tangent_touches_its_point_and_crosses_neither_chord_there(kind, penci
         assert_allclose(np.abs((lines.starts + lines.ends) / 2 - plotted), 0, atol=beside)
         assert_allclose(np.abs(lines.ends - lines.starts), 2 * TANGENT, atol=EXACT)
         assert np.all(lines.ends.real > lines.starts.real)
-        assert number(tangents.caption, r"each of the (\d+) stations") == plotted.size
+        assert number(tangents.caption, r"others, (\d+) in all") == plotted.size
         chords = np.angle(np.diff(neighbours(kind, plotted)))
         inside = slice(None) if cyclic(kind) else slice(1, -1)
         seen = np.angle(lines.ends - lines.starts)[inside]
@@ -280,7 +292,13 @@ def test_the_greatest_ordinate_said_is_the_top_of_the_plotted_points(kind):
         for side in (1, -1):
             heights = list(side * derived.imag)
             found.append(top_of_three(heights, int(np.argmax(heights)), round_about=cyclic(kind)))
-        assert number(step.caption, r"measures ([-\d.]+) mm") == pytest.approx(max(found), abs=0.006)
+        assert number(step.caption, r"ordinate, ([\d.]+) mm") == pytest.approx(max(found), abs=0.006)
+        side, near = re.search(r"mm (up|down), stands near point (\d+)", str(step.caption)).groups()
+        assert side == ("up" if found[0] >= found[1] else "down")
+        k = int(near) - by_chords(kind)
+        assert (derived.imag if side == "up" else -derived.imag)[k] == max(
+            derived.imag if side == "up" else -derived.imag
+        )
 
 
 @EVERY
@@ -290,13 +308,153 @@ def test_the_scales_said_follow_from_the_poles_and_turn_the_greatest_ordinates_i
     mu_v = c.givens.mu_s.per_mm / (c.givens.mu_phi.per_mm * c.givens.poles[0])
     mu_a = mu_v / (c.givens.mu_phi.per_mm * c.givens.poles[1])
     said = steps[-1].caption
-    assert number(said, r"μᵥ = μₛ/\(μᵩ·H₁\) = (\S+) ") == pytest.approx(mu_v, rel=1e-4)
-    assert number(said, r"μₐ = μᵥ/\(μᵩ·H₂\) = (\S+) ") == pytest.approx(mu_a, rel=1e-4)
-    for name, step, mu in (("velocity is", steps[3], mu_v), ("acceleration", steps[6], mu_a)):
-        paper = number(step.caption, r"measures ([-\d.]+) mm")
-        assert number(said, rf"greatest {name} (\S+) ") == pytest.approx(paper * mu, rel=2e-4)
+    for symbols, wanted, above, pole in (
+        ("μᵥ = μₛ/(μᵩ·H₁)", mu_v, c.givens.mu_s.per_mm, c.givens.poles[0]),
+        ("μₐ = μᵥ/(μᵩ·H₂)", mu_a, mu_v, c.givens.poles[1]),
+    ):
+        numbers = re.search(re.escape(symbols) + r" = ([\d.]+)/\(([\d.]+) · ([\d.]+)\) = ([\d.]+) ", str(said)).groups()
+        assert [float(each) for each in numbers] == pytest.approx(
+            [above, c.givens.mu_phi.per_mm, pole, wanted], rel=2e-4
+        )
+    for name, step, mu in (("velocity", steps[3], mu_v), ("acceleration", steps[6], mu_a)):
+        paper = number(step.caption, r"ordinate, ([\d.]+) mm")
+        found = re.search(rf"maximum {name} is ([\d.]+) mm × (\S+) = (\S+) ", str(said)).groups()
+        assert [float(each) for each in found] == pytest.approx([paper, mu, paper * mu], rel=4e-4)
     for view, mu in ((steps[0].view, c.givens.mu_s.per_mm), (steps[3].view, mu_v), (steps[6].view, mu_a)):
         assert number(view.title, r"μ. = (\S+) ") == pytest.approx(mu, rel=1e-3)
+
+
+# --- part by part ----------------------------------------------------------------------------------------------------
+
+
+def named(by: int, kind: tuple) -> list[str]:
+    """The numbers of as many slopes: of chords from 1, of tangents from 0."""
+    return [f"{k + by_chords(kind)}" for k in range(by)]
+
+
+def told_climb(caption) -> float:
+    """How far up a caption says that a chord runs."""
+    found = re.search(r"across and (?:([\d.]+) mm (up|down)|level)\.", str(caption))
+    return float(found[1]) * (1 if found[2] == "up" else -1) if found[1] else 0.0
+
+
+def told_height(caption) -> float:
+    """The height that a caption says a ray ends at."""
+    found = re.search(r"axis, (?:([\d.]+) mm (up|down)|at the origin)\.", str(caption))
+    return float(found[1]) * (1 if found[2] == "up" else -1) if found[1] else 0.0
+
+
+@EVERY
+@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+def test_ray_k_is_drawn_parallel_to_chord_or_tangent_k_and_every_part_bears_that_number_and_says_its_lengths(
+    kind, pencil
+):
+    noun = "chord" if by_chords(kind) else "tangent"
+    for number_of_pass, (plotted, derived, (traced, rays, _), distance, index) in enumerate(passes(kind, pencil)):
+        names = named(derived.size, kind)
+        assert len(traced.parts) == len(rays.parts) == derived.size
+        assert len({str(part.caption) for part in rays.parts}) == derived.size
+        for k, (name, trace, ray) in enumerate(zip(names, traced.parts, rays.parts, strict=True)):
+            assert str(trace.caption).startswith(f"{noun.capitalize()} {name}")
+            assert f"from {noun} {name} to P{index}: ray {name} ends" in str(ray.caption)
+            assert str(ray.caption).endswith(f"point {name} of {'va'[number_of_pass]}.")
+            slope, line = trace.draws[0], ray.draws[0]
+            across = (line.directions * slope.directions.conjugate()).imag / abs(line.directions * slope.directions)
+            assert abs(across) < (MANY * SIGMA / 150 if pencil else EXACT)
+            way = complex(slope.directions)
+            assert told_height(ray.caption) == pytest.approx(
+                distance * way.imag / way.real, abs=MANY * 0.5 if pencil else 0.006
+            )
+            assert told_height(ray.caption) == pytest.approx(ray.draws[1].place.imag, abs=0.0051)
+            assert ray.draws[2].place == derived[k]
+            if by_chords(kind):
+                ends = ends_of_chords(kind, plotted)[k : k + 2]
+                assert complex(slope.points) == ends[0]
+                assert told_climb(trace.caption) == pytest.approx((ends[1] - ends[0]).imag, abs=0.0051)
+                assert number(trace.caption, r", ([\d.]+) mm across") == pytest.approx(
+                    (ends[1] - ends[0]).real, abs=0.0051
+                )
+                first = k + number_of_pass
+                begin, end = re.search(r"from point (\d+) to point (\d+)", str(trace.caption)).groups()
+                assert int(begin) == first
+                assert int(end) == (first + 1 if k + 1 < plotted.size else number_of_pass)
+                assert ("of the next turn" in str(trace.caption)) == (k + 1 == plotted.size)
+            else:
+                said = re.search(r"(rises|falls) at ([\d.]+)°|is level", str(trace.caption))
+                lean = float(said[2]) * (1 if said[1] == "rises" else -1) if said[1] else 0.0
+                assert lean == pytest.approx(math.degrees(cmath.phase(way)), abs=0.051)
+                assert f"at point {name}," in str(trace.caption)
+
+
+@EVERY
+def test_the_caption_of_a_step_works_one_of_its_parts_and_says_how_many_there_are(kind):
+    for *_, (traced, rays, _), _, _ in passes(kind):
+        for step in (traced, rays):
+            (worked,) = [part for part in step.parts if str(part.caption) in str(step.caption)]
+            assert worked
+            assert number(step.caption, r"others, (\d+) in all") == len(step.parts)
+
+
+@EVERY
+def test_the_parts_of_a_step_leave_all_its_own_marks(kind):
+    for step in drawn(kind).steps():
+        left = {(part.act, k) for each in step.parts for part in each.draws for k in part.index.tolist()}
+        for mark in step.own if step.parts else ():
+            assert {(mark.of, k) for k in mark.index.tolist()} <= left, (str(step.title), mark)
+
+
+def all_of_range(text: str) -> set[str]:
+    """The numbers that a label stands for: of 3-5, 9 these are 3, 4, 5 and 9."""
+    found: set[str] = set()
+    for run in text.split(", "):
+        first, _, last = run.partition("-")
+        found |= {f"{k}" for k in range(int(first), int(last or first) + 1)}
+    return found
+
+
+def slope_begins_above(plotted, k: int) -> bool:
+    """Whether a slope begins above the axis."""
+    return plotted[k].imag >= 0
+
+
+@EVERY
+def test_numbers_stand_at_the_ends_of_their_rays_the_middles_of_their_chords_and_their_points(kind):
+    for plotted, derived, (traced, rays, _), distance, _ in passes(kind):
+        names = named(derived.size, kind)
+        at_axis = [mark for mark in rays.own if isinstance(mark, Label) and abs(mark.at.real) < EXACT]
+        at_points = [mark for mark in rays.own if isinstance(mark, Label) and mark not in at_axis]
+        assert len(at_axis) >= 3
+        assert len(at_points) >= derived.size // 4
+        slopes = slopes_of(kind, plotted, traced)
+        for label in at_axis:
+            fall = {
+                name for name, slope in zip(names, slopes, strict=True) if abs(distance * slope - label.at.imag) < 1e-3
+            }
+            assert all_of_range(str(label.text)) == fall
+            assert label.towards == -1
+        heights = sorted(label.at.imag for label in at_axis)
+        assert np.diff(heights).min() >= RAYS_ROOM
+        for label in at_points:
+            assert label.at == derived[names.index(str(label.text))]
+            assert label.towards.imag * label.at.imag >= 0 == label.towards.real
+        numbered = [mark for mark in traced.own if isinstance(mark, Label)]
+        joined = ends_of_chords(kind, plotted)
+        places = (joined[1:] + joined[:-1]) / 2 if by_chords(kind) else plotted
+        for label in numbered:
+            assert label.at == pytest.approx(complex(places[names.index(str(label.text))]), abs=EXACT)
+            # Those of the displacement outside of the curve; those of v inside, where its points have none.
+            inside = -1 if traced.view.name == "measured velocity" else 1
+            assert label.towards == inside * (1j if slope_begins_above(plotted, names.index(str(label.text))) else -1j)
+        spacing = np.diff([label.at.real for label in numbered])
+        assert spacing.size == 0 or spacing.min() >= 0.7 * NUMBERS_ROOM  # the parts are unequal
+        # The point of v that a tangent touches bears its number already.
+        assert bool(numbered) == (by_chords(kind) or traced.view.name == "measured displacement")
+
+
+@EVERY
+def test_every_step_has_a_reason_in_one_sentence(kind):
+    for step in drawn(kind).steps():
+        assert re.fullmatch(r"Because [^.]+\.", str(step.why)), str(step.why)
 
 
 @EVERY

@@ -16,6 +16,7 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.flat_inversion import FACE_BEYOND
 from graphcam.drafting.acts import Act
+from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.drafting.pencil import Pencil
 
@@ -29,6 +30,15 @@ BOARDS = {
     "corners": flat_board(flat_motion("trapezoidal")),
     "rests": flat_board(motion_of((2, 150, "cosine"), (0, 20), (-2, 150, "cosine")), prime_radius=20.0),
 }
+OWN = ("minimum_radius", "inversion", "curvature")
+LAID_OFF = "minimum_radius", "Displacement over acceleration"
+JOINED = "minimum_radius", "The curve of s over a"
+TANGENT = "minimum_radius", "The tangent at 45 degrees"
+FOUND = "minimum_radius", "The least prime radius"
+CIRCLE = "inversion", "Prime circle"
+RAYS = "inversion", "Rays of the inverted positions"
+FACES = "inversion", "Faces"
+CONTACTS = "inversion", "Contacts"
 EVERY = pytest.mark.parametrize("name", ["the built-in task", *BOARDS])
 
 
@@ -37,6 +47,17 @@ def chain(name: str, pencil: Pencil | None = None):
     if name == "the built-in task":
         return gc.solve(gc.builtin_task("flat"), pencil).drawn
     return Chain(BOARDS[name], pencil or Pencil())
+
+
+@cache
+def steps(name: str, pencil: Pencil | None = None) -> dict[tuple[str, str], Step]:
+    """The steps of a flat face's own constructions, by construction and title."""
+    drawn = chain(name, pencil)
+    return {(key, str(step.title)): step for key in OWN for step in drawn[key].steps()}
+
+
+def step_of(name: str, key: str, title: str, pencil: Pencil | None = None) -> Step:
+    return steps(name, pencil)[key, title]
 
 
 def of_kind(step, kind):
@@ -74,7 +95,7 @@ def expected_curve(name: str) -> list[np.ndarray]:
 
 @EVERY
 def test_every_acceleration_is_laid_off_level_at_its_displacement_in_the_scale_of_s(name):
-    step = chain(name)["minimum_radius"].steps()[0]
+    step = step_of(name, *LAID_OFF)
     laid_off = of_kind(step, Segments)
     assert_allclose(np.concatenate([lines.starts.real for lines in laid_off]), 0, atol=EXACT)
     for lines in laid_off:
@@ -83,47 +104,97 @@ def test_every_acceleration_is_laid_off_level_at_its_displacement_in_the_scale_o
     apart = np.abs(ends[:, None] - wanted[None, :])
     assert apart.min(axis=0).max() < EXACT
     assert apart.min(axis=1).max() < EXACT
-    assert number(step.caption, r"longest measures ([\d.]+) mm") == pytest.approx(np.abs(wanted.real).max(), abs=0.051)
+    said = re.search(r"μₐ/μₛ = ([\d.]+)/([\d.]+) = ([\d.]+),", str(step.caption)).groups()
+    readings = chain(name)["integration"].readings
+    mu_s, mu_a = (float(readings[key].scale) for key in "sa")
+    assert [float(each) for each in said] == pytest.approx([mu_a, mu_s, mu_a / mu_s], rel=1e-3)
     assert (len(laid_off) == 2) == (name == "jumps")
 
 
 @EVERY
-def test_smooth_curves_join_the_ends_between_jumps_and_corners_and_bear_their_first_station(name):
-    step = chain(name)["minimum_radius"].steps()[0]
+def test_every_station_is_told_with_what_is_laid_off_there(name):
+    """Where the acceleration jumps, on both sides."""
+    step, (s, a, before, mu) = step_of(name, *LAID_OFF), lengths(name)
+    factor = float(chain(name)["integration"].readings["a"].scale) / mu
+    names = station_names(stations(name))
+    assert len(step.parts) == len(names)
+    for k, part in enumerate(step.parts):
+        said = str(part.caption)
+        assert said.startswith(f"Station {names[k]}: mark the axis of s ")
+        height = re.search(r"([\d.]+) mm (above|below) the axis of a", said)
+        assert (float(height[1]) * (1 if height[2] == "above" else -1) if height else 0) == pytest.approx(
+            s[k], abs=0.0051
+        )
+        wanted = [a[k]] if a[k] == before[k] else [before[k], a[k]]
+        found = re.findall(r"([\d.]+) mm × ([\d.]+) = ([\d.]+) mm to the (right|left)", said)
+        assert len(found) == sum(abs(each) > 0.005 * factor for each in wanted)
+        for (ordinate, times, length, side), across in zip(found, wanted, strict=False):
+            assert float(times) == pytest.approx(factor, abs=5.1e-5)
+            assert float(ordinate) == pytest.approx(abs(across) / factor, abs=0.0051)
+            assert float(length) == pytest.approx(abs(across), abs=0.0051)
+            assert side == ("right" if across > 0 else "left")
+        assert ("before the jump" in said) == (len(wanted) == 2)
+        assert_allclose(sorted(drawn.place.real for drawn in part.draws), sorted(wanted), atol=EXACT)
+        assert all(drawn.place.imag == pytest.approx(s[k], abs=EXACT) for drawn in part.draws)
+
+
+@EVERY
+def test_the_ends_bear_their_stations_names_away_from_the_axis(name):
+    step, (s, a, before, _) = step_of(name, *LAID_OFF), lengths(name)
+    names, labels = station_names(stations(name)), of_kind(step, Label)[2:]
+    assert {str(label.text) for label in labels} >= {names[span.start] for span in stations(name).phases}
+    for label in labels:
+        k = names.index(str(label.text))
+        assert label.at in (pytest.approx(a[k] + 1j * s[k]), pytest.approx(before[k] + 1j * s[k]))
+        if abs(label.at.real) > EXACT:
+            assert label.towards == np.sign(label.at.real)
+    jumps = [names[k] for k in np.flatnonzero(a != before)]
+    assert all(sum(label.text == jump for label in labels) >= 1 for jump in jumps)
+
+
+@EVERY
+def test_smooth_curves_join_the_ends_between_jumps_and_corners(name):
+    step = step_of(name, *JOINED)
     curves = [line for line in of_kind(step, Line) if line.role is Role.RESULT]
     assert len(curves) == len(stations(name).stretches)
     names = station_names(stations(name))
-    labels = of_kind(step, Label)[2:]
-    for curve, places, label, stretch in zip(
-        curves, expected_curve(name), labels, stations(name).stretches, strict=True
+    for curve, places, part, stretch in zip(
+        curves, expected_curve(name), step.parts, stations(name).stretches, strict=False
     ):
         assert_allclose(curve.points[[0, -1]], places[[0, -1]], atol=EXACT)
         assert np.abs(places[:, None] - curve.points[None, :]).min(axis=1).max() < EXACT
-        assert label.text == names[stretch.start]
-        assert label.at == pytest.approx(complex(places[0]), abs=EXACT)
-        assert label.towards == np.sign(round(places[0].real, 9))  # away from the axis
+        assert f"From {names[stretch.start]} to {names[stretch.stop - 1]}:" in str(part.caption)
 
 
 @EVERY
 def test_a_dwell_is_a_point_of_the_axis_at_its_displacement(name):
     integration = chain(name)["integration"]
-    (dots,) = of_kind(chain(name)["minimum_radius"].steps()[0], Dots)
+    step = step_of(name, *JOINED)
+    (dots,) = of_kind(step, Dots)
     motion, mu = integration.givens.motion, float(integration.readings["s"].scale)
     levels = [motion.levels[k] / mu for k, phase in enumerate(motion.phases) if phase.kind == "dwell"]
     assert_allclose(dots.points.real, 0, atol=EXACT)
     assert_allclose(np.sort(dots.points.imag), np.sort(levels), atol=1e-6)
+    told = [str(part.caption) for part in step.parts[-dots.points.size :]]
+    for said, level in zip(told, dots.points.imag, strict=True):
+        assert said.startswith("In the dwell after ")
+        height = re.search(r"the axis ([\d.]+) mm above", said)
+        assert (float(height[1]) if height else 0) == pytest.approx(level, abs=0.0051)
 
 
 @EVERY
 def test_the_axes_of_s_and_a_reach_beyond_all_that_is_drawn(name):
-    region = chain(name)["minimum_radius"]
-    up, across = of_kind(region.steps()[0], Arrow)
+    step = step_of(name, *LAID_OFF)
+    up, across = of_kind(step, Arrow)
     curve = np.concatenate(expected_curve(name))
-    centre, zero = of_kind(region.steps()[2], Dots)[0].points[0], of_kind(region.steps()[1], Dots)[0].points[1]
+    centre, zero = (
+        of_kind(step_of(name, *FOUND), Dots)[0].points[0],
+        of_kind(step_of(name, *TANGENT), Dots)[1].points[0],
+    )
     assert up.start == pytest.approx(1j * (min(centre.imag, zero.imag) - 8), abs=EXACT)
     assert up.end == pytest.approx(1j * (curve.imag.max() + 8))
     assert (across.start, across.end) == (pytest.approx(curve.real.min()), pytest.approx(curve.real.max() + 8))
-    s, a = of_kind(region.steps()[0], Label)[:2]
+    s, a = of_kind(step, Label)[:2]
     assert [(s.text, s.at, s.towards), (a.text, a.at, a.towards)] == [("s", up.end, -1), ("a", across.end, -1j)]
 
 
@@ -156,9 +227,9 @@ def lowest_of(sums: list[float]) -> float:
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
 def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowhere(name, pencil):
     region = chain(name, pencil)["minimum_radius"]
-    shown, step = region.steps()[:2]
-    (line,), (dots,), (angle,) = (of_kind(step, kind) for kind in (Line, Dots, AngleMark))
-    touch, zero = dots.points
+    shown, step = (step_of(name, *title, pencil) for title in (JOINED, TANGENT))
+    (line,), (touched, met), (angle,) = (of_kind(step, kind) for kind in (Line, Dots, AngleMark))
+    (touch,), (zero,) = touched.points, met.points
     for way in (line.points[1] - line.points[0], *(line.points - touch)):
         assert abs(way.real + way.imag) < EXACT  # places of equal s + a
     # From above its touch to beyond the axis.
@@ -176,8 +247,23 @@ def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowher
     assert math.degrees(angle.end - angle.start) == pytest.approx(float(str(angle.text).rstrip("°")))
     assert angle.radius < abs(line.points[1] - zero)
     mu = float(np.ravel(region.readings["need"].scale)[0])
-    assert number(step.caption, r"axis of s at (-?[\d.]+) mm") == pytest.approx(zero.imag, abs=0.0051)
-    assert number(step.caption, r"is (-?[\d.]+) mm") == pytest.approx(-zero.imag * mu, abs=0.00051)
+    height = re.search(r"axis of s (?:([\d.]+) mm (above|below) the axis of a|at the axis of a)", str(step.caption))
+    side = {"above": 1, "below": -1, None: 0}[height[2]]
+    assert side * float(height[1] or 0) == pytest.approx(zero.imag, abs=0.0051)
+    paper, scale, need = re.search(r"is (-?[\d.]+) mm × ([\d.]+) = (-?[\d.]+) mm", str(step.caption)).groups()
+    assert float(paper) == pytest.approx(-zero.imag, abs=0.0051)
+    assert float(scale) == pytest.approx(mu, rel=1e-4)
+    assert float(need) == pytest.approx(-zero.imag * mu, abs=0.00051)
+    # The ends that are told to be nearest are.
+    (_, at), (s, a, before, _) = str(step.parts[0].caption).rsplit(" ", 1), lengths(name)
+    k = station_names(stations(name)).index(at.rstrip("."))
+    ends = np.concatenate([a + 1j * s, before + 1j * s, 1j * s[stations(name).last]])
+    here = np.array([a[k] + 1j * s[k], before[k] + 1j * s[k], 1j * s[k]])
+    assert np.abs(here - touch).min() <= np.abs(ends - touch).min() + (MANY * SIGMA if pencil else 1e-3)
+    own = chain(name)["integration"].readings["a"].scale / chain(name)["integration"].readings["s"].scale
+    assert number(step.caption, r"= ([\d.]+)°") == pytest.approx(
+        math.degrees(math.atan(own)), abs=0.6 if pencil else 0.051
+    )
     assert float(region.readings["need"].paper) == pytest.approx(-zero.imag, abs=EXACT)
 
 
@@ -185,22 +271,30 @@ def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowher
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
 def test_the_cam_centre_lies_the_least_radius_below_the_start_of_the_lift(name, pencil):
     region = chain(name, pencil)["minimum_radius"]
-    step, mu = region.steps()[2], float(np.ravel(region.readings["need"].scale)[0])
+    step, mu = step_of(name, *FOUND, pencil), float(np.ravel(region.readings["need"].scale)[0])
     (dot,), (label,), (measure,) = (of_kind(step, kind) for kind in (Dots, Label, Dimension))
-    centre, zero = complex(dot.points[0]), complex(of_kind(region.steps()[1], Dots)[0].points[1])
+    centre, zero = complex(dot.points[0]), complex(of_kind(step_of(name, *TANGENT, pencil), Dots)[1].points[0])
     least, slack = region.givens.least_curvature, MANY * SIGMA if pencil else EXACT
     r0 = least - zero.imag * mu
     assert centre == pytest.approx(-1j * r0 / mu, abs=slack)
     assert abs(centre.real) < EXACT
-    assert (label.text, label.at) == ("A", centre)
+    assert (label.text, label.at) == ("A₀", centre)
     assert label.towards.imag < 0 < label.towards.real
     assert (measure.start, measure.end) == (0, centre)
     assert number(measure.text, r"r₀ = ([\d.]+)") == pytest.approx(r0, abs=0.0051)
     assert abs(measure.end - measure.start) * mu == pytest.approx(r0, abs=slack * mu + EXACT)
     # Left of the axis, on the side where the tangent does not run: the way down has its left on the right.
     assert measure.aside < 0
-    said = [float(each) for each in re.findall(r"-?\d+\.?\d*", str(step.caption))]
-    assert said == [pytest.approx(least), pytest.approx(-zero.imag * mu, abs=0.00051), pytest.approx(r0, abs=0.00051)]
+    said = str(step.caption)
+    assert f"sharper than ρ = {least:g} mm" in said
+    total = re.search(r"r₀ = (?:([\d.]+) ([+−]) ([\d.]+)|ρ) = ([\d.]+) mm", said)
+    need = float(total[3]) * (1 if total[2] == "+" else -1) if total[3] else 0.0
+    assert need == pytest.approx(-zero.imag * mu, abs=0.00051)
+    assert float(total[4]) == pytest.approx(r0, abs=0.00051)
+    value, scale, paper = re.search(r"dividers to ([\d.]+)/([\d.]+) = ([\d.]+) mm", said).groups()
+    assert float(value) == pytest.approx(r0, abs=0.00051)
+    assert float(scale) == pytest.approx(mu, rel=1e-4)
+    assert float(paper) == pytest.approx(r0 / mu, abs=0.0051)
 
 
 @EVERY
@@ -208,19 +302,28 @@ def test_the_cam_centre_lies_the_least_radius_below_the_start_of_the_lift(name, 
 def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_tangent(name, pencil):
     drawn = chain(name, pencil)
     curved, region = drawn["curvature"], drawn["minimum_radius"]
-    (step,), mu = curved.steps(), float(np.ravel(region.readings["need"].scale)[0])
+    step, mu = (
+        step_of(name, "curvature", "The least radius of curvature", pencil),
+        float(np.ravel(region.readings["need"].scale)[0]),
+    )
     (dot,), (measure,) = of_kind(step, Dots), of_kind(step, Dimension)
-    zero, slack = complex(of_kind(region.steps()[1], Dots)[0].points[1]), MANY * SIGMA if pencil else EXACT
+    zero = complex(of_kind(step_of(name, *TANGENT, pencil), Dots)[1].points[0])
+    slack = MANY * SIGMA if pencil else EXACT
     r0 = curved.givens.prime_radius
     assert dot.points[0] == pytest.approx(-1j * r0 / mu, abs=slack)
     assert (measure.start, measure.end) == (dot.points[0], zero)
     rho = abs(measure.end - measure.start) * mu
     assert number(measure.text, r"ρ = (-?[\d.]+)") == pytest.approx(rho, abs=0.0051)
-    assert number(step.caption, r"profile, (-?[\d.]+) mm") == pytest.approx(rho, abs=0.00051)
-    assert number(step.caption, r"r₀ = ([\d.]+) mm") == pytest.approx(r0)
+    found = re.search(r"measures ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm", str(step.caption)).groups()
+    assert [float(each) for each in found] == pytest.approx([rho / mu, mu, rho], abs=0.0051)
+    adopted = re.search(r"dividers to ([\d.]+)/([\d.]+) = ([\d.]+) mm", str(step.caption)).groups()
+    assert [float(each) for each in adopted] == pytest.approx([r0, mu, r0 / mu], abs=0.0051)
+    (named,) = of_kind(step, Label)
+    assert (named.text, named.at) == ("A", dot.points[0])
+    assert named.towards.real < 0  # on the other side than A₀
     assert float(np.ravel(curved.readings["rho"].value)[0]) == pytest.approx(rho, abs=1e-7)
     # Beside the dimension of r0, not on it.
-    assert measure.aside < of_kind(region.steps()[2], Dimension)[0].aside - 2
+    assert measure.aside < of_kind(step_of(name, *FOUND, pencil), Dimension)[0].aside - 2
 
 
 # --- the inversion ---------------------------------------------------------------------------------------------------
@@ -228,69 +331,175 @@ def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_ta
 
 @EVERY
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
-def test_the_rays_turn_against_the_rotation_and_carry_the_prime_radius_and_the_displacement(name, pencil):
+def test_the_rays_turn_against_the_rotation_up_to_the_prime_circle_and_go_on_by_the_displacement(name, pencil):
     inverted = chain(name, pencil)["inversion"]
-    step, mu = inverted.steps()[0], inverted.givens.mu_l.per_mm
-    (circle,), rays = of_kind(step, Circle), of_kind(step, Segments)[0]
-    r0, slack = inverted.givens.prime_radius / mu, MANY * SIGMA if pencil else EXACT
+    circle_step, step, faces = (step_of(name, *title, pencil) for title in (CIRCLE, RAYS, FACES))
+    (circle,), rays, further = of_kind(circle_step, Circle), of_kind(step, Segments)[0], of_kind(faces, Segments)[0]
+    mu, slack = inverted.givens.mu_l.per_mm, MANY * SIGMA if pencil else EXACT
+    r0 = inverted.givens.prime_radius / mu
     assert circle.centre == pytest.approx(0, abs=slack)
     assert circle.radius == pytest.approx(r0, abs=slack)
     assert_allclose(rays.starts, 0, atol=slack)
+    assert_allclose(np.abs(rays.ends), r0, atol=2 * slack)
+    assert_allclose(further.starts, rays.ends, atol=EXACT)
     s = chain(name, pencil)["integration"].readings["s"].value / mu
-    assert_allclose(np.abs(rays.ends), r0 + s, atol=2 * slack)
+    assert_allclose(np.abs(further.ends), r0 + s, atol=2 * slack)
     against = 1 if inverted.givens.rotation == "cw" else -1
     turned = np.angle(rays.ends / 1j * np.exp(-1j * against * stations(name).phi))
     assert np.abs(turned).max() < (MANY * (TREMBLING.protractor + SIGMA / r0) if pencil else EXACT)
-    said = str(step.caption)
-    assert f"r₀ = {inverted.givens.prime_radius:g} mm" in said
-    assert ("(clockwise)" in said) == (inverted.givens.rotation == "cw")
+    said = re.search(r"compass to ([\d.]+)/([\d.]+) = ([\d.]+) mm", str(circle_step.caption)).groups()
+    assert [float(each) for each in said] == pytest.approx([inverted.givens.prime_radius, mu, r0], abs=0.051)
+    assert f"r₀ = {inverted.givens.prime_radius:g} mm" in str(circle_step.caption)
+
+
+@EVERY
+def test_every_ray_is_told_with_its_angle_and_the_sense_against_the_rotation_and_bears_its_number(name):
+    inverted, step = chain(name)["inversion"], step_of(name, *RAYS)
+    rays, names = of_kind(step, Segments)[0], station_names(stations(name))
+    other = "anticlockwise|counter-clockwise" if inverted.givens.rotation == "cw" else "(?<!anti)(?<!counter-)clockwise"
+    assert re.search(rf"turn the follower the other way, (?:{other})\.", str(step.caption))
+    assert len(step.parts) == len(names) + 1
+    for k, part in enumerate(step.parts[:-1]):
+        said = str(part.caption)
+        assert said.startswith(f"Ray {names[k]}: ")
+        angle = re.search(rf"to ([\d.]+)° from the upright, (?:{other}),", said)
+        assert (float(angle[1]) if angle else 0.0) == pytest.approx(math.degrees(stations(name).phi[k]), abs=0.0051)
+        assert part.draws[1].place == pytest.approx(complex(rays.ends[k]), abs=EXACT)
+    for label in (label for label in of_kind(step, Label) if str(label.text) in names):
+        assert label.at == pytest.approx(complex(rays.ends[names.index(str(label.text))]), abs=EXACT)
+        assert (label.towards / label.at).real < 0  # inside the circle
+    degrees = [math.degrees(phase.angle) for phase in inverted.givens.integrated.givens.motion.phases]
+    told = re.findall(r"([\d.]+)°", str(step.parts[-1].caption))
+    assert [float(each) for each in told] == pytest.approx(degrees, rel=1e-5)
+
+
+def laid_off_at(part) -> tuple[float, float, float] | None:
+    """Ordinate, factor and length that a part says are laid off, if any."""
+    found = re.search(r"([\d.]+) mm × ([\d.]+) = ([\d.]+) mm", str(part.caption))
+    return found and tuple(float(each) for each in found.groups())
 
 
 @EVERY
 def test_every_face_stands_square_on_the_end_of_its_ray_and_reaches_beyond_its_touch_and_its_ray(name):
-    inverted = chain(name)["inversion"]
-    rays, (faces,) = of_kind(inverted.steps()[0], Segments)[0], of_kind(inverted.steps()[1], Segments)
-    touch = of_kind(inverted.steps()[1], Dots)[0].points
-    along, way = rays.ends / np.abs(rays.ends), faces.ends - faces.starts
+    step = step_of(name, *FACES)
+    lengthened, faces = of_kind(step, Segments)
+    (ends,) = of_kind(step, Dots)
+    touch = of_kind(step_of(name, *CONTACTS), Dots)[0].points
+    assert_allclose(ends.points, lengthened.ends, atol=EXACT)
+    along, way = ends.points / np.abs(ends.points), faces.ends - faces.starts
     assert np.abs((way * along.conjugate()).real).max() < EXACT  # square to the ray
-    assert np.abs(((faces.starts - rays.ends) * along.conjugate()).real).max() < EXACT  # through its end
+    assert np.abs(((faces.starts - ends.points) * along.conjugate()).real).max() < EXACT  # through its end
     to_the_right = along / 1j
     left, touched, right = (
-        ((places - rays.ends) * to_the_right.conjugate()).real for places in (faces.starts, touch, faces.ends)
+        ((places - ends.points) * to_the_right.conjugate()).real for places in (faces.starts, touch, faces.ends)
     )
     assert_allclose(left, np.minimum(touched, 0) - FACE_BEYOND, atol=EXACT)
     assert_allclose(right, np.maximum(touched, 0) + FACE_BEYOND, atol=EXACT)
 
 
 @EVERY
+def test_every_face_is_told_with_the_displacement_that_is_laid_off(name):
+    step, names = step_of(name, *FACES), station_names(stations(name))
+    readings, mu = chain(name)["integration"].readings, chain(name)["inversion"].givens.mu_l.per_mm
+    s, factor = readings["s"].paper, float(readings["s"].scale) / mu
+    assert len(step.parts) == len(names)
+    for k, part in enumerate(step.parts):
+        assert str(part.caption).startswith(f"Station {names[k]}: ")
+        assert f"ray {names[k]}" in str(part.caption)
+        said = laid_off_at(part)
+        assert (said is None) == (abs(s[k]) < 0.005)
+        if said:
+            assert said == pytest.approx((s[k], factor, s[k] * factor), abs=0.0051)
+        assert part.draws[0].place == pytest.approx(complex(of_kind(step, Dots)[0].points[k]))
+
+
+@EVERY
 def test_the_touch_lies_ds_dphi_beside_the_ray_on_the_rise_to_the_right_of_a_cam_that_turns_counter_clockwise(name):
-    inverted = chain(name)["inversion"]
-    rays, touch = (
-        of_kind(inverted.steps()[0], Segments)[0].ends,
-        of_kind(inverted.steps()[1], Dots)[0].points,
-    )
-    v = chain(name)["integration"].readings["v"].value / inverted.givens.mu_l.per_mm
-    to_the_right = v if inverted.givens.rotation == "ccw" else -v
-    assert_allclose(touch - rays, rays / np.abs(rays) / 1j * to_the_right, atol=EXACT)
+    inverted, step = chain(name)["inversion"], step_of(name, *CONTACTS)
+    ends = of_kind(step_of(name, *FACES), Dots)[0].points
+    touch, names = of_kind(step, Dots)[0].points, station_names(stations(name))
+    reading, mu = chain(name)["integration"].readings["v"], inverted.givens.mu_l.per_mm
+    to_the_right = (reading.value if inverted.givens.rotation == "ccw" else -reading.value) / mu
+    assert_allclose(touch - ends, ends / np.abs(ends) / 1j * to_the_right, atol=EXACT)
+    assert len(step.parts) == len(names) + 1
+    for k, part in enumerate(step.parts[:-1]):
+        assert str(part.caption).startswith(f"Station {names[k]}: ")
+        said = laid_off_at(part)
+        assert (said is None) == (abs(reading.paper[k]) < 0.005)
+        if said:
+            length = abs(to_the_right[k])
+            assert said == pytest.approx((abs(reading.paper[k]), float(reading.scale) / mu, length), abs=0.0051)
+            assert ("to the right" if to_the_right[k] > 0 else "to the left") in str(part.caption)
+        assert part.draws[0].place == pytest.approx(complex(touch[k]))
+    side = "right" if inverted.givens.rotation == "ccw" else "left"
+    assert f"on a rise to the {side}, seen from the cam centre" in str(step.caption)
 
 
 @EVERY
 def test_the_half_widths_said_are_how_far_the_touches_wander_to_either_side(name):
     """The farthest plotted touch, and at most a little farther between two of them."""
-    inverted = chain(name)["inversion"]
-    step, mu = inverted.steps()[1], inverted.givens.mu_l.per_mm
-    rays, touch = of_kind(inverted.steps()[0], Segments)[0].ends, of_kind(step, Dots)[0].points
-    beside = ((touch - rays) * (rays / np.abs(rays) / 1j).conjugate()).real * mu
-    for side, said in ((-1, r"most ([\d.]+) mm to the left"), (1, r"and ([\d.]+) mm to the right")):
-        half_width, farthest = number(step.caption, said), (side * beside).max()
-        assert farthest - 0.0051 <= half_width <= 1.02 * farthest + 0.0051
+    step, mu = step_of(name, *CONTACTS), chain(name)["inversion"].givens.mu_l.per_mm
+    ends, touch = of_kind(step_of(name, *FACES), Dots)[0].points, of_kind(step, Dots)[0].points
+    beside = ((touch - ends) * (ends / np.abs(ends) / 1j).conjugate()).real
+    said = str(step.parts[-1].caption)
+    assert said in str(step.caption)
+    left, right, scale, *widths = (float(each) for each in re.findall(r"\d+(?:\.\d+)?", said))
+    assert scale == pytest.approx(mu)
+    for side, paper, half_width in ((-1, left, widths[0]), (1, right, widths[1])):
+        farthest = (side * beside).max()
+        assert farthest - 0.0051 <= paper <= 1.02 * farthest + 0.0051
+        assert half_width == pytest.approx(paper * mu, abs=0.0051 * (1 + mu))
+
+
+@pytest.mark.parametrize("given", [None, 60.0, 15.0])
+def test_the_adopted_radius_is_told_before_anything_is_drawn_with_it(given):
+    drawn = Chain(flat_board(flat_motion("cycloidal"), prime_radius=given))
+    first, circle = drawn["inversion"].steps()[:2]
+    least = float(drawn["minimum_radius"].value("prime_radius"))
+    said, r0 = str(first.caption), drawn["inversion"].givens.prime_radius
+    assert (str(first.title), str(circle.title)) == ("The adopted prime radius", "Prime circle")
+    assert f"{least:.5g} mm" in said
+    assert f"r₀ = {r0:g} mm" in said
+    assert ("Round the least radius" in said) == (given is None)
+    assert ("larger than the least" in said) == (given == 60.0)
+    assert ("smaller than the least" in said) == (given == 15.0)
+    if given is None:
+        assert r0 == math.ceil(least)
+
+
+@EVERY
+def test_the_profile_is_the_envelope_it_crosses_no_face(name):
+    """But for the chords between its points: every place of the curve lies on the centre's side of every face."""
+    (curve,) = of_kind(step_of(name, "inversion", "Profile"), Line)
+    faces = of_kind(step_of(name, *FACES), Dots)[0].points
+    touch = of_kind(step_of(name, *CONTACTS), Dots)[0].points
+    assert np.abs(touch[:, None] - curve.points[None, :]).min(axis=1).max() < EXACT
+    along = faces / np.abs(faces)
+    beyond = (curve.points[None, :] * along.conjugate()[:, None]).real - np.abs(faces)[:, None]
+    assert beyond.max() < 0.02 * np.abs(faces).max()
+
+
+# --- what all steps have ---------------------------------------------------------------------------------------------
+
+
+@EVERY
+def test_the_parts_of_a_step_leave_all_its_own_marks_that_are_of_a_place(name):
+    for (_, title), step in steps(name).items():
+        left = {(part.act, k) for each in step.parts for part in each.draws for k in part.index.tolist()}
+        for mark in step.own if step.parts else ():
+            if mark.of is not None and mark.index is not None:
+                assert {(mark.of, k) for k in mark.index.tolist()} <= left, (title, mark)
+
+
+@EVERY
+def test_every_step_has_a_reason_in_one_sentence(name):
+    for (_, title), step in steps(name).items():
+        assert re.fullmatch(r"Because[^.]+\.", str(step.why)), title
 
 
 @EVERY
 def test_every_mark_but_an_axis_names_its_act(name):
-    drawn = chain(name)
-    for key in ("minimum_radius", "curvature", "inversion"):
-        for step in drawn[key].steps():
-            for mark in step.own:
-                if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE):
-                    assert isinstance(mark.of, Act), (key, str(step.title), mark)
+    for (key, title), step in steps(name).items():
+        for mark in step.own:
+            if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE):
+                assert isinstance(mark.of, Act), (key, title, mark)

@@ -51,6 +51,12 @@ def numbers(caption) -> list[float]:
     return [float(each) for each in re.findall(r"-?\d+(?:\.\d+)?", str(caption))]
 
 
+def products(caption) -> list[list[float]]:
+    """Length on paper, scale and value, of each that a caption says."""
+    found = re.findall(r"([\d.]+) mm × ([\d.]+) = ([\d.]+) N", str(caption))
+    return [[float(each) for each in product] for product in found]
+
+
 def corners(plan) -> tuple[complex, complex]:
     """The head of Q and the third corner, as drawn."""
     load, *_, last = plan.steps()
@@ -74,9 +80,10 @@ def test_the_load_hangs_below_its_tail_as_long_as_its_force_at_the_scale(rotatio
     _, corner = corners(plan)
     assert name.towards.real * corner.real < 0 == name.towards.imag
     said = str(step.caption)
-    assert f"Q = {force:.1f} N" in said
-    assert f"μF = {mu:g} N/mm" in said
-    assert f"{force / mu:.1f} mm long" in said
+    assert f"Q = {force:.1f} N: inertia {force - 150 - 2 * s:.1f} N, preload 150.0 N, spring {2 * s:.1f} N." in said
+    assert f"drawn s = {s:.2f} mm and a = {a:.2f} mm/rad²" in said
+    assert f"μF = {mu:g} N/mm set the dividers to {force:.1f}/{mu:g} = {force / mu:.1f} mm" in said
+    assert said.endswith("straight down.")
     title = station_names(integrated.givens.stations)[k]
     assert str(step.title) == f"Force plan at station {title}: the load"
     assert f"At station {title} " in said
@@ -106,7 +113,8 @@ def test_the_line_of_the_contact_force_leans_by_the_pressure_angle_and_bears_its
     assert numbers(mark.text)[0] == pytest.approx(math.degrees(alpha), abs=0.051)
     assert 0 < mark.radius < abs(up)
     assert mark.radius < abs(line.points[1] - foot)
-    assert f"{math.degrees(alpha):.2f}°" in str(step.caption)
+    side = "right" if (line.points[1] - foot).real > 0 else "left"
+    assert f"α = {abs(math.degrees(alpha)):.2f}° from the upright to the {side}," in str(step.caption)
 
 
 @EVERY
@@ -123,6 +131,8 @@ def test_the_line_of_the_reaction_leans_against_the_motion_by_the_friction_of_th
     if guide is None:
         assert end.imag == pytest.approx(0, abs=EXACT)
         assert laid_off == []
+        assert "level line through the tail" in str(step.caption)
+        assert step.parts == ()
         return
     s = float(angles(rotation).givens.integrated.readings["s"].value[k])
     sense = 1 if k == RISE else -1
@@ -131,7 +141,16 @@ def test_the_line_of_the_reaction_leans_against_the_motion_by_the_friction_of_th
     base, incline = laid_off
     assert_allclose(base.points, [0, end.real], atol=EXACT)
     assert_allclose(incline.points, [end.real, end], atol=EXACT)
-    assert "μ = 0.12, l = 90 mm" in str(step.caption)
+    side, way = ("right" if end.real > 0 else "left"), ("up" if end.imag > 0 else "down")
+    along, up, joined = (str(part.caption) for part in step.parts)
+    assert f"lay off {abs(end.real):g} mm from the tail of Q level to the {side}, for l = 90 mm." in along
+    *lengths, height = re.search(
+        r"= ([\d.]+) · ([\d.]+) · \(([\d.]+) \+ 2 · ([\d.]+)\)/([\d.]+) = ([\d.]+) mm straight " + way, up
+    ).groups()
+    assert [float(each) for each in lengths] == pytest.approx([30, 0.12, 90, 60 - s, 90], abs=0.0051)
+    assert float(height) == pytest.approx(abs(end.imag), abs=0.0051)
+    assert str(step.caption) == f"{along} {up} {joined}"
+    assert [part.draws[0].act.name for part in step.parts] == ["base", "incline", "line of R"]
 
 
 @EVERY
@@ -151,12 +170,17 @@ def test_the_forces_close_a_triangle_and_every_number_is_a_length_times_the_scal
     # Each name stands outside of the triangle: away from the corner that it does not touch.
     assert f.towards.real * corner.real > 0 > f.towards.imag
     assert r.towards == 1j
-    paper, scale, normal, along, side, friction = numbers(str(step.caption).partition("force is F")[2])
-    assert paper == pytest.approx(abs(corner - foot), abs=0.051)
-    assert scale == pytest.approx(mu)
     lengths = abs(corner - foot), (corner - foot).imag, abs(corner.real), abs(corner.imag)
-    for said, length in zip((normal, along, side, friction), lengths, strict=True):
-        assert said == pytest.approx(length * mu, abs=0.051)
+    *_, f_said, r_said, sides = (str(part.caption) for part in step.parts)
+    told = [product for said in (f_said, r_said, sides) for product in products(said)]
+    in_order = [lengths[0], abs(corner), *lengths[1 : 3 + (guide is not None)]]
+    assert len(told) == len(in_order)
+    for (paper, scale, force), length in zip(told, in_order, strict=True):
+        assert paper == pytest.approx(length, abs=0.051)
+        assert scale == pytest.approx(mu)
+        assert force == pytest.approx(length * mu, abs=0.051)
+    assert ("friction" in sides) == (guide is not None)
+    assert str(step.caption) == " ".join(str(part.caption) for part in step.parts)
     assert_allclose(
         [float(plan.readings[name].paper) for name in ("normal", "along", "side", "friction", "reaction", "load")],
         [*lengths, abs(corner), abs(foot)],
@@ -195,6 +219,27 @@ def test_a_guide_without_friction_has_nothing_to_lay_off_along_the_motion():
     line, *laid_off = of_kind(drawn("cw", RISE, gc.Guide(0.0, 60, 90)).steps()[2], Line)
     assert laid_off == []
     assert np.abs(line.points.imag).max() < EXACT
+
+
+@EVERY
+def test_the_parts_of_a_step_leave_all_its_own_marks_and_every_step_has_a_reason(rotation, k, guide):
+    for step in drawn(rotation, k, guide).steps():
+        assert re.fullmatch(r"Because [^.]+\.", str(step.why)), str(step.why)
+        left = {(part.act, at) for each in step.parts for part in each.draws for at in part.index.tolist()}
+        for mark in step.own if step.parts else ():
+            assert {(mark.of, at) for at in mark.index.tolist()} <= left, (str(step.title), mark)
+
+
+def test_terms_of_the_load_that_are_nothing_are_not_told_and_friction_is():
+    """A follower without mass has no inertia; friction adds to the load on a rise and relieves it on a return."""
+    for k, sign in ((RISE, 1), (RETURN, -1)):
+        load = gc.SpringLoad(mass=0.0, speed_rpm=120, stiffness=2, preload=150, friction=4.0)
+        said = str(force_plan(angles("cw"), load, Pencil(), station=k).steps()[0].caption)
+        s = float(angles("cw").givens.integrated.readings["s"].value[k])
+        assert (
+            f"Q = {150 + 2 * s + 4 * sign:.1f} N: preload 150.0 N, spring {2 * s:.1f} N, friction {4.0 * sign:.1f} N."
+            in said
+        )
 
 
 @EVERY

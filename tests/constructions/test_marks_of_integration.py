@@ -109,7 +109,7 @@ def check_axes(step: Step, name: str, symbol: str, heights) -> None:
     limits = of(step, Segments, Role.CONSTRUCTION)[0]
     np.testing.assert_allclose(limits.starts, starts(name)[1:] + 1j * low)
     np.testing.assert_allclose(limits.ends, starts(name)[1:] + 1j * high)
-    phi, vertical = of(step, Label)
+    phi, vertical = (label for label in of(step, Label) if not label.small)
     assert (phi.at, str(phi.text), phi.towards) == (across.end, "φ", 1 - 1j)
     assert (vertical.at, str(vertical.text), vertical.towards) == (up.end, symbol, -1)
 
@@ -122,9 +122,11 @@ def test_a_revolution_is_laid_off_with_its_phases(name, hand):
     assert turn[1] == pytest.approx(360, abs=slack(hand, 1))
     assert turn[1].imag == 0
     check_axes(first, name, "a", np.concatenate([line.points.imag for line in of(curves, Line)]))
-    length, degree, mu = says(first, r"as ([\d.]+) mm, so 1 mm is ([\d.]+)° and μᵩ = ([\d.]+) rad")
+    length, degree, mu = says(
+        first, r"line ([\d.]+) mm long for one revolution, so 1 mm is ([\d.]+)° and μᵩ = ([\d.]+) rad"
+    )
     assert (length, degree, mu) == (360, 1, pytest.approx(math.pi / 180, abs=6e-6))
-    ends = re.search(r"end at (.*) mm", str(first.caption)).group(1)
+    ends = re.search(r"set off (.*) mm, where", str(first.caption)).group(1)
     assert [float(end) for end in ends.split(", ")] == pytest.approx(starts(name)[1:], abs=0.051)
 
 
@@ -140,8 +142,10 @@ def law_heights(name: str, hand: str) -> list[float]:
 def test_the_greatest_ordinates_are_as_long_as_their_dimensions_say(name, hand):
     _, second, curves, _ = steps(name, hand, "acceleration")
     dimensions, lines = of(second, Dimension), of(curves, Line)
-    said = re.search(r"C₁·h₁/φ₁²\): (.*) mm\.", str(second.caption)).group(1).split(", ")
-    chosen = says(second, r"chosen, ([\d.]+) mm")
+    told, said = re.search(r"of its law, here (.*): (.*) mm\.", str(second.caption)).groups()
+    said, chosen = said.split(", "), says(second, r"Choose ([\d.]+) mm")
+    peaks = [BOARDS[name].motion.phases[k].normalised.peak_acceleration for k in moving(name)]
+    assert [float(c) for c in re.findall(r"([\d.]+) \(", told)] == pytest.approx(peaks, rel=6e-5)
     heights = law_heights(name, hand)
     first = next(n for n, k in enumerate(moving(name)) if BOARDS[name].motion.phases[k].direction > 0)
     assert chosen == [pytest.approx(abs(dimensions[first].end - dimensions[first].start), abs=0.051)]
@@ -200,7 +204,7 @@ def test_the_middle_ordinates_stand_halfway_between_stations_and_reach_the_law(n
         on_the_law = np.interp(feet.real[span], line.points.real, line.points.imag)
         np.testing.assert_allclose(tops.imag[span], on_the_law, atol=0.05 + (hand != "perfect") * 8)
     third = tops.imag[min(2, tops.size - 1)]
-    assert says(step, r"third of them measures (-?[\d.]+) mm") == [pytest.approx(third, abs=0.051)]
+    assert says(step, r"that of part \S+ measures (-?[\d.]+) mm") == [pytest.approx(third, abs=0.051)]
     parts = [str(span.stop - span.start) for span in BOARDS[name].stations.parts]
     assert re.findall(r"\d+", str(step.caption).split(" parts")[0]) == parts
 
@@ -215,16 +219,16 @@ def test_the_stations_are_named_at_their_places_where_no_ordinates_stand(name, h
     x, step = stations(name, hand), steps(name, hand, "acceleration")[3]
     read = drawn(name, hand, "acceleration").readings
     mean = read["before"].paper + read["stations"].paper
-    last = steps(name, hand, "integration")[6]
+    named = [label for label in steps(name, hand, "integration")[4].given if isinstance(label, Label) and label.small]
     for label in of(step, Label):
         k = names_of(name).index(label.text)
         assert label.at == x[k]
         assert label.towards == (1j if mean[k] < 0 else -1j)
-    for label in of(last, Label):
+    for label in named:
         assert label.at == x[names_of(name).index(label.text)]
         assert label.towards == -1j
     ends = {names_of(name)[k] for span in BOARDS[name].stations.phases for k in (span.start, span.stop - 1)}
-    assert ends <= {label.text for label in of(step, Label)} == {label.text for label in of(last, Label)}
+    assert ends <= {label.text for label in of(step, Label)} == {label.text for label in named}
 
 
 # --- the two integrations --------------------------------------------------------------------------------------------
@@ -246,6 +250,7 @@ class Pass:
         else:
             self.middles = ordinates(steps(name, hand, "acceleration")[3])[1]
         self.levels, self.joined = of(self.rays, Segments, Role.CONSTRUCTION)
+        self.dot = complex(of(self.rays, Dots, Role.CURVE)[0].points[0])
         self.polygons = [line.points for line in of(self.chords, Line, Role.CONSTRUCTION)]
         self.points = curve_points(self.chords)
 
@@ -264,16 +269,16 @@ def integration(name: str, hand: str, index: int) -> Pass:
 @EVERY
 def test_the_pole_stands_at_its_distance_on_the_axis(name, hand, index):
     run, sub = integration(name, hand, index), "₁₂"[index]
-    axis, dot = one(run.rays, Line, Role.SCALE).points, complex(one(run.rays, Dots).points[0])
+    axis, dot = one(run.rays, Line, Role.SCALE).points, run.dot
     assert dot == pytest.approx(-run.pole, abs=slack(hand, 1))
     np.testing.assert_array_equal(axis, [dot, 0])
-    label, size = one(run.rays, Label), one(run.rays, Dimension)
+    label, size = of(run.rays, Label)[0], one(run.rays, Dimension)
     assert (label.at, str(label.text), label.towards) == (dot, f"P{sub}", -1 + 1j)
     assert (size.start, size.end) == (dot, 0)
     assert str(size.text) == f"H{sub} = {run.pole:g}"
     assert size.aside == pytest.approx(-5 + min(0, run.levels.starts.imag.min()))
     assert says(run.rays, r"= ([\d.]+) mm to the left") == [run.pole]
-    assert f"The pole P{sub} lies H{sub}" in str(run.rays.caption)
+    assert f"Mark the pole P{sub} on the axis, H{sub} = " in str(run.rays.caption)
 
 
 @PASSES
@@ -283,7 +288,7 @@ def test_projections_are_level_and_every_ray_joins_the_pole_to_one(name, hand, i
     np.testing.assert_array_equal(run.levels.starts.real, 0)
     np.testing.assert_array_equal(run.levels.starts.imag, run.levels.ends.imag)
     np.testing.assert_array_equal(run.joined.ends, run.levels.starts)
-    np.testing.assert_array_equal(run.joined.starts, one(run.rays, Dots).points[0])
+    np.testing.assert_array_equal(run.joined.starts, run.dot)
     # From every middle ordinate comes one, and each reaches the farthest that is as high.
     height = run.levels.starts.imag
     off = np.abs(run.middles.imag[:, None] - height)
@@ -341,7 +346,10 @@ def test_the_curve_comes_back_to_rest_by_turning_its_base_line_or_sharing_out(na
         assert all(a[-1].imag == pytest.approx(b[0].imag, abs=EXACT) for a, b in pairwise(run.polygons))
     left = max(lefts) if index == 0 else abs((run.polygons[-1][-1] - run.polygons[0][0]).imag)
     read = drawn(name, hand, "integration").readings[("closing_v", "closing_s")[index]].paper
-    assert says(run.chords, r"([\d.]+) mm(?: at most)?, is") == [pytest.approx(np.abs(read).max(), abs=0.0051)]
+    if np.abs(read).max() > 0.005:
+        assert says(run.chords, r"([\d.]+) mm(?: at most)?, is") == [pytest.approx(np.abs(read).max(), abs=0.0051)]
+    else:
+        assert "left" not in str(run.chords.caption)
     assert np.abs(read).max() == pytest.approx(left, abs=slack(hand, 1.5))
 
 
@@ -357,7 +365,10 @@ def test_the_curve_is_faired_from_jump_to_jump_and_level_in_the_dwells(name, han
         np.testing.assert_allclose(through, run.points[piece], atol=EXACT)
     places = [1j * run.points[-1].imag, *(run.points[k] for s in board.stations.phases for k in (s.start, s.stop - 1))]
     places.append(360 + 1j * run.points[-1].imag)
-    np.testing.assert_allclose([p for rest in rests for p in rest.points], places, atol=EXACT)
+    # Where one phase follows on another there is no dwell between them.
+    bounds = [0, *(x for k in moving(name) for x in starts(name)[k : k + 2]), 360]
+    pairs = [places[k : k + 2] for k in range(0, len(places), 2) if bounds[k + 1] - bounds[k] > EXACT]
+    np.testing.assert_allclose([rest.points for rest in rests], pairs, atol=EXACT)
 
 
 @EVERY

@@ -13,9 +13,11 @@ import pytest
 from boards import board_of, coursework, motion_of
 
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.acts import Kind
 from graphcam.drafting.ink import Construction, Step
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dots, Label, Line, Role, Segments
 from graphcam.drafting.pencil import Pencil
+from graphcam.given.roller_rule import roller_rule
 
 BOARDS = {
     "cw, to the left": coursework("3-4-5"),
@@ -72,18 +74,38 @@ def test_the_circles_have_the_adopted_radii_and_their_arrows_end_on_them(name, h
     sizes = [chain.prime_radius, *([abs(chain.place)] if chain.place else [])]
     circles, arrows = only(step, Circle), only(step, Arrow)
     assert [circle.radius * mu for circle in circles] == pytest.approx(sizes, abs=close(hand, mu))
-    assert [str(label.text) for label in only(step, Label)[1:]] == [
+    _, centre, *radii = only(step, Label)
+    assert (str(centre.text), centre.at) == ("A", 0)
+    assert [str(label.text) for label in radii] == [
         f"{symbol} = {size:g}" for symbol, size in zip(("r₀", "e"), sizes, strict=False)
     ]
-    for circle, arrow, label in zip(circles, arrows, only(step, Label)[1:], strict=True):
+    for circle, arrow, label in zip(circles, arrows, radii, strict=True):
         assert abs(circle.centre) < close(hand)
         assert abs(arrow.start - circle.centre) < 1e-9
         assert abs(arrow.end - arrow.start) == pytest.approx(circle.radius, abs=1e-9)
         assert label.at == pytest.approx(arrow.start + 0.6 * (arrow.end - arrow.start))
         assert label.towards / (arrow.end * 1j) == pytest.approx(1)
-    read = numbers(step)
-    for size in sizes:
-        assert any(number == pytest.approx(size / mu, abs=0.051) for number in read)
+    ratio = f"{1 / mu:g}:1" if mu < 1 else f"1:{mu:g}"
+    assert f"to {sizes[0] / mu:.1f} mm and draw the prime circle, r₀ = {sizes[0]:g} mm at {ratio}" in str(step.caption)
+    assert (
+        f"set it to {sizes[-1] / mu:.1f} mm and draw the offset circle, e = {chain.place:g} mm" in str(step.caption)
+    ) == (len(sizes) == 2)
+    for size, part in zip(sizes, step.parts, strict=False):
+        assert f"Set the compass to {size / mu:.1f} mm" in str(part.caption)
+        assert f" = {size:g} mm at {ratio})" in str(part.caption)
+
+
+@every
+def test_line_0_stands_upright_on_the_side_of_the_offset_and_ends_on_the_prime_circle(name, hand):
+    chain, step = chain_of(name, hand), steps(name, hand, "inversion")[0]
+    line, mu = only(step, Line, Role.CURVE)[0], chain.profile_scale.per_mm
+    e, r0 = chain.place / mu, chain.prime_radius / mu
+    assert line.points == pytest.approx([complex(e), complex(e, math.sqrt(r0**2 - e**2))], abs=close(hand, 3))
+    said = str(step.parts[-1].caption)
+    assert said.endswith(": line 0.")
+    side = "from A " if e == 0 else "from the left end" if e < 0 else "from the right end"
+    assert side in said
+    assert e == 0 or f"on the {side.split()[2]}: line 0." in str(step.caption)
 
 
 @every
@@ -109,6 +131,51 @@ def test_the_followers_line_touches_the_circle_e_and_goes_round_against_the_rota
         turn = cmath.rect(1, -sigma(chain) * phi)
         assert abs(foot - e * turn) < close(hand, 3)
         assert abs((end - foot) / abs(end - foot) - 1j * turn) < close(hand, 0.05)
+        assert abs(end) * chain.profile_scale.per_mm == pytest.approx(chain.prime_radius, abs=close(hand, 3))
+
+
+def names_of(chain: Chain) -> list[str]:
+    """0, 1 ... in the first moving phase, with a prime for each one before in the others."""
+    return [f"{k}" + "′" * p for p, s in enumerate(chain.board.stations.phases) for k in range(s.stop - s.start)]
+
+
+@every
+def test_every_position_says_its_angle_the_sense_against_the_rotation_and_where_it_is_counted_from(name, hand):
+    chain, step = chain_of(name, hand), steps(name, hand, "inversion")[1]
+    against = "clockwise" if sigma(chain) > 0 else "anticlockwise"
+    origin = "line 0" if not chain.place else f"the {'left' if chain.place < 0 else 'right'} end of the offset circle"
+    angles = [f"{round(math.degrees(phi), 2):g}°" for phi in chain.board.stations.phi]
+    *positions, phases = step.parts
+    for k, (part, at, angle) in enumerate(zip(positions, names_of(chain), angles, strict=True)):
+        said = str(part.caption)
+        assert said.startswith(f"Station {at}: set off {angle} at A, {against} from {origin}")
+        assert f"tangent {at}," in said or f"ray {at}." in said
+        rays, *_, motion = part.draws
+        assert (rays.act.name, motion.act.name) == ("inverted positions", "motion")
+        assert all(drawn.index.tolist() == [k] for drawn in part.draws)
+    assert f"other way, {against}" in str(step.caption)
+    assert f"so station 4 at {angles[4]};" in str(step.caption)
+    spans = chain.board.stations.phases
+    for span, number in zip(spans, "₁₃", strict=True):
+        part = round(math.degrees(chain.board.stations.phi[span.start + 1] - chain.board.stations.phi[span.start]), 2)
+        assert f"{part:g}° in φ{number}" in str(step.caption)
+    listed = ", ".join(f"{math.degrees(phase.angle):.6g}°" for phase in chain.board.motion.phases)
+    assert listed in str(phases.caption)
+    assert against in str(phases.caption)
+    assert listed in str(step.caption)
+
+
+@every
+def test_the_lines_are_numbered_where_they_start_or_on_the_prime_circle(name, hand):
+    chain, step = chain_of(name, hand), steps(name, hand, "inversion")[1]
+    (lines,), labels = only(step, Segments, Role.CONSTRUCTION), only(step, Label)
+    on_offset_circle = abs(chain.place) / chain.profile_scale.per_mm >= 12
+    places = lines.starts if on_offset_circle else lines.ends
+    assert {"0", "12" if name != "undercut" else "24"} <= {str(label.text) for label in labels}
+    for label in labels:
+        at = places[names_of(chain).index(str(label.text))]
+        assert abs(label.at - at) < close(hand)
+        assert label.towards == pytest.approx(-label.at / abs(label.at))
 
 
 @every
@@ -116,15 +183,28 @@ def test_the_displacement_lies_between_the_prime_circle_and_the_end(name, hand):
     chain = chain_of(name, hand)
     _, positions, ends, _ = steps(name, hand, "inversion")
     (lines,), (dots,) = only(positions, Segments, Role.CONSTRUCTION), only(ends, Dots)
-    r0, mu, longest = chain.prime_radius, chain.profile_scale.per_mm, 0.0
-    for foot, end, plotted, s in zip(
-        lines.starts, lines.ends, dots.points, chain["integration"].value("s"), strict=True
-    ):
-        assert end == plotted
+    (laid_off,), integrated = only(ends, Segments), chain["integration"]
+    r0, mu, longest, drawn = chain.prime_radius, chain.profile_scale.per_mm, 0.0, dict[int, complex]()
+    for k, start, end in zip(laid_off.index, laid_off.starts, laid_off.ends, strict=True):
+        assert (start, end) == (lines.ends[k], dots.points[k])
+        drawn[int(k)] = end
+    mu_s = float(integrated.readings["s"].scale)
+    for k, (foot, end, part) in enumerate(zip(lines.starts, dots.points, ends.parts, strict=True)):
+        s, paper, at = float(integrated.value("s")[k]), float(integrated.readings["s"].paper[k]), names_of(chain)[k]
         start = math.sqrt((r0 / mu) ** 2 - abs(foot) ** 2)
         assert abs(end - foot) == pytest.approx(start + s / mu, abs=close(hand, 3))
         longest = max(longest, s / mu)
-    assert any(number == pytest.approx(longest, abs=0.06 + close(hand)) for number in numbers(ends))
+        assert (k in drawn) == (abs(s / mu) >= 0.005)
+        assert [each.index.tolist() for each in part.draws] == [[k]]
+        said = f"lay off {abs(paper):.2f} mm × {mu_s / mu:.4g} = {abs(s) / mu:.2f} mm from the prime circle "
+        said += "outward." if s > 0 else "inward."
+        expected = said if k in drawn else "s is zero, so the point lies on the prime circle."
+        assert str(part.caption) == f"Station {at}: {expected}"
+    assert f"{mu_s:.4g} mm × {1 / mu:g} = {mu_s / mu:.4g} mm here" in str(ends.caption)
+    s, paper = integrated.value("s")[4], integrated.readings["s"].paper[4]
+    assert f"station 4: {paper:.2f} mm × {mu_s / mu:.4g} = {s / mu:.1f} mm" in str(ends.caption)
+    read = float(re.search(r"longest is ([\d.]+) mm", str(ends.caption))[1])
+    assert read == pytest.approx(longest, abs=0.06 + close(hand))
 
 
 @every
@@ -192,6 +272,26 @@ def test_the_pitch_curve_is_closed_goes_through_its_points_and_rests_on_arcs(nam
     (line,) = only(curve, Line)
     assert line.closed
     of_curve(name, hand, only(ends, Dots)[0].points, line.points)
+    by_pieces(chain_of(name, hand), curve, line)
+
+
+def by_pieces(chain: Chain, step: Step, line: Line) -> None:
+    """The pieces make the whole curve, in order; of an arc the compass is set to how far it runs from the centre."""
+    parts = [part for part in step.parts if not str(part.caption).startswith("Leave out")]
+    drawn, arcs = [part.draws[0].shown for part in parts], 0
+    np.testing.assert_array_equal(np.concatenate(drawn), line.points)
+    for part, points in zip(parts, drawn, strict=True):
+        said = str(part.caption)
+        if arc := re.fullmatch(
+            r"In the dwell (φ.): set the compass to ([\d.]+) mm and swing an arc of .*° about A\.", said
+        ):
+            arcs += 1
+            assert np.abs(points) == pytest.approx(np.full(points.size, float(arc[2])), abs=0.051)
+            assert f"{arc[1]}: {arc[2]} mm" in str(step.caption)
+        else:
+            start, end = re.match(r"From (\d+′*) to (\d+′*), ", said).groups()
+            assert names_of(chain).index(start) < names_of(chain).index(end)
+    assert arcs == sum(phase.kind == "dwell" for phase in chain.board.motion.phases)
 
 
 # --- three points ----------------------------------------------------------------------------------------------------
@@ -206,31 +306,74 @@ def centre_of(a: complex, b: complex, c: complex) -> complex:
 @every
 def test_three_points_of_the_pitch_curve_are_shown_enlarged_about_b(name, hand):
     chain, step = chain_of(name, hand), steps(name, hand, "curvature")[0]
-    (line,), (dots,) = only(step, Line), only(step, Dots)
-    curved = chain["curvature"]
-    assert abs(line.points[1]) == 0
-    np.testing.assert_array_equal(dots.points, line.points)
-    on_paper, of_machine = (float(part) for part in re.search(r"at ([\d.]+):([\d.]+):", str(step.caption)).groups())
+    (chords,), (dots,) = only(step, Segments), only(step, Dots)
+    curved, points = chain["curvature"], dots.points
+    assert abs(points[1]) == 0
+    np.testing.assert_array_equal(chords.starts, points[:2])
+    np.testing.assert_array_equal(chords.ends, points[1:])
+    on_paper, of_machine = (float(part) for part in re.search(r"([\d.]+):([\d.]+), and", str(step.caption)).groups())
     times = on_paper / of_machine * chain.profile_scale.per_mm
     pitch, b = only(steps(name, hand, "inversion")[2], Dots)[0].points, curved.points["triple"][1]
     assert curved.value("rho_candidates")[0] == curved.value("rho")  # not in a rest
-    for place in line.points / times:
+    enlarged = f"enlarged to {times:g} times its size, at " if times > 1 else f"reduced to 1/{1 / times:g}, at "
+    assert ("at the same scale, " if times == 1 else enlarged) in str(step.caption)
+    for place in points / times:
         assert np.abs(pitch - b - place).min() < 1e-8
-    chords = [abs(q - p) for p, q in pairwise(line.points)]
-    assert all(f"{chord:.2f} mm" in str(step.caption) for chord in chords)
+    first, second = (abs(q - p) for p, q in pairwise(points))
+    for said in (step.caption, step.parts[1].caption):
+        assert f"{first:.2f} mm and {second:.2f} mm" in str(said)
     assert f"φ = {math.degrees(curved.first('phi')[1] % math.tau):.1f}°" in str(step.caption)
-    hub = only(steps(name, hand, "curvature")[2], Dots)[0].points[0]
-    for label, at in zip(only(step, Label), line.points, strict=True):
+    hub = only(steps(name, hand, "curvature")[1], Dots)[0].points[0]
+    for label, at in zip(only(step, Label), points, strict=True):
         assert label.at == at
         assert dot(label.towards, hub) < 0
+    before, middle, after = (str(label.text) for label in only(step, Label))
+    assert middle == "B"
+    assert f"Copy {before}, B and {after} with dividers" in str(step.caption)
+    k = names_of(chain).index(before)
+    assert f"here station {names_of(chain)[k + 1]}, at" in str(step.caption)
+    assert pitch[[k, k + 1, k + 2]] == pytest.approx(points / times + b)
+
+
+@every
+def test_what_short_chords_may_miss_is_reckoned_and_what_chords_twice_as_wide_read(name, hand):
+    chain, step = chain_of(name, hand), steps(name, hand, "curvature")[0]
+    pitch, caption = only(steps(name, hand, "inversion")[2], Dots)[0].points, str(step.caption)
+    mu, rho = chain.profile_scale.per_mm, float(chain["curvature"].value("rho"))
+    k = names_of(chain).index(str(only(step, Label)[0].text)) + 1
+    chord = (abs(pitch[k] - pitch[k - 1]) + abs(pitch[k + 1] - pitch[k])) / 2
+    missed = 4 * 0.15 * rho / mu / chord**2
+    by = f"{100 * missed:.0f} %" if missed < 1 else "more than itself"
+    assert f"by {by}: 4 × 0.15 mm × ρ/h², with h = {chord:.1f} mm and ρ = {rho / mu:.1f} mm" in caption
+    wide = re.search(
+        r"over ([\d′, ]+), miss.* ρ = ([\d.]+) mm instead of ([\d.]+) mm\. (By hand|So the short)", caption
+    )
+    at = [names_of(chain).index(each) for each in wide[1].split(", ")]
+    assert at[1] - at[0] == at[2] - at[1] == 2
+    assert k in range(at[0], at[2] + 1)
+    assert any(piece.start <= at[0] and at[2] < piece.stop for piece in chain.board.stations.pieces)
+    a, b, c = pitch[at]
+    other = abs(centre_of(a, b, c) - b) * mu
+    assert (f"{other:.1f}", f"{rho:.1f}") == wide.groups()[1:3]
+    # Three quarters of what the short chords may miss by are won, what the bend changes by is lost.
+    assert (wide[4] == "By hand") == (abs(other - rho) < 0.75 * missed * rho)
+
+
+def test_chords_that_a_hand_cannot_tell_from_a_line_are_said_to_be_so():
+    drawn = Chain(coursework("3-4-5", divisions=96))["curvature"]
+    caption = str(drawn.steps()[0].caption)
+    assert "ρ may be wrong by more than itself" in caption
+    assert caption.endswith("By hand these are the better ones.")
 
 
 @every
 def test_the_bisectors_are_square_to_the_chords_go_through_their_middles_and_meet_in_o(name, hand):
-    chords, bisectors, radius, _ = steps(name, hand, "curvature")
-    (polygon,), lines = only(chords, Line), only(bisectors, Line)
-    hub = only(radius, Dots)[0].points[0]
-    for (a, b), line in zip(pairwise(polygon.points), lines, strict=True):
+    chords, bisectors, *_ = steps(name, hand, "curvature")
+    (dots,), lines = only(chords, Dots), only(bisectors, Line)
+    (hub,), (label,) = only(bisectors, Dots)[0].points, only(bisectors, Label)
+    assert (str(label.text), label.at) == ("O", hub)
+    assert dot(label.towards, hub) > 0
+    for (a, b), line in zip(pairwise(dots.points), lines, strict=True):
         way, middle = line.points[1] - line.points[0], (a + b) / 2
         assert abs(dot(way / abs(way), (b - a) / abs(b - a))) < close(hand, 0.1)
         for place in (middle, hub):  # both lie on it, and it runs on a little beyond them
@@ -244,9 +387,13 @@ def test_the_bisectors_are_square_to_the_chords_go_through_their_middles_and_mee
 @every
 def test_the_compass_was_set_to_one_radius_at_both_ends_of_a_chord(name, hand):
     chords, bisectors, *_ = steps(name, hand, "curvature")
-    (polygon,), arcs = only(chords, Line), only(bisectors, Arc)
+    (dots,), arcs = only(chords, Dots), only(bisectors, Arc)
     assert len(arcs) == 8
-    for k, (a, b) in enumerate(pairwise(polygon.points)):
+    settings = [0.8 * abs(b - a) for a, b in pairwise(dots.points)]
+    assert f"to {settings[0]:.1f} mm (0.8 of the first chord)" in str(bisectors.caption)
+    assert f"with {settings[1]:.1f} mm on the second" in str(bisectors.caption)
+    for k, (a, b) in enumerate(pairwise(dots.points)):
+        assert str(bisectors.parts[k].caption).startswith(f"Chord {k + 1}: compass {settings[k]:.1f} mm ")
         four = arcs[4 * k : 4 * k + 4]
         assert [arc.centre for arc in four] == [a, b, a, b]
         for arc in four:
@@ -261,9 +408,9 @@ def test_the_compass_was_set_to_one_radius_at_both_ends_of_a_chord(name, hand):
 @every
 def test_o_is_the_centre_of_the_circle_through_the_three_points_and_ob_is_the_radius_read(name, hand):
     chain = chain_of(name, hand)
-    chords, _, step, on_profile = steps(name, hand, "curvature")
-    points, (line,), (arc,) = only(chords, Line)[0].points, only(step, Line), only(step, Arc)
-    rho, hub = float(chain["curvature"].value("rho")), only(step, Dots)[0].points[0]
+    chords, bisectors, step, on_profile = steps(name, hand, "curvature")
+    points, (line,), (arc,) = only(chords, Dots)[0].points, only(step, Line), only(step, Arc)
+    rho, hub = float(chain["curvature"].value("rho")), only(bisectors, Dots)[0].points[0]
     assert abs(hub - centre_of(*points)) < close(hand, 60)
     assert abs(line.points[0] - hub) + abs(line.points[1] - points[1]) == 0
     assert arc.centre == hub
@@ -273,18 +420,20 @@ def test_o_is_the_centre_of_the_circle_through_the_three_points_and_ob_is_the_ra
         assert abs(turn) < (arc.end - arc.start) / 2 < 3.5 * abs(turn)
     assert f"OB measures {abs(hub - points[1]):.2f} mm" in str(step.caption)
     assert f"ρ = {rho:.3f} mm" in str(step.caption)
-    o, read = only(step, Label)
-    assert (str(o.text), o.at) == ("O", hub)
-    assert dot(o.towards, hub) > 0
+    assert f"measure it: {abs(hub - points[1]):.2f} mm." in str(step.parts[0].caption)
+    (read,) = only(step, Label)
     assert str(read.text) == f"ρ = {rho:.2f}"
     assert read.at == hub / 2
     assert read.towards / (hub * 1j) == pytest.approx(1)
     # The same circle on the profile, at its scale.
     (small,) = only(on_profile, Line)
     assert abs(small.points[1] - small.points[0]) * chain.profile_scale.per_mm == pytest.approx(rho)
-    (centre,), (name_of_it,) = only(on_profile, Dots), only(on_profile, Label)
+    (centre,), (name_of_it, name_of_b) = only(on_profile, Dots), only(on_profile, Label)
     assert centre.points[0] == small.points[0] == name_of_it.at
-    assert str(name_of_it.text) == "O"
+    assert (str(name_of_it.text), str(name_of_b.text)) == ("O", "B")
+    assert name_of_b.at == small.points[1]
+    assert dot(name_of_b.towards, hub) < 0
+    assert f"{abs(small.points[1] - small.points[0]):.1f} mm from B" in str(on_profile.caption)
     assert cmath.phase((small.points[1] - small.points[0]) / -hub) == pytest.approx(0, abs=1e-9)
     assert dot(name_of_it.towards, hub) > 0
 
@@ -298,22 +447,103 @@ def test_the_rules_candidates_are_reckoned_from_rho_and_the_prime_radius():
     rho, r0 = float(chain["curvature"].value("rho")), chain.prime_radius
     expected = [term.factor * (rho if term.of == "rho" else r0) - term.margin for term in chain.board.roller_rule]
     assert chain["roller"].value("candidates") == pytest.approx(expected)
-    assert step.marks == ()
-    for radius in expected:
-        assert f"{radius:.2f} mm" in str(step.caption)
-    assert f"the smallest is taken, {min(expected):.2f} mm" in str(step.caption)
+    terms = ["0.7 ρ", "0.4 r₀"]
+    said = ", ".join(f"{term} = {radius:.2f} mm" for term, radius in zip(terms, expected, strict=True))
+    assert f"With ρ = {rho:.2f} mm and r₀ = {r0:g} mm the rule proposes {said}" in str(step.caption)
+    assert f"take the smallest, {min(expected):.2f} mm" in str(step.caption)
+    laid_off_from_b(chain, step, dict(zip(terms, expected, strict=True)))
+
+
+def laid_off_from_b(chain: Chain, step: Step, radii: dict[str, float]) -> None:
+    """Radii of the machine stand on the way from B to the centre of curvature, in the scale of the detail."""
+    hub = only(chain["curvature"].steps()[1], Dots)[0].points[0]
+    per_mm = float(chain["curvature"].value("rho")) / abs(hub)
+    for dots, label, part, (name, radius) in zip(
+        only(step, Dots), only(step, Label), step.parts, radii.items(), strict=True
+    ):
+        assert dots.points[0] == label.at == pytest.approx(radius / per_mm * hub / abs(hub))
+        assert str(label.text) == name
+        assert label.towards / hub == pytest.approx(-1j)
+        expected = f"Lay off {name} = {radius:.2f} mm from B towards O: {radius / per_mm:.1f} mm."
+        assert str(part.caption) == expected
+
+
+def test_the_proposed_roller_is_rounded_down_in_a_step_of_its_own():
+    chain = Chain(coursework())
+    step, *_ = chain["working_profile"].steps()
+    proposed = float(chain["roller"].value("roller_radius"))
+    assert str(step.title) == "Roller radius rounded"
+    assert str(step.caption).startswith(f"Round {proposed:.2f} mm down to {math.floor(proposed)} mm")
+    laid_off_from_b(chain, step, {"r": chain.roller_radius})
+
+
+@pytest.mark.parametrize(
+    ("rule", "said"),
+    [("0.5 r0", "The proposed radius of 20 mm is kept as it is."), ("0.52 r0", "Round 20.80 mm down to 20 mm")],
+)
+def test_a_round_proposal_is_kept(rule, said):
+    drawn = Chain(coursework("3-4-5", prime_radius=40.0, roller_rule=roller_rule(rule)))["working_profile"]
+    assert said in str(drawn.steps()[0].caption)
+
+
+def test_where_a_hand_proposes_less_than_was_decided_it_is_said():
+    board = coursework("3-4-5", roller_rule=roller_rule("0.7 rho"))
+    chains = [Chain(board, Pencil(line=0.5, seed=seed)) for seed in range(12)]
+    less = [chain for chain in chains if chain["roller"].value("roller_radius") < chain.roller_radius]
+    assert less
+    for chain in less:
+        caption = str(chain["working_profile"].steps()[0].caption)
+        assert caption.startswith(f"This drawing proposes {float(chain['roller'].value('roller_radius')):.2f} mm; ")
+        assert caption.endswith(f"decided: {chain.roller_radius:g} mm.")
+
+
+@pytest.mark.parametrize("radius", [0.0, 12.0, 40.0])
+def test_a_given_roller_is_taken_without_the_rule_and_without_rounding(radius):
+    chain = Chain(coursework("3-4-5", roller_radius=radius, prime_radius=46.0))
+    caption, rho = str(chain["roller"].steps()[0].caption), float(chain["curvature"].value("rho"))
+    assert "the rule is not applied" in caption
+    assert (f"a roller of {radius:g} mm" in caption) == bool(radius)
+    assert (f"It leaves ρ − r = {rho - radius:.2f} mm at B." in caption) == (0 < radius < rho)
+    assert (f"It is not smaller than ρ = {rho:.2f} mm" in caption) == (radius >= rho)
+    assert all("rounded" not in str(step.title) for step in chain["working_profile"].steps())
+
+
+def profile_step(name: str, hand: Pencil | None, title: str) -> Step:
+    (found,) = (step for step in steps(name, hand, "working_profile") if str(step.title) == title)
+    return found
 
 
 @every
 def test_roller_circles_stand_about_the_pitch_points(name, hand):
-    chain, step = chain_of(name, hand), steps(name, hand, "working_profile")[0]
+    chain, step = chain_of(name, hand), profile_step(name, hand, "Roller circles")
     pitch = only(steps(name, hand, "inversion")[2], Dots)[0].points
     circles, radius = only(step, Circle), chain.roller_radius / chain.profile_scale.per_mm
     assert len(circles) == pitch.size
-    for circle, at in zip(circles, pitch, strict=True):
+    for circle, at, part, its_name in zip(circles, pitch, step.parts, names_of(chain), strict=True):
         assert abs(circle.centre - at) < close(hand)
         assert circle.radius == pytest.approx(radius, abs=close(hand))
-    assert f"r = {chain.roller_radius:g} mm, {radius:.1f} mm on paper" in str(step.caption)
+        assert (
+            str(part.caption)
+            == f"Circle {its_name}: compass {radius:.1f} mm about point {its_name} of the pitch curve."
+        )
+    assert f"Set the compass to {radius:.1f} mm (r = {chain.roller_radius:g} mm at " in str(step.caption)
+    assert f"from 0 to {names_of(chain)[-1]}." in str(step.caption)
+
+
+@every
+def test_touch_points_lie_a_roller_radius_inward_square_to_the_pitch_curve(name, hand):
+    chain, step = chain_of(name, hand), profile_step(name, hand, "Touch points")
+    pitch = only(steps(name, hand, "inversion")[2], Dots)[0].points
+    radius, (dots,) = chain.roller_radius / chain.profile_scale.per_mm, only(step, Dots)
+    assert f"{radius:.1f} mm inward" in str(step.caption)
+    for k, (touch, at, part) in enumerate(zip(dots.points, pitch, step.parts, strict=True)):
+        assert abs(touch - at) == pytest.approx(radius, abs=close(hand, 2))
+        inward = (at - touch) / abs(at - touch)
+        if 0 < k < pitch.size - 1 and any(p.start < k < p.stop - 1 for p in chain.board.stations.pieces):
+            centre = centre_of(*pitch[k - 1 : k + 2])
+            assert abs(((at - centre) / abs(at - centre) / inward).imag) < close(hand, 1)
+        assert str(part.caption).startswith(f"Touch point {names_of(chain)[k]}: {radius:.1f} mm inward from point ")
+        assert part.draws[0].index.tolist() == [k]
 
 
 def touched(chain: Chain) -> np.ndarray:
@@ -323,8 +553,8 @@ def touched(chain: Chain) -> np.ndarray:
 @every
 def test_the_working_profile_touches_every_circle_on_the_inside_and_cuts_none(name, hand):
     chain = chain_of(name, hand)
-    circles = only(steps(name, hand, "working_profile")[0], Circle)
-    step = steps(name, hand, "working_profile")[1]
+    circles = only(profile_step(name, hand, "Roller circles"), Circle)
+    step = profile_step(name, hand, "Working profile")
     (line,), touch = only(step, Line), touched(chain)
     assert line.closed
     of_curve(name, hand, touch, line.points)
@@ -340,13 +570,16 @@ def test_the_working_profile_touches_every_circle_on_the_inside_and_cuts_none(na
     assert bool(covered) == bool(np.isnan(touch).any())
     for place in covered[0].points if covered else ():
         assert min(abs(place - c.centre) - c.radius for c in circles) < 0
+    by_pieces(chain, step, line)
     if covered:
-        assert f"At {covered[0].points.size} stations" in str(step.caption)
+        lost = ", ".join(each for each, at in zip(names_of(chain), touch, strict=True) if np.isnan(at))
+        assert f"At {covered[0].points.size} stations ({lost})" in str(step.caption)
+        assert str(step.parts[0].caption) == f"Leave out what lies inside another circle: {lost}."
 
 
 @every
 def test_the_pressure_angle_is_drawn_between_the_followers_line_and_the_normal(name, hand):
-    chain, step = chain_of(name, hand), steps(name, hand, "working_profile")[2]
+    chain, step = chain_of(name, hand), profile_step(name, hand, "Pressure angles on the profile")
     touch, stations = touched(chain), chain.board.stations
     pitch = only(steps(name, hand, "inversion")[2], Dots)[0].points
     (ways,) = only(steps(name, hand, "inversion")[1], Segments, Role.CONSTRUCTION)
@@ -355,7 +588,8 @@ def test_the_pressure_angle_is_drawn_between_the_followers_line_and_the_normal(n
         angles = np.degrees(np.angle((pitch - touch) / along))
     marks, lines, normals = only(step, AngleMark), only(step, Line, Role.CONSTRUCTION), only(step, Line, Role.LIMIT)
     assert len(marks) == len(lines) == len(normals) == len(stations.phases)
-    for mark, line, normal, span in zip(marks, lines, normals, stations.phases, strict=True):
+    apart = 0.0
+    for mark, line, normal, span, part in zip(marks, lines, normals, stations.phases, step.parts, strict=True):
         k = span.start + int(np.nanargmax(np.abs(angles[span])))
         assert mark.centre == line.points[0] == pytest.approx(pitch[k])
         assert normal.points[0] == touch[k]
@@ -367,6 +601,18 @@ def test_the_pressure_angle_is_drawn_between_the_followers_line_and_the_normal(n
         assert [mark.start, mark.end] == pytest.approx(ends, abs=close(hand, 0.1))
         assert math.degrees(mark.end - mark.start) == pytest.approx(abs(angles[k]), abs=close(hand, 3))
         assert str(mark.text) == f"{math.degrees(mark.end - mark.start):.1f}°"
+        # The diagram's angle, from the velocity: tan(alpha) = (v - e sign)/(s0 + s).
+        integrated, e = chain["integration"], -sigma(chain) * chain.place
+        s0 = math.sqrt(chain.prime_radius**2 - e**2)
+        exact = math.degrees(math.atan2(integrated.value("v")[k] + e, s0 + integrated.value("s")[k]))
+        diagram = abs(math.degrees(chain["pressure_angle"].first("alpha")[k]))
+        assert diagram == pytest.approx(abs(exact), abs=close(hand, 5))
+        at = names_of(chain)[k]
+        assert f"station {at}: {abs(angles[k]):.1f}° ({diagram:.1f}° in the diagram)" in str(step.caption)
+        assert str(part.caption).startswith(f"Station {at}: join touch point {at} to point {at} ")
+        assert str(part.caption).endswith(f": {abs(angles[k]):.1f}°.")
+        apart = max(apart, abs(abs(angles[k]) - diagram))
+    assert ("They differ, for the diagram" in str(step.caption)) == (apart >= 0.05)
 
 
 def test_without_a_roller_the_profile_is_the_pitch_curve():
@@ -376,3 +622,25 @@ def test_without_a_roller_the_profile_is_the_pitch_curve():
     np.testing.assert_allclose(step.marks[0].points, pitch.points)
     radii = np.abs(drawn["inversion"].value("radius"))
     assert f"from {radii.min():.2f} to {radii.max():.2f} mm" in str(step.caption)
+
+
+# --- every step ------------------------------------------------------------------------------------------------------
+
+
+@every
+def test_every_step_has_a_reason_and_its_parts_draw_all_of_its_own_marks(name, hand):
+    for construction in ("inversion", "curvature", "roller", "working_profile"):
+        for step in steps(name, hand, construction):
+            why = str(step.why)
+            assert re.fullmatch(r"Because [^.]+\.", why), step.title
+            drawn = {(each.act, k) for part in step.parts for each in part.draws for k in each.index.tolist()}
+            acts = {act for act, _ in drawn}
+            for mark in step.own if step.parts else ():
+                if getattr(mark, "role", None) in (Role.AXIS, Role.SCALE) or mark.of.kind is Kind.READ:
+                    continue
+                assert mark.of in acts, (step.title, mark)
+                if mark.index is not None:
+                    assert {(mark.of, int(k)) for k in mark.index} <= drawn, (step.title, mark)
+            for part in step.parts:
+                assert re.fullmatch(r"[A-Z].*\.", str(part.caption))
+                assert not re.search(r"(?<!\d)0\.00 mm", str(part.caption))

@@ -24,7 +24,7 @@ from graphcam.errors import DesignError
 from graphcam.exercises.definition.drawn_answers import ask, per_mm, with_own
 from graphcam.exercises.definition.exercise import Asked
 from graphcam.notebooks.generate import notebook_of
-from graphcam.report.documents import contents_of, note_of, sheet_of
+from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of, slides
 from graphcam.sheets.model import Text
@@ -107,10 +107,11 @@ def is_text(entity) -> bool:
 
 
 def test_the_player_tells_it_with_its_reading(solution):
-    (slide,) = (slide for slide in slides(solution) if slide.chapter == "The toy's chapter")
+    contents = contents_of(solution)
+    (slide,) = (slide for slide in slides(contents)[0] if slide.chapter == "The toy's chapter")
     assert (slide.title, slide.why) == ("The toy's step", str(MEANING.why))
     assert [reading.title for reading in slide.readings] == ["the toy's length"]
-    assert str(MEANING.why) in player_of(solution, sheet_of(solution))
+    assert str(MEANING.why) in player_of(contents, drawing_of(contents))
 
 
 def test_the_note_has_a_chapter_on_it(solution):
@@ -123,8 +124,8 @@ def test_the_note_has_a_chapter_on_it(solution):
 
 def test_the_notebook_shows_its_steps(solution):
     cells = [cell.source for cell in notebook_of(solution).cells]
-    at = cells.index(f"## The toy's chapter\n\n{MEANING.why}")
-    assert cells[at + 1] == 'show_steps(solution.drawn["toy"], tell=tell)'
+    at = cells.index(f"## {len(solution.drawn)}. The toy's chapter\n\n{MEANING.why}")
+    assert cells[at + 1] == 'show_steps(solution.drawn["toy"], within=solution)'
 
 
 def test_it_is_compared_with_its_exact_counterpart(solution):

@@ -50,8 +50,8 @@ def test_millimetres_times_the_scale_are_the_value(task, pencil):
     """As a reader multiplies the printed numbers, to the last printed digit."""
     written = 0
     for construction, step in steps(task, pencil):
-        for row in rows(construction, step):
-            said = str(row.said())
+        for row, place in ((read, k) for read in rows(construction, step) for _, k in told(read)):
+            said = str(row.said(place))
             assert not re.search("nan|inf|None", said), said
             if row.mu is None:
                 assert re.fullmatch(r"-?\d+\.\d\d(°| mm)", said), said
@@ -61,6 +61,11 @@ def test_millimetres_times_the_scale_are_the_value(task, pencil):
             assert float(paper) * float(mu) == pytest.approx(float(value), abs=half_a_digit), said
             written += 1
     assert written > 8
+
+
+def told(row: ReadingRow) -> list[tuple[object, int | None]]:
+    """What is told first: of several values the extremes."""
+    return row.extremes if row.places else [("", None)]
 
 
 @each_hand
@@ -115,9 +120,65 @@ def test_values_at_stations_bear_the_names_of_the_stations():
     )
     assert row.places[:3] == ("0", "1", "2")
     assert row.places[-1].endswith("′")
-    top = int(np.argmax(row.value))
-    assert str(row.said()) == str(row.said(top))
     assert str(row.said(0)).startswith("0.00 mm × ")
+    assert [str(row.at(what, k)) for what, k in row.extremes] == ["maximum (station 12)"]
+
+
+def row_of(task: str, construction: str, name: str) -> ReadingRow:
+    (row,) = (r for c, s in steps(task, HANDS[0]) for r in rows(c, s) if (c.name, r.name) == (construction, name))
+    return row
+
+
+@pytest.mark.parametrize(
+    ("task", "name", "extremes"),
+    [
+        ("coursework", "inversion.x", ["minimum (station 12) = -73.49", "maximum (station 12′) = 13.69"]),
+        ("coursework", "inversion.radius", ["maximum (station 12) = 73.49"]),
+        ("coursework", "pressure_angle.alpha", ["minimum (station 6′) = -49.32", "maximum (station 6) = 29.68"]),
+        ("coursework", "pressure_angle.transmission", ["minimum (station 6′) = 40.68"]),
+        ("arm", "pressure_angle.transmission", ["minimum (station 6′) = 55.18"]),
+        ("coursework", "acceleration.greatest", ["maximum (return φ₃) = 88.89"]),
+        ("coursework", "acceleration.middles", ["minimum (part 1′) = -88.89", "maximum (part 7′) = 88.89"]),
+        ("coursework", "integration.closing_v", ["maximum (rise φ₁) = 0"]),
+        ("coursework", "curvature.phi", ["maximum (after B) = 135"]),
+        ("coursework", "roller.candidates", ["minimum (0.4 r₀) = 17.6"]),
+        ("arm", "roller.candidates", ["minimum (given) = 15"]),
+        ("measured", "differentiation.v", ["minimum (φ = 183.8°) = -35.6", "maximum (φ = 48.75°) = 32.1"]),
+        ("arcs", "arc_roller.a", ["minimum (station 8) = -93.3", "maximum (station 4) = 36.5"]),
+    ],
+)
+def test_several_values_are_summed_up_by_what_counts_and_where_it_is(task, name, extremes):
+    """Both of what has two signs, of angles that must not be small the least."""
+    row = row_of(task, *name.split("."))
+    found = [f"{row.at(what, k)} = {row.value[k]:.4g}" for what, k in row.extremes]
+    where = [text.rpartition(" = ")[0] for text in found]
+    assert where == [text.rpartition(" = ")[0] for text in extremes]
+    values = [float(text.rpartition(" = ")[2]) for text in found]
+    assert values == pytest.approx([float(text.rpartition(" = ")[2]) for text in extremes], rel=2e-3)
+
+
+@each_hand
+@each_task
+def test_the_extremes_are_the_least_and_the_greatest_value(task, pencil):
+    for construction, step in steps(task, pencil):
+        for row in rows(construction, step):
+            if not row.places:
+                continue
+            found = {str(what): row.value[k] for what, k in row.extremes}
+            low, high = np.nanmin(row.value), np.nanmax(row.value)
+            assert found.get("minimum", low) == low
+            assert found.get("maximum", high) == high
+            both = row.judged == "extremes" and low < 0 <= high
+            assert (len(found) == 2) == both, (construction.name, row.name)
+
+
+@each_task
+def test_what_does_not_belong_to_stations_is_not_said_to(task):
+    for construction, step in steps(task, HANDS[0]):
+        for row in rows(construction, step):
+            stations = {str(name) for name in row.places} if row.stations else {"0", "12"}
+            assert row.stations or construction.meaning.readings[row.name].over or not row.places, row.name
+            assert all(re.fullmatch(r"\d+′*|[A-Z]", name) for name in stations), stations
 
 
 def test_what_could_not_be_read_is_left_out():

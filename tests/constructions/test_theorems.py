@@ -103,11 +103,12 @@ def test_a_velocity_left_at_the_end_of_a_phase_is_taken_up_by_its_base_line():
 @pytest.mark.parametrize("law", ["cycloidal", "rectangular"])
 def test_the_plans_closing_side_is_perpendicular_to_da(rotation, offset, law):
     """The plan and the triangle of the mechanism have perpendicular sides."""
-    steps = chain_of(rotation, offset, law)["pressure_angle"].steps()
-    across, along, closing = (m.end - m.start for m in steps[0].marks if isinstance(m, Arrow))
-    lines = [m.points for m in steps[1].marks if isinstance(m, Line) and m.role is Role.CURVE]
+    _, _, mechanism, plan, normal, angle, _ = chain_of(rotation, offset, law)["pressure_angle"].steps()
+    across, along, closing = (m.end - m.start for m in plan.marks if isinstance(m, Arrow))
+    drawn = (m for step in (mechanism, normal) for m in step.marks)
+    lines = [m.points for m in drawn if isinstance(m, Line) and m.role is Role.CURVE]
     ab, ac = (line[1] - line[0] for line in lines)
-    bd, da = (line.points[1] - line.points[0] for line in steps[2].marks[:2])
+    bd, da = (line.points[1] - line.points[0] for line in angle.marks[:2])
     assert closing == pytest.approx(along - across, rel=1e-14)  # V_B = V_Bx + V_BBx
     assert abs((closing * np.conj(da)).real) < 1e-9
     assert abs((across * np.conj(ab)).real) < 1e-9  # across the radius
@@ -233,7 +234,8 @@ def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n)
     assert covered[inside & ~edge].all()
     assert not covered[~inside & ~edge].any()
     assert np.isnan(profile.readings["radius"].value[covered]).all()
-    assert "undercut" in str(profile.steps()[1].caption)
+    _, _, envelope, _ = profile.steps()
+    assert "undercut" in str(envelope.caption)
 
 
 @pytest.mark.parametrize("missing", [[12], [13], [12, 13]], ids=["before", "after", "on both sides"])

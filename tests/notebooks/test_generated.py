@@ -64,7 +64,7 @@ def test_every_construction_has_its_chapter(name):
     nbformat.validate(notebook)
     source = "\n".join(cell.source for cell in notebook.cells)
     for construction in gc.solve(TASKS[name]).drawn:
-        assert f'show_steps(solution.drawn["{construction}"], tell=tell' in source
+        assert f'show_steps(solution.drawn["{construction}"], within=solution' in source
     assert not any(cell.get("outputs") for cell in notebook.cells)
     assert nbformat.writes(write_notebook(TASKS[name])) == nbformat.writes(notebook)
 

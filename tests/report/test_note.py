@@ -10,6 +10,7 @@ import pytest
 
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS
+from graphcam.report.documents import contents_of
 from graphcam.report.note import against_exact, note
 from graphcam.solving.solve import solve
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
@@ -111,8 +112,21 @@ def test_one_more_degree_is_worth_two_millimetres(builtin_note):
 def test_every_step_of_the_drawing_is_told(builtin_note, builtin):
     steps = [step for construction in builtin.drawn.values() for step in construction.steps()]
     appendix = builtin_note.split("## Appendix")[1]
-    assert len(re.findall(r"^\d+\. \*", appendix, re.MULTILINE)) == len(steps)
+    assert len(re.findall(r"^- \*\d+\.\d+ ", appendix, re.MULTILINE)) == len(steps)
     assert all(str(step.caption) in appendix for step in steps)
+    assert all(str(step.why) in appendix for step in steps)
+
+
+def test_a_step_has_the_number_that_it_has_on_the_sheet_and_its_chapter_that_of_the_note():
+    solution = solve(replace(builtin_task(), speed_rpm=300.0, spring=SpringTable(mass=0.5, stiffness=3.0)))
+    contents, said = contents_of(solution), note(solution)
+    appendix = said.split("## Appendix")[1]
+    numbered = re.findall(r"^- \*(\d+\.\d+) (.*?)\.\* ", appendix, re.MULTILINE)
+    assert numbered == [(contents.numbers[k], str(step.title)) for k, _, step in contents.steps]
+    chapters = re.findall(r"^### (.*)", appendix, re.MULTILINE)
+    assert re.findall(r"^## (\d.*)", said, re.MULTILINE)[: len(chapters)] == chapters
+    assert chapters[0] == "1. Kinematic diagram"
+    assert chapters[-2:] == ["11. Contact force", "12. Force plan"]
 
 
 def test_of_a_hand_the_note_says_what_was_adopted_instead():
@@ -193,7 +207,7 @@ def sprung(preload: float | None) -> str:
     motion = four_phases(30, (45, 45, 45, 225), ("cosine", "cosine"))
     follower, spring = TranslatingTable(0.0), SpringTable(0.2, 3.0, preload)
     text = note(solve(replace(builtin_task(), motion=motion, speed_rpm=550, follower=follower, spring=spring)))
-    chapter = re.split(r"^## \d+\. ", text.split(". Spring\n")[1], flags=re.MULTILINE)[0]
+    chapter = re.split(r"^## \d+\. ", text.split(". Contact force\n")[1], flags=re.MULTILINE)[0]
     assert not NOT_NUMBERS.search(chapter)
     return chapter
 

@@ -5,21 +5,15 @@ from __future__ import annotations
 import math
 import re
 import subprocess
-from collections.abc import Iterator
-from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from players import Solved, outside, watch
+from playwright.sync_api import Locator, Page
 from programs import program
 
 import graphcam as gc
-from graphcam.report.documents import scene_of, sheet_of
-from graphcam.report.step_player import player_of, slides
 from graphcam.sheets.model import Text
-from graphcam.tasks.task import DrawingTable
-from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
 MECHANISMS = ("coursework", "arm", "flat", "measured", "arcs", "knife")
 slow = pytest.mark.slow
@@ -28,94 +22,21 @@ MM = 96 / 25.4
 """CSS pixels in a millimetre."""
 
 
-def task_of(name: str) -> gc.Task:
-    if name == "arcs":
-        return builtin_arcs_task()
-    task = builtin_task("coursework" if name in ("pages", "knife") else name)
-    if name == "pages":
-        return replace(task, drawing=DrawingTable(format="A3"))
-    return replace(task, follower=replace(task.follower, roller_radius=0.0)) if name == "knife" else task
-
-
-class Solved:
-    """A solution, its sheet, and its player in a file."""
-
-    def __init__(self, name: str, folder: Path) -> None:
-        self.solution = gc.solve(task_of(name))
-        self.drawing = sheet_of(self.solution)
-        self.text = player_of(self.solution, self.drawing)
-        self.file = folder / f"{name}.html"
-        self.file.write_text(self.text, encoding="utf-8")
-        self.slides = slides(self.solution)
-        self.scene = scene_of(self.solution)
-
-
-@pytest.fixture(scope="module")
-def solved(tmp_path_factory):
-    """The solved tasks by name, each solved when it is asked for."""
-    folder, found = tmp_path_factory.mktemp("players"), {}
-
-    def of(name: str) -> Solved:
-        return found.setdefault(name, None) or found.update({name: Solved(name, folder)}) or found[name]
-
-    return of
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    chromium = program("chromium")
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(
-            executable_path=chromium, args=["--no-sandbox", "--disable-background-networking"]
-        )
-        yield started
-        started.close()
-
-
-@pytest.fixture
-def opened(browser):
-    """Opens a file in a window of its own, and at the end sees that the page complained of nothing and asked nobody."""
-    complaints: list[str] = []
-    contexts = []
-
-    def of(file: Path, wide: int = 1280, high: int = 800, **settings) -> Page:
-        context = browser.new_context(viewport={"width": wide, "height": high}, **settings)
-        contexts.append(context)
-        page = context.new_page()
-        watch(page, file, complaints)
-        page.goto(file.as_uri())
-        return page
-
-    yield of
-    for context in contexts:
-        context.close()
-    assert complaints == []
-
-
-def watch(page: Page, file: Path, complaints: list[str]) -> None:
-    page.on("console", lambda message: complaints.append(message.text))
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.on("request", lambda request: outside(request.url, file) and complaints.append(request.url))
-
-
-def outside(url: str, file: Path) -> bool:
-    return not (url.startswith("data:") or url.split("#")[0] == file.as_uri())
-
-
 SEEN = """() => {
     const all = (selector) => [...document.querySelectorAll(selector)];
     const shown = (selector) => all(selector).filter((e) => e.checkVisibility());
     const texts = (selector) => shown(selector).map((e) => e.innerText);
-    const page = shown("svg.page");
+    const page = shown("#stage svg.page");
     return {
-        steps: all("svg.page g.step").filter((g) => getComputedStyle(g).display !== "none").map((g) => g.id),
-        current: [...document.querySelectorAll("g.step.current")].map((g) => g.id),
+        steps: all("#stage g.step").filter((g) => getComputedStyle(g).display !== "none").map((g) => g.id),
+        current: all("#stage g.step.current").map((g) => g.id),
         titles: page.flatMap((svg) => [...svg.querySelectorAll("[data-view]")])
             .filter((g) => getComputedStyle(g).display !== "none").map((g) => g.dataset.view),
         frames: page.map((svg) => svg.querySelectorAll("g.frame").length),
         page: page.map((svg) => svg.id),
-        chapter: texts("article .chapter"), title: texts("article h2"), caption: texts("article .caption"),
-        readings: texts("article dt"), values: texts("article dd strong"),
+        chapter: texts("article .chapter"), title: texts("article h2 .name"), number: texts("article h2 .number"),
+        caption: texts("article .caption"),
+        why: texts("article .reason > span"), readings: texts("article dt"), values: texts("article dd strong"),
         announced: document.getElementById("announcement").textContent,
         counter: document.getElementById("counter").textContent,
     };
@@ -132,7 +53,7 @@ def step_keys(count: int) -> list[str]:
 
 
 def check_step(page: Page, solved: Solved, k: int) -> None:
-    """That at step k (from 0) steps 0 to k are drawn and no other, and that its words stand beside it."""
+    """That at step k (from 0), shown whole, steps 0 to k are drawn and no other, and that its words stand beside it."""
     slide, now, key = solved.slides[k], seen(page), f"step-{k + 1:02d}"
     on = next(n for n, p in enumerate(solved.drawing.pages, 1) if any(group.key == key for group in p.groups))
     assert sorted(now.pop("steps")) == step_keys(k + 1)
@@ -142,8 +63,10 @@ def check_step(page: Page, solved: Solved, k: int) -> None:
     assert now == {
         "current": [key], "frames": [1], "page": [f"page-{on}"],
         "chapter": [slide.chapter], "title": [slide.title], "caption": [slide.caption],
+        "number": [slide.number], "why": [slide.reason] if slide.reason else [],
         "readings": [reading.title for reading in slide.readings], "values": [r.value for r in slide.readings],
-        "announced": f"{slide.title}. {slide.caption}", "counter": f"{k + 1} / {len(solved.slides)}",
+        "announced": f"{slide.title}. {slide.caption}",
+        "counter": f"{slide.number} step {k + 1} of {len(solved.slides)}",
     }  # fmt: skip
 
 
@@ -151,9 +74,11 @@ def check_step(page: Page, solved: Solved, k: int) -> None:
 def test_every_step_shows_itself_and_those_before_it(solved, opened, name):
     found = solved(name)
     page = opened(found.file, reduced_motion="reduce")
+    if len(found.slides[0].parts) > 1:
+        page.keyboard.press("Shift+ArrowRight")
     for k in range(len(found.slides)):
         check_step(page, found, k)
-        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Shift+ArrowRight")
     check_step(page, found, len(found.slides) - 1)
 
 
@@ -168,7 +93,7 @@ def test_the_check_of_a_step_can_fail(solved, browser, tmp_path):
         broken = tmp_path / "broken.html"
         broken.write_text(found.text.replace(right, wrong), encoding="utf-8")
         page = browser.new_page()
-        page.goto(broken.as_uri())
+        page.goto(f"{broken.as_uri()}#{found.slides[0].number}")
         with pytest.raises(AssertionError):
             check_step(page, found, 0)
         page.close()
@@ -207,13 +132,13 @@ def test_keys_go_through_the_steps_and_the_constructions(solved, opened):
     page, last = opened(found.file), len(found.slides) - 1
     starts = [k for k, slide in enumerate(found.slides) if k == 0 or found.slides[k - 1].chapter != slide.chapter]
     for key, k in (
-        ("ArrowLeft", 0), ("ArrowRight", 1), ("ArrowDown", 2), ("ArrowUp", 1), ("PageDown", starts[1]),
-        ("PageDown", starts[2]), ("ArrowRight", starts[2] + 1), ("PageUp", starts[2]), ("PageUp", starts[1]),
-        ("End", last), ("ArrowRight", last), ("PageUp", starts[-2]), ("Home", 0), ("PageUp", 0),
+        ("Shift+ArrowLeft", 0), ("Shift+ArrowRight", 1), ("Shift+ArrowDown", 2), ("Shift+ArrowUp", 1),
+        ("PageDown", starts[2]), ("PageDown", starts[3]), ("PageUp", starts[2]),
+        ("End", last), ("ArrowRight", last), ("Home", 0), ("PageUp", 0),
     ):  # fmt: skip
         page.keyboard.press(key)
-        assert page.locator("#counter").inner_text() == f"{k + 1} / {last + 1}", key
-    check_step(page, found, 0)
+        assert page.locator("#number").inner_text() == found.slides[k].number, key
+        assert page.url.split("#")[1].split("/")[0] == found.slides[k].number
 
 
 def test_the_slider_the_buttons_and_the_contents_go_there_too(solved, opened):
@@ -222,18 +147,20 @@ def test_the_slider_the_buttons_and_the_contents_go_there_too(solved, opened):
     page.locator("#slider").fill("7")
     check_step(page, found, 6)
     page.locator("#slider").focus()
-    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
     check_step(page, found, 7)
-    for button, k in (("next", 8), ("previous", 7), ("last", len(found.slides) - 1), ("first", 0)):
+    for button, k in (("whole-on", 8), ("whole-back", 7)):
         page.locator(f"#{button}").click()
         check_step(page, found, k)
+    page.keyboard.press("Home")
     assert page.locator("#previous").is_disabled()
     chapters = list(dict.fromkeys(slide.chapter for slide in found.slides))
     assert page.locator(".breakpoint > button").all_inner_texts() == chapters
     page.get_by_role("button", name=chapters[2], exact=True).click()
-    check_step(page, found, next(k for k, slide in enumerate(found.slides) if slide.chapter == chapters[2]))
+    k = next(k for k, slide in enumerate(found.slides) if slide.chapter == chapters[2])
+    assert page.locator("#number").inner_text() == found.slides[k].number
     page.reload()
-    assert page.locator("#counter").inner_text() != f"1 / {len(found.slides)}", "the address says the step"
+    assert page.locator("#number").inner_text() == found.slides[k].number, "the address says the step"
 
 
 def test_everything_has_a_name_and_shows_where_the_focus_is(solved, opened):
@@ -247,18 +174,16 @@ def test_everything_has_a_name_and_shows_where_the_focus_is(solved, opened):
             assert name, element.evaluate("e => e.outerHTML")
     ids = page.evaluate("[...document.querySelectorAll('[id]')].map(e => e.id)")
     assert len(ids) == len(set(ids))
-    for _ in range(12):
+    for _ in range(16):
         page.keyboard.press("Tab")
         style = page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
         assert style == "solid", page.evaluate("document.activeElement.outerHTML")
 
 
-def inside_stage(page: Page, selector: str) -> bool:
-    return page.evaluate(
-        """selector => { const r = document.querySelector(selector).getBoundingClientRect(),
-        s = document.getElementById('stage').getBoundingClientRect();
-        return r.left >= s.left - 1 && r.right <= s.right + 1 && r.top >= s.top - 1 && r.bottom <= s.bottom + 1; }""",
-        selector,
+def inside_stage(page: Page, element: Locator) -> bool:
+    return element.evaluate(
+        """e => { const r = e.getBoundingClientRect(), s = document.getElementById('stage').getBoundingClientRect();
+        return r.left >= s.left - 1 && r.right <= s.right + 1 && r.top >= s.top - 1 && r.bottom <= s.bottom + 1; }"""
     )
 
 
@@ -270,25 +195,25 @@ def test_the_step_is_looked_at_closely_and_the_sheet_as_a_whole(solved, opened, 
     page = opened(found.file, *window, reduced_motion="reduce")
     for k in range(1, len(found.slides) + 1, 3):
         page.locator("#slider").fill(str(k))
-        current = page.locator("g.step.current")
-        assert not current.evaluate("g => g.getBBox().width") or inside_stage(page, "g.step.current")
+        lines = page.locator("#stage g.step.current path").all()
+        assert all(inside_stage(page, line) for line in lines[:: len(lines) // 30 + 1])
     page.keyboard.press("0")
-    assert inside_stage(page, "svg.page .paper")
-    whole = page.locator(".paper").bounding_box()["width"]
+    assert inside_stage(page, page.locator("#stage .paper"))
+    whole = page.locator("#stage .paper").bounding_box()["width"]
     page.keyboard.press("+")
-    assert page.locator(".paper").bounding_box()["width"] == pytest.approx(1.25 * whole, rel=1e-3)
-    before = page.locator(".paper").bounding_box()
+    assert page.locator("#stage .paper").bounding_box()["width"] == pytest.approx(1.25 * whole, rel=1e-3)
+    before = page.locator("#stage .paper").bounding_box()
     box = page.locator("#stage").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 30, y - 20)
     page.mouse.up()
-    after = page.locator(".paper").bounding_box()
+    after = page.locator("#stage .paper").bounding_box()
     assert (after["x"] - before["x"], after["y"] - before["y"]) == pytest.approx((30, -20), abs=0.5)
     page.mouse.wheel(0, -200)
     page.wait_for_function(
-        "w => document.querySelector('.paper').getBoundingClientRect().width > 1.3 * w", arg=after["width"]
+        "w => document.querySelector('#stage .paper').getBoundingClientRect().width > 1.3 * w", arg=after["width"]
     )
     caption, stage = page.locator("article:visible .caption").bounding_box(), page.locator("#stage").bounding_box()
     if window[0] < 800:
@@ -500,8 +425,9 @@ def test_it_turns_until_it_is_stopped(solved, opened):
     page.wait_for_timeout(150)
     assert page.locator("#phi").input_value() == stopped
     page.locator("#phi").focus()
-    for key, degrees in (("Home", "0"), ("ArrowRight", "1"), ("PageDown", "16"), ("ArrowLeft", "15"), ("End", "360")):
+    keys = {"Home": 0, "ArrowRight": 1, "PageUp": 16, "PageDown": 1, "ArrowLeft": 0, "End": 360}
+    for key, degrees in keys.items():
         page.keyboard.press(key)
-        assert page.locator("#phi").input_value() == degrees
+        assert page.locator("#phi").input_value() == str(degrees)
     page.keyboard.press("m")
     assert page.locator("#construction").is_visible()

@@ -82,14 +82,14 @@ def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
     assert not read & set(said)
     assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "-10 mm", "greatest v, mm/rad"} <= set(said)
     names = {group.name.split(" ")[1] for _, group in groups(sheet_of(solution(), 0)).items() if "step" in group.name}
-    assert {"acceleration", "integration", "minimum_radius", "inversion"} <= names
+    assert {"scheme", "acceleration", "integration", "minimum_radius", "inversion"} <= names
     assert not names & {"pressure_angle", "curvature", "working_profile"}, "what is only found leaves no line"
 
 
-@pytest.mark.parametrize("upto", [3, "integration"])
+@pytest.mark.parametrize("upto", [3, "1.1", "2.2", "integration"])
 def test_a_half_done_sheet_is_the_finished_one_up_to_its_step(upto: int | str) -> None:
     whole, half = groups(finished()), groups(sheet_of(solution(), upto))
-    last = 11 if upto == "integration" else upto
+    last = {"integration": 12, "1.1": 1, "2.2": 3}.get(upto, upto)
     done = {key for key in whole if key[1].startswith("step") and int(key[1][5:7]) <= last}
     assert done <= set(half)
     assert all(len(half[key].entities) == len(whole[key].entities) for key in done)
@@ -97,9 +97,11 @@ def test_a_half_done_sheet_is_the_finished_one_up_to_its_step(upto: int | str) -
     assert any(later)
 
 
-@pytest.mark.parametrize("upto", [-1, 99, "integral"])
+@pytest.mark.parametrize("upto", [-1, 99, "integral", "2.9", "2"])
 def test_a_step_that_is_not_there_is_refused_with_those_that_are(upto: int | str) -> None:
-    with pytest.raises(gc.DesignError, match=r"from 0 to \d+, or one of acceleration, integration, minimum_radius"):
+    with pytest.raises(
+        gc.DesignError, match=r"from 0 to \d+, or one of scheme, acceleration, integration, minimum_radius"
+    ):
         sheet_of(solution(), upto)
 
 
@@ -116,8 +118,7 @@ def test_every_construction_that_draws_has_its_sheets() -> None:
     drawing = sheet_of(solution(), per_construction=True)
     assert overlaps(drawing) == []
     lasts = [max(g.name for g in page.groups if g.key.startswith("step")).split(" ")[1] for page in drawing.pages]
-    # The roller's radius is calculated, which draws nothing.
-    assert list(dict.fromkeys(lasts)) == [name for name in solution().drawn if name != "roller"]
+    assert list(dict.fromkeys(lasts)) == list(solution().drawn)
     count = len(drawing.pages)
     assert [f"Sheet {k}" in texts(Drawing("", (page,))) for k, page in enumerate(drawing.pages, 1)] == [True] * count
     assert texts(drawing).count(f"Sheets {count}") == count

@@ -15,7 +15,7 @@ from graphcam.sheets.box import Box
 from graphcam.sheets.filling import GAPS, Leaf, fill
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, Format, Lettering
 from graphcam.sheets.frame import taken
-from graphcam.sheets.layout import Part, compose, compose_parts, profile_room
+from graphcam.sheets.layout import SheetPart, compose, compose_parts, profile_room
 from graphcam.sheets.model import Drawing, Strokes, Text
 from graphcam.sheets.panels import Panel
 from graphcam.sheets.sampling import box_of
@@ -210,7 +210,7 @@ def test_an_unfinished_sheet_shows_what_is_given_and_the_steps_so_far_at_the_sam
     first = Step(say("."), say("."), View("a", say("First"), "x", "y"), (axis,))
     second = Step(say("."), say("."), found, (axis, curve), given=(axis,))
     table = Table("T", ("q", "v"), (("lift", "30"),), frozenset({(0, 1)}))
-    part = Part(((1, "first", first), (2, "second", second)), (table,), ("A note.",))
+    part = SheetPart(((1, "first", first), (2, "second", second)), (table,), ("A note.",))
     sheet = Format("A3", "gost")
     whole = compose_parts([part], TITLE, sheet)
     assert page_texts(whole, "tables") == ["T", "q", "v", "lift", "30", "1. A note."]
@@ -285,7 +285,7 @@ def test_the_room_for_the_profile_is_what_diagrams_and_title_block_leave(paper, 
 
 
 def test_parts_stand_on_sheets_of_their_own_that_are_numbered_through():
-    parts = [Part(((k, name, step),)) for k, (name, step) in enumerate(steps(("a", 50, 40), ("b", 40, 40)), 1)]
+    parts = [SheetPart(((k, name, step),)) for k, (name, step) in enumerate(steps(("a", 50, 40), ("b", 40, 40)), 1)]
     drawn = compose_parts(parts, replace(TITLE, name="Cam"), Format("A3", "gost"))
     assert len(drawn.pages) == 2
     assert drawn.title == "Cam"

@@ -13,9 +13,9 @@ import pytest
 from fontTools.ttLib import TTFont
 
 from graphcam.sheets.box import Box
-from graphcam.sheets.fonts import font_file
+from graphcam.sheets.fonts import extent, font_file
 from graphcam.sheets.model import Drawing, Entity, Group, Page, Strokes, Text
-from graphcam.sheets.player import WORDS, ReadingText, Slide, player
+from graphcam.sheets.player import WORDS, ReadingText, RowText, Slide, player
 
 SAID = {name: str(word) for name, word in WORDS.items()}
 
@@ -25,7 +25,11 @@ def box(left: float, bottom: float, right: float, top: float) -> Entity:
     return Strokes(np.array([complex(left, bottom)]), np.array([complex(right, top)]), "curve")
 
 
-TITLES = tuple(Text(9j, text, 3.5, view=view) for text, view in (("of a", "a"), ("of b", "b"), ("a too", "a")))
+TITLES = (
+    Text(60 + 80j, "of a", 3.5, view="a"),
+    Text(5 + 9j, "of b", 3.5, view="b"),
+    Text(60 + 75j, "a too", 3.5, view="a"),
+)
 FIRST = Page(
     200.0, 100.0, Box(0, 0, 200, 100),
     (
@@ -39,7 +43,7 @@ FIRST = Page(
 SECOND = Page(
     150.0, 300.0, Box(0, 0, 150, 300), (Group("step-04 z", (box(100, 280, 149, 299),)), Group("step-05 w", ()))
 )
-READING = ReadingText("title Ω", "taken ψ", "30 ю", (("4", "12.5", "3"),))
+READING = ReadingText("title Ω", "taken ψ", "30 ю", (RowText("4", "12.5", "3"),))
 SLIDES = [
     Slide("One", "a", "first é", "caption ñ"),
     Slide("One", "a", "second", "caption", (READING,)),
@@ -60,14 +64,15 @@ def data(page: str) -> dict:
 
 
 def test_every_step_knows_its_sheet_and_the_box_of_its_view(page):
-    """From the upper left corner, with 8 mm about it, but not beyond the sheet; steps of one view have one box."""
+    """From the upper left corner, 8 mm about drawing and title, not beyond the sheet; steps of a view have one box."""
     found = data(page)["steps"]
+    title = round(100 - 8 - 80 - extent("of a", 3.5)[2], 1)
     assert [step["group"] for step in found] == [f"step-0{k}" for k in range(1, 6)]
     assert [step["page"] for step in found] == [0, 0, 0, 1, 1]
     assert [step["view"] for step in found] == ["a", "a", "b", "c", "empty"]
     assert [step["box"] for step in found] == [
-        [42, 22, 86, 46],
-        [42, 22, 86, 46],
+        [42, title, 86, 68 - title],
+        [42, title, 86, 68 - title],
         [0, 72, 38, 28],
         [92, 0, 58, 28],
         # Of a step that draws nothing it is the whole sheet.

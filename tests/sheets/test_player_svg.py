@@ -11,7 +11,8 @@ from programs import count
 from scene import drawing
 
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text
-from graphcam.sheets.player import Slide, group_svg, player
+from graphcam.sheets.player import Slide, player
+from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.styles import STYLES
 
 NUMBER = r"-?[\d.]+"

@@ -230,14 +230,14 @@ def test_sheet_tables_and_note_are_written(paper, tmp_path):
 def test_the_note_tells_case_construction_roots_impact_and_comparison(solution):
     note = arcs_note(solution)
     for part in (
-        "design case 1", "The perpendicular bisector of C1 P meets the line in C3 = (12.003, -14.394) mm",
+        "design case 1", "Where the bisector meets the line G C2 is C3 = (12.003, -14.394) mm",
         "the profile would turn back in a cusp at F", "the impact is soft", "| 57.95°", "Every drawn value lies within",
     ):  # fmt: skip
         assert part in note, part
     open_ = ArcsTask(ArcsTable(D=EXAMPLE["D"], G=EXAMPLE["G"], rho1=17, A=(0, 40)), RollerTable())
     said = arcs_note(gc.solve(open_))
     assert "design case 4" in said
-    assert "The chord AG is bisected" in said
+    assert "Bisect AG: compass" in said
     assert "The knife edge keeps to arcs" in said
 
 

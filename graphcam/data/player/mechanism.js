@@ -130,8 +130,8 @@
     if (event.detail !== "mechanism") turn(false);
   });
   document.addEventListener("keydown", (event) => {
-    if (at("mechanism").hidden || event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, [role=tablist]")) return;
-    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageDown: 15, PageUp: -15 }[event.key];
+    if (at("mechanism").hidden || event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, .words, [role=tablist]")) return;
+    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 15, PageDown: -15 }[event.key];
     if (by) to(Math.round(phi) + by);
     else if (event.key === "Home") to(0);
     else if (event.key === "End") to(360);

@@ -1,50 +1,95 @@
-// The steps: which are drawn, what is said of them, and where the reader looks.  No names leave this function.
+// The steps: which is shown as far as which part, what is said of it, and how one goes on.
 "use strict";
 (() => {
-  const { steps, words } = JSON.parse(document.getElementById("data").textContent);
+  const { steps, views, words } = JSON.parse(document.getElementById("data").textContent);
   const at = (id) => document.getElementById(id);
-  const stage = at("stage");
-  const pages = [...document.querySelectorAll("svg.page")];
+  const panes = [paneOf(at("stage"))];
   const slides = steps.map((_, k) => at(`slide-${k}`));
-  const groups = steps.map((step) => at(step.group));
-  // The title of a view appears with the first step in it.
-  const titles = [...document.querySelectorAll("[data-view]")]
-    .map((title) => [title, steps.findIndex((step) => step.view === title.dataset.view)]);
   const starts = [...document.querySelectorAll(".breakpoint > button")].map((button) => Number(button.dataset.step));
+  const last = steps.length - 1;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  let current = 0, shown = 0, follow = true;
+  // The part is null where the step is shown whole.
+  let current = 0, part = null, follow = true;
 
-  // --- steps -----------------------------------------------------------------------------------------------------
+  // --- steps and their parts -------------------------------------------------------------------------------------
 
-  function go(k) {
-    current = Math.max(0, Math.min(steps.length - 1, k));
-    groups.forEach((group, j) => {
-      group.classList.toggle("later", j > current);
-      group.classList.toggle("former", j < current);
-      group.classList.toggle("current", j === current);
-    });
-    titles.forEach(([title, first]) => title.classList.toggle("later", first > current));
+  const partsOf = (step) => steps[step].parts.length;
+  const atEnd = () => current === last && (part === null || part === partsOf(last) - 1);
+  const atStart = () => current === 0 && (part ?? (partsOf(0) > 1)) == 0;
+
+  function go(step, toPart = null) {
+    const before = current;
+    current = Math.max(0, Math.min(last, step));
+    part = toPart === null || partsOf(current) === 1 ? null : Math.max(0, Math.min(partsOf(current) - 1, toPart));
+    for (const { board } of panes) board.show(current, part);
+    document.body.classList.toggle("finished", atEnd());
     slides.forEach((slide, j) => (slide.hidden = j !== current));
-    document.body.classList.toggle("finished", current === steps.length - 1);
-    const slide = slides[current], count = `${current + 1} / ${steps.length}`;
-    at("slider").value = current + 1;
-    at("slider").setAttribute("aria-valuetext", `${count}: ${slide.querySelector("h2").textContent}`);
-    at("counter").textContent = count;
-    at("announcement").textContent = ["h2", ".caption"].map((part) => slide.querySelector(part).textContent).join(". ");
-    for (const id of ["first", "previous"]) at(id).disabled = current === 0;
-    for (const id of ["next", "last"]) at(id).disabled = current === steps.length - 1;
     markContents();
-    turnTo(steps[current].page);
-    look(follow ? steps[current].box : null);
-    try { history.replaceState(null, "", `#${current + 1}`); } catch { /* a page in a frame may not */ }
+    tell(current !== before);
+    look();
+    point([]);
+    try { history.replaceState(null, "", `#${address()}`); } catch { /* a page in a frame may not */ }
   }
+
+  function on() {
+    if (part !== null && part < partsOf(current) - 1) go(current, part + 1);
+    else if (!atEnd()) go(current + 1, 0);
+  }
+
+  function back() {
+    if (part === null && partsOf(current) > 1) go(current, partsOf(current) - 1);
+    else if (part) go(current, part - 1);
+    else if (current) go(current - 1);
+  }
+
+  const wholeOn = () => go(part === null ? current + 1 : current);
+  const wholeBack = () => go(current - 1);
 
   const chapterOf = (k) => starts.filter((start) => start <= k).length - 1;
 
   function goToChapter(by) {
-    const here = chapterOf(current), inside = current > starts[here];
+    const here = chapterOf(current), inside = current > starts[here] || part;
     const chapter = Math.max(0, Math.min(starts.length - 1, here + by + (by < 0 && inside ? 1 : 0)));
-    go(starts[chapter]);
+    go(starts[chapter], 0);
+  }
+
+  // "3.2" is a step, "3.2/4" its fourth part, "3" a construction.
+  const address = () => steps[current].number + (part === null ? "" : `/${part + 1}`);
+
+  function goToAddress() {
+    const [number, which] = location.hash.slice(1).split("/");
+    const step = steps.findIndex((one) => one.number === number || one.number.startsWith(`${number}.`));
+    if (step < 0) go(0, 0);
+    else go(step, /^[1-9]\d*$/.test(which) && which <= partsOf(step) ? which - 1 : null);
+  }
+
+  // --- what is said ----------------------------------------------------------------------------------------------
+
+  function tell(isNew) {
+    const slide = slides[current], said = (name) => slide.querySelector(name)?.textContent || "";
+    const items = [...slide.querySelectorAll(".parts li")];
+    const place = part === null
+      ? words.step_of.replace("{step}", current + 1).replace("{steps}", steps.length)
+      : words.part_of.replace("{part}", part + 1).replace("{parts}", partsOf(current));
+    at("number").textContent = steps[current].number;
+    at("place").textContent = place;
+    at("slider").value = current + 1;
+    at("slider").setAttribute("aria-valuetext", `${steps[current].number} ${said(".name")}, ${place}`);
+    const news = part === null ? [] : [items[part].querySelector(".done-here").textContent];
+    if (part === null || isNew) news.unshift(said(".name"), said(".caption"));
+    at("announcement").textContent = news.join(". ");
+    at("previous").disabled = atStart();
+    at("whole-back").disabled = current === 0;
+    at("next").disabled = at("whole-on").disabled = atEnd();
+    slide.querySelector(".whole-step")?.setAttribute("aria-pressed", part === null);
+    items.forEach((item, k) => {
+      item.classList.toggle("later", part !== null && k > part);
+      if (k === part) item.firstElementChild.setAttribute("aria-current", "step");
+      else item.firstElementChild.removeAttribute("aria-current");
+    });
+    if (isNew) at("words").scrollTop = 0;
+    // The first part leaves the caption in sight.
+    if (part !== null && (part || !isNew)) items[part].scrollIntoView({ block: "nearest" });
   }
 
   function markContents() {
@@ -54,141 +99,232 @@
       bar.classList.toggle("here", k === chapter);
       bar.classList.toggle("done", k < chapter);
     });
-    for (const button of document.querySelectorAll("nav .to-step")) {
+    for (const button of document.querySelectorAll(".to-step")) {
       if (Number(button.dataset.step) === current) button.setAttribute("aria-current", "step");
       else button.removeAttribute("aria-current");
     }
+    const row = document.querySelector("#protocol tr.here");
+    row?.classList.remove("here");
+    at(`row-${current}`).classList.add("here");
+    if (!at("protocol").hidden) at(`row-${current}`).scrollIntoView({ block: "nearest" });
   }
 
-  function turnTo(number) {
-    shown = number;
-    pages.forEach((page, k) => page.classList.toggle("away", k !== number));
+  // --- where the reader looks ------------------------------------------------------------------------------------
+
+  function paneOf(stage) {
+    return { stage, board: boardOf(stage, steps), camera: cameraOf(stage) };
+  }
+
+  // A second pane for what is lit in another view: the same sheets once more.
+  function besidePane() {
+    if (panes.length === 1) {
+      const copy = at("stage").cloneNode(true);
+      for (const element of [copy, ...copy.querySelectorAll("[id]")]) element.removeAttribute("id");
+      for (const name of ["tabindex", "role", "aria-label"]) copy.removeAttribute(name);
+      copy.setAttribute("aria-hidden", "true");
+      at("desk").append(copy);
+      panes.push(paneOf(copy));
+      panes[1].board.show(current, part);
+    }
+    return panes[1];
+  }
+
+  // The view of the step, and the others in which something is lit: on its page, or on one other.
+  function placesLookedAt() {
+    const step = steps[current], others = panes[0].board.beside().map((name) => views[name]);
+    const beside = others.filter((view) => view.page === others[0].page);
+    return [step, beside.length ? { page: beside[0].page, box: around(beside.map((view) => view.box)) } : null];
+  }
+
+  function look() {
+    const desk = at("desk"), wide = desk.clientWidth, high = desk.clientHeight;
+    const [own, other] = follow ? placesLookedAt() : [{ page: steps[current].page, box: null }, null];
+    const zoom = (box, across, up) => Math.min(wide / across / box[2], high / up / box[3]);
+    let box = own.box, split = "";
+    if (other) {
+      const least = (across, up) => Math.min(zoom(own.box, across, up), zoom(other.box, across, up));
+      const columns = least(2, 1), rows = least(1, 2), both = around([own.box, other.box]);
+      // Two views of a page are one picture, unless that costs much.
+      if (other.page === own.page && zoom(both, 1, 1) > 0.75 * Math.max(columns, rows)) box = both;
+      else split = columns > rows ? "columns" : "rows";
+    }
+    desk.dataset.split = split;
+    desk.classList.toggle("lettered", follow);
+    if (split) besidePane().camera.look(other.page, other.box);
+    panes[0].camera.turnTo(own.page);
+    panes[0].camera.look(own.page, part === null || !box ? box : closer(box));
+    markSheet(own.page);
+  }
+
+  // Where a view is too small to be read (a phone), what is drawn now and its surroundings.
+  function closer([left, top, wide, high]) {
+    const { clientWidth, clientHeight } = at("stage");
+    const whole = Math.min(clientWidth / wide, clientHeight / high), drawn = panes[0].board.focus();
+    if (whole >= 1.4 || !drawn) return [left, top, wide, high];
+    const [x, y, w, h] = drawn;
+    const own = Math.min(3, clientWidth / (w + 20), clientHeight / (h + 20)), zoom = Math.max(whole, own);
+    const size = [clientWidth / zoom, clientHeight / zoom];
+    const inside = (middle, extent, start, length) => {
+      const rest = length - extent;
+      return start + (rest < 0 ? rest / 2 : Math.max(0, Math.min(rest, middle - extent / 2 - start)));
+    };
+    return [inside(x + w / 2, size[0], left, wide), inside(y + h / 2, size[1], top, high), ...size];
+  }
+
+  function markSheet(number) {
     document.querySelectorAll("[data-page]").forEach((button, k) => button.setAttribute("aria-pressed", k === number));
   }
 
-  // --- where the reader looks: a scale and a shift of the page, in its millimetres -------------------------------
+  function setFollow(yes) {
+    follow = yes;
+    at("follow").setAttribute("aria-pressed", yes);
+    look();
+  }
 
-  const camera = { zoom: 1, x: 0, y: 0 };
-  const sheet = () => pages[shown].viewBox.baseVal;
+  const zoom = (factor) => panes.forEach(({ stage, camera }) => stage.clientWidth && camera.zoomFromMiddle(factor));
 
-  function place() {
-    const { zoom, x, y } = camera, size = sheet();
-    const fit = Math.min(stage.clientWidth / size.width, stage.clientHeight / size.height);
-    for (const page of pages) {
-      page.querySelector(".camera").style.transform = `translate(${x}px, ${y}px) scale(${zoom})`;
-      // How many millimetres a pixel is: no line is drawn thinner than can be seen.
-      page.style.setProperty("--pixel", `${1 / (fit * zoom || 1)}px`);
+  // --- a reading and its marks light each other ----------------------------------------------------------------------
+
+  const namesOf = (element) => JSON.parse(element.dataset.lit || "[]");
+
+  function point(names) {
+    for (const { board } of panes) board.point(names);
+  }
+
+  function pointFrom(event) {
+    const reading = event.target.closest?.("[data-lit]");
+    point(reading ? namesOf(reading) : []);
+  }
+  for (const event of ["pointerover", "focusin"]) at("words").addEventListener(event, pointFrom);
+  at("words").addEventListener("pointerleave", () => point([]));
+  at("words").addEventListener("focusout", () => point([]));
+
+  // Lines are thin: the nearest piece a few pixels about the pointer is meant too.
+  const about = [0, 1.5, 3, 4.5, 6].flatMap((far) => [0, 45, 90, 135, 180, 225, 270, 315].map((degrees) => {
+    const angle = degrees * Math.PI / 180;
+    return [far * Math.cos(angle), far * Math.sin(angle)];
+  }));
+
+  function pieceNear({ clientX, clientY }) {
+    for (const [dx, dy] of about) {
+      const found = document.elementFromPoint(clientX + dx, clientY + dy)?.closest("[data-act]");
+      if (found) return found;
+    }
+    return null;
+  }
+
+  function lightReadings(piece) {
+    const { act, at: place } = piece?.dataset || {};
+    const bears = ([named, places]) =>
+      String(named) === act && (!places || place === undefined || places.includes(Number(place)));
+    for (const reading of slides[current].querySelectorAll("[data-lit]")) {
+      reading.classList.toggle("lit", Boolean(piece) && namesOf(reading).some(bears));
     }
   }
+  at("desk").addEventListener("pointermove", (event) => event.buttons || lightReadings(pieceNear(event)));
+  at("desk").addEventListener("pointerleave", () => lightReadings(null));
 
-  // A box of the page, or all of it, below the tools; the window need not have the shape of the page.
-  function look(box) {
-    const { width, height } = sheet();
-    const [left, top, wide, high] = box || [0, 0, width, height];
-    const fit = Math.min(stage.clientWidth / width, stage.clientHeight / height) || 1;
-    const tools = document.querySelector(".zoom").getBoundingClientRect();
-    const above = (tools.bottom - stage.getBoundingClientRect().top + 4) / fit;
-    camera.zoom = Math.min(stage.clientWidth / fit / wide, (stage.clientHeight / fit - above) / high, 8);
-    camera.x = width / 2 - camera.zoom * (left + wide / 2);
-    camera.y = (height + above) / 2 - camera.zoom * (top + high / 2);
-    place();
+  // --- the steps by themselves ---------------------------------------------------------------------------------------
+
+  // How long a reader needs for a letter [ms], besides a look at the drawing, which takes as long as 25.
+  const letter = 45;
+  let timer = 0;
+
+  function rest() {
+    const letters = at("announcement").textContent.length;
+    timer = setTimeout(() => {
+      on();
+      if (atEnd()) halt();
+      else rest();
+    }, letter * (25 + letters) / Number(at("pace").value));
   }
 
-  // Client coordinates in the page's millimetres, before the camera.
-  function onPage(x, y) {
-    const matrix = pages[shown].getScreenCTM().inverse();
-    return new DOMPoint(x, y).matrixTransform(matrix);
+  function run() {
+    if (atEnd()) go(0, 0);
+    mark(true);
+    rest();
   }
 
-  function zoomAbout(factor, centre) {
-    const zoom = Math.max(0.4, Math.min(40, camera.zoom * factor)), ratio = zoom / camera.zoom;
-    camera.x = centre.x - ratio * (centre.x - camera.x);
-    camera.y = centre.y - ratio * (centre.y - camera.y);
-    camera.zoom = zoom;
-    place();
+  function halt() {
+    clearTimeout(timer);
+    timer = 0;
+    mark(false);
   }
 
-  function zoomFromMiddle(factor) {
-    const box = stage.getBoundingClientRect();
-    zoomAbout(factor, onPage(box.left + box.width / 2, box.top + box.height / 2));
+  function mark(running) {
+    document.body.classList.toggle("playing", running);
+    for (const name of ["title", "aria-label"]) at("run").setAttribute(name, running ? words.halt : words.run);
   }
 
-  function setFollow(on) {
-    follow = on;
-    at("follow").setAttribute("aria-pressed", on);
-    turnTo(steps[current].page);
-    look(on ? steps[current].box : null);
+  // Who does something else reads at an own pace.
+  for (const act of ["pointerdown", "keydown", "wheel"]) {
+    document.addEventListener(act, (event) => {
+      if (timer && event.key !== " " && !event.target.closest?.("#run, #pace")) halt();
+    }, { capture: true, passive: true });
   }
 
-  const touching = new Map();
+  // --- the protocol --------------------------------------------------------------------------------------------------
 
-  function spread() {
-    const [a, b] = [...touching.values()];
-    return { length: Math.hypot(a.x - b.x, a.y - b.y), x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+  function showProtocol(open) {
+    at("protocol").hidden = !open;
+    at("words").hidden = open;
+    document.body.classList.toggle("listing", open);
+    at("list").setAttribute("aria-expanded", open);
+    if (open) at(`row-${current}`).scrollIntoView({ block: "nearest" });
   }
-
-  stage.addEventListener("pointerdown", (event) => {
-    if (event.target.closest("button")) return;
-    touching.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    stage.setPointerCapture(event.pointerId);
-    stage.classList.add("dragged");
+  at("protocol").addEventListener("change", ({ target }) => {
+    for (const { board } of panes) board.putAway(Number(target.dataset.shows), !target.checked);
   });
-  stage.addEventListener("pointermove", (event) => {
-    const before = touching.get(event.pointerId);
-    if (!before) return;
-    const pinch = touching.size === 2 ? spread() : null;
-    const from = onPage(before.x, before.y), to = onPage(event.clientX, event.clientY);
-    touching.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    if (pinch) {
-      const now = spread();
-      zoomAbout(now.length / (pinch.length || 1), onPage(now.x, now.y));
-    }
-    camera.x += (to.x - from.x) / touching.size;
-    camera.y += (to.y - from.y) / touching.size;
-    place();
-  });
-  for (const end of ["pointerup", "pointercancel"]) {
-    stage.addEventListener(end, (event) => {
-      touching.delete(event.pointerId);
-      if (!touching.size) stage.classList.remove("dragged");
-    });
-  }
-  stage.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoomAbout(Math.exp(-event.deltaY / 400), onPage(event.clientX, event.clientY));
-  }, { passive: false });
 
   // --- keys and buttons ------------------------------------------------------------------------------------------
 
   const keys = {
-    ArrowRight: () => go(current + 1), ArrowDown: () => go(current + 1),
-    ArrowLeft: () => go(current - 1), ArrowUp: () => go(current - 1),
-    Home: () => go(0), End: () => go(steps.length - 1),
+    ArrowRight: on, ArrowDown: on, ArrowLeft: back, ArrowUp: back, Home: () => go(0, 0), End: () => go(last),
     PageDown: () => goToChapter(1), PageUp: () => goToChapter(-1),
-    "+": () => zoomFromMiddle(1.25), "=": () => zoomFromMiddle(1.25), "-": () => zoomFromMiddle(0.8),
-    0: () => setFollow(false), f: () => setFollow(!follow), F: () => setFollow(!follow),
+    "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(0.8), 0: () => setFollow(false),
+    f: () => setFollow(!follow), p: () => showProtocol(at("protocol").hidden), " ": () => (timer ? halt() : run()),
   };
+  const shifted = { ArrowRight: wholeOn, ArrowDown: wholeOn, ArrowLeft: wholeBack, ArrowUp: wholeBack };
   const tabs = [...document.querySelectorAll("[role=tab]")];
 
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, [role=tablist]")) return;
-    if (tabs.length && /^m$/i.test(event.key)) return show(tabs.findIndex((tab) => tab.ariaSelected !== "true"));
-    if (at("construction").hidden || !keys[event.key]) return;
+    const { target, key } = event, lower = key.length === 1 ? key.toLowerCase() : key;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.closest("select, [role=tablist]")) return;
+    if (tabs.length && lower === "m") return show(tabs.findIndex((tab) => tab.ariaSelected !== "true"));
+    if (at("construction").hidden) return;
+    if (key === "Escape" && !at("protocol").hidden) {
+      showProtocol(false);
+      at("list").focus();
+    }
+    if (key === " " && target.closest("button, summary, input")) return;
+    // Who is in the words scrolls them.
+    if (/^(ArrowUp|ArrowDown|PageUp|PageDown|Home|End| )$/.test(key) && target.closest(".words")) return;
+    const act = (event.shiftKey && shifted[key]) || keys[lower];
+    if (!act) return;
     event.preventDefault();
-    keys[event.key]();
+    act();
   });
 
   const clicks = {
-    first: () => go(0), previous: () => go(current - 1), next: () => go(current + 1), last: () => go(steps.length - 1),
-    closer: () => zoomFromMiddle(1.25), farther: () => zoomFromMiddle(0.8), whole: () => setFollow(false),
-    follow: () => setFollow(!follow), print: () => print(), theme: switchTheme,
+    "whole-back": wholeBack, previous: back, next: on, "whole-on": wholeOn, run: () => (timer ? halt() : run()),
+    closer: () => zoom(1.25), farther: () => zoom(0.8), whole: () => setFollow(false), follow: () => setFollow(!follow),
+    list: () => showProtocol(at("protocol").hidden), close: () => { showProtocol(false); at("list").focus(); },
+    print: () => print(), "print-list": () => print(), theme: switchTheme,
   };
   for (const [id, act] of Object.entries(clicks)) at(id).addEventListener("click", act);
   at("slider").addEventListener("input", () => go(Number(at("slider").value) - 1));
-  document.addEventListener("click", (event) => {
-    const to = event.target.closest("[data-step]"), page = event.target.closest("[data-page]");
-    if (to) go(Number(to.dataset.step));
-    if (page) { turnTo(Number(page.dataset.page)); look(null); }
+  document.addEventListener("click", ({ target }) => {
+    const to = target.closest("[data-step]"), row = target.closest("#protocol tbody tr");
+    const page = target.closest("[data-page]"), place = target.closest("[data-part]");
+    if (place) go(current, Number(place.dataset.part));
+    else if (target.closest(".whole-step")) go(current);
+    else if (row && !target.closest("label")) go(Number(row.dataset.row));
+    else if (to) go(Number(to.dataset.step), 0);
+    if (page) {
+      at("desk").dataset.split = "";
+      panes[0].camera.look(Number(page.dataset.page), null);
+      markSheet(Number(page.dataset.page));
+    }
   });
 
   // --- construction or mechanism, light or dark ------------------------------------------------------------------
@@ -200,7 +336,7 @@
       at(tab.getAttribute("aria-controls")).hidden = k !== number;
     });
     document.dispatchEvent(new CustomEvent("shown", { detail: tabs[number].getAttribute("aria-controls") }));
-    if (number === 0) look(follow ? steps[current].box : null);
+    if (number === 0) look();
   }
 
   tabs.forEach((tab, k) => {
@@ -217,10 +353,10 @@
     document.documentElement.dataset.theme = dark === "dark" ? "light" : "dark";
   }
 
-  new ResizeObserver(() => stage.clientWidth && look(follow ? steps[current].box : null)).observe(stage);
+  new ResizeObserver(() => at("desk").clientWidth && look()).observe(at("desk"));
   document.body.classList.add("running");
   document.body.classList.toggle("calm", calm.matches);
   calm.addEventListener("change", () => document.body.classList.toggle("calm", calm.matches));
-  go((Number(location.hash.slice(1)) || 1) - 1);
-  addEventListener("hashchange", () => go((Number(location.hash.slice(1)) || 1) - 1));
+  goToAddress();
+  addEventListener("hashchange", goToAddress);
 })();

@@ -1,0 +1,280 @@
+"""The velocity and the acceleration of a roller on an arc, by the plans of a crank drive: the steps of the drawing.
+
+See :mod:`~graphcam.constructions.arc_roller` for what is drawn.
+"""
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from graphcam.constructions.arc_outline import FLAT, Move, in_a_row, in_parts
+from graphcam.constructions.arc_profile import run
+from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
+from graphcam.drafting.euclid import UP, unit
+from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.ink import Caption, Part, Step, View, say
+from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
+from graphcam.drafting.scale import Scale, ratio_text, standard_scale
+from graphcam.given.laws import Floats
+
+PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
+ACCELERATIONS = View("accelerations", say("The accelerations at all stations"), "accelerations x", "accelerations y")
+SHOWN = 2, 0.5
+"""The plan is drawn for the station in the middle of the arc FD."""
+SIZE = 190.0
+"""A plan is drawn at the largest standard scale at which it is not larger [mm]."""
+BEYOND = 7.0
+"""How far the follower's line runs on beyond the plan [mm]."""
+NOTHING = 5e-3
+"""So short a length [mm] is none."""
+
+
+def shown(stations: ArcStations) -> int:
+    """The station for which the plan is drawn."""
+    on, share = SHOWN
+    return stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
+
+
+def worked(stations: ArcStations, values: Floats) -> int:
+    """The station that is told in full: that of the plan, or the first one at which there is a value."""
+    at = shown(stations)
+    return at if np.isfinite(values[at]) else int(np.argmax(np.isfinite(values)))
+
+
+def plans(rolled: RollerOnArcs, ends: Iterable[str]) -> list[Step]:
+    """The plan at one station move by move, then that of every station.
+
+    ends : the readings of the acceleration where arcs begin and end
+    """
+    return [*_plan(rolled), _velocities(rolled), _accelerations(rolled, ends)]
+
+
+# --- at one station --------------------------------------------------------------------------------------------------
+
+
+def _plan(rolled: RollerOnArcs) -> list[Step]:
+    """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
+    at, mu_l = shown(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
+    station, upright = rolled.givens.stations.names[at], UP / rolled.first("ray")[at]
+    places: Points = np.array([0j, *(rolled.first(name)[at] for name in PLACES)]) * upright
+    if np.isnan(places).any():
+        said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
+        return [Step(say("Velocity and acceleration"), said, PLAN, (), why=FLAT)]
+    scale = standard_scale(float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l, SIZE)
+    hand = showing(rolled)
+    _crank_drive(hand, rolled, at, upright * mu_l / scale.per_mm)
+    return [_velocity(hand, rolled, at, scale), _acceleration(hand, rolled, at, scale)]
+
+
+PLACES = ("B", "C", "K", "right", "beyond", "N", "M")
+
+
+def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> None:
+    """O, B and C of a station in another view, and the plans drawn from them."""
+    o = hand.enlarged("O", rolled.acts["O"].first, rolled.acts["O"].first, times)
+    b, c = (hand.enlarged(name, rolled.acts[name].first[at], rolled.acts["O"].first, times) for name in "BC")
+    follower, rod = hand.join("follower", o, b), hand.join("rod", b, c)
+    outward = rod.turned(-1)
+    k = hand.cross("K", rod, hand.perpendicular("across", follower, o))
+    hand.join("OK", o, k)
+    erected = hand.perpendicular("erected", outward, c)
+    e = hand.lay_off("E", erected, erected, between(c, k))
+    beyond = hand.cross("N′", hand.perpendicular("square", hand.join("leg", e, b), e), rod)
+    n = hand.lay_off("N", c, outward, between(c, beyond))
+    m = hand.cross("M", hand.perpendicular("to M", outward, n), follower)
+    hand.join("OM", o, m)
+
+
+def _segment(hand: Hand, line: str, start: str, end: str, role: Role = Role.CONSTRUCTION) -> Line:
+    """The part of a line between two places on it."""
+    drawn = hand.acts[line]
+    ends = np.array([hand.acts[name].place for name in (start, end)])
+    return Line(ends, role, of=drawn.act, index=drawn.index.repeat(2))
+
+
+def _far(hand: Hand, start: str, end: str) -> float:
+    return abs(hand.acts[end].place - hand.acts[start].place)
+
+
+def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
+    """The rod from B to its centre, and K."""
+    arcs, acts, station, centre = rolled.givens.arcs, hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
+    c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(run(arcs))
+    values = {"name": station, "centre": centre, "arc": ARCS[SHOWN[0]], "ratio": ratio_text(scale.per_mm)}
+    values |= {"times": arcs.givens.mu_l.per_mm / scale.per_mm, "mu": scale.per_mm, "v": float(rolled.value("v")[at])}
+    values |= {"ob": _far(hand, "O", "B"), "oc": _far(hand, "O", "C"), "bc": _far(hand, "B", "C")}
+    values |= {"paper": _far(hand, "O", "K"), "side": say("on the left") if c.real < 0 else say("on the right")}
+    opening = say("Station {name}, on the arc {arc}, is drawn upright at {ratio}: every length times {times:g}.")
+    moves: list[Move] = [
+        (
+            say("Draw the follower's line upright, and on it O and B above it: OB = {ob:.2f} mm."),
+            *(acts[name] for name in ("O", "B", "follower")),
+        ),
+        (
+            say("{centre}: with the dividers {oc:.2f} mm from O and {bc:.2f} mm from B, {side} of the line."),
+            acts["C"],
+        ),
+        (
+            say("Draw the rod from B through {centre} as far as the level line through O: they meet in K."),
+            *(acts[name] for name in ("rod", "across", "K")),
+        ),
+        (say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad is the velocity v."), acts["OK"]),
+    ]
+    axis = np.array([min(0.0, m.imag, c.imag) - BEYOND, b.imag + BEYOND]) * UP
+    names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
+    marks: tuple[Mark, ...] = (
+        Line(axis, Role.AXIS, of=acts["follower"].act, index=acts["follower"].index.repeat(2)),
+        *(acts["rod"].way(Role.CURVE), acts["OK"].way(Role.RESULT), _segment(hand, "rod", "B", "K", Role.CURVE)),
+        *(acts[name].dots() for name in "OBCK"),
+        *(acts[name].label(text, towards) for name, text, towards in names),
+    )
+    parts = in_parts(moves, values)
+    why = say(
+        "While the roller runs on one arc, O{centre} is a crank and {centre}B a rod, and OK is ds/dφ, as in every "
+        "velocity plan.",
+        centre=centre,
+    )
+    said = in_a_row([Part(opening.where(**values), ()), *parts])
+    return Step(say("Velocity at station {name}", name=station), said, PLAN, marks, why=why, parts=parts)
+
+
+def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
+    """The right angle that cuts N′ off, N, and M."""
+    acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
+    a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
+    directed = say("it is directed towards the cam centre, for M lies on the side of B")
+    if a > 0:
+        directed = say("it is directed away from the cam centre, for M lies beyond O")
+    values = {"centre": centre, "ck": _far(hand, "C", "K"), "cn": _far(hand, "C", "N′"), "directed": directed}
+    values |= {"om": _far(hand, "O", "M"), "mu": scale.per_mm, "a": a}
+    moves: list[Move] = [
+        (
+            say(
+                "Square to the rod in {centre}, to the left going from {centre} to B, lay off {centre}E = {centre}K = "
+                "{ck:.2f} mm."
+            ),
+            *(acts["erected"], acts["E"]),
+        ),
+        (
+            say("Join E and B; square to EB, a line through E cuts {centre}N′ = {cn:.2f} mm off the rod."),
+            *(acts[name] for name in ("leg", "square", "rod", "N′")),
+        ),
+        (say("With the dividers lay this length off from {centre} towards B: N."), acts["N"]),
+        (say("Square to the rod, a line through N meets the follower's line in M."), acts["to M"], acts["M"]),
+        (say("OM = {om:.2f} mm × {mu:g}: a = {a:.3f} mm/rad² is the acceleration; {directed}."), acts["OM"]),
+    ]
+    marks: tuple[Mark, ...] = (
+        *(_segment(hand, "erected", "C", "E"), acts["leg"].way(Role.CONSTRUCTION)),
+        *(_segment(hand, "square", "E", "N′"), _segment(hand, "rod", "N′", "C"), _segment(hand, "to M", "N", "M")),
+        acts["OM"].way(Role.RESULT),
+        *(acts[name].dots() for name in ("E", "N′", "N", "M")),
+        *(acts["E"].label("E", side + 0j), acts["N′"].label("N′", -side + 0j)),
+        *(acts["N"].label("N", side + 0j), acts["M"].label("M", -side + 0j)),
+    )
+    parts = in_parts(moves, values)
+    why = say(
+        "In a right triangle the height squared is the product of the parts of the base, so {centre}N is "
+        "{centre}K²/{centre}B, the rod's normal acceleration.",
+        centre=centre,
+    )
+    title = say("Acceleration at station {name}", name=station)
+    return Step(title, in_a_row(parts), PLAN, marks, why=why, parts=parts)
+
+
+# --- at all stations -------------------------------------------------------------------------------------------------
+
+UNREAD = say("Station {title}: a line crosses another at less than a degree, and nothing can be read.")
+
+
+def _velocities(rolled: RollerOnArcs) -> Step:
+    """K of every station, in the drawing of the roller itself."""
+    stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
+    rods, across, k = (rolled.acts[name].first for name in ("rods", "across", "K"))
+    paper, alpha = np.abs(k.shown), np.degrees(rolled.first("alpha"))
+    one = say(
+        "Station {name}: draw the rod from B{name} towards {centre} as far as the line through O square to ray {name}; "
+        "OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and the rod stands at {alpha:.2f}° to the ray."
+    )
+
+    def values(j: int) -> Mapping[str, object]:
+        """What is drawn and read at a station."""
+        named = {"name": stations.names[j], "title": stations.names[j], "centre": CENTRES[stations.arc[j]], "mu": mu}
+        return named | {"paper": paper[j], "v": float(rolled.value("v")[j]), "alpha": alpha[j]}
+
+    none = say("Station {name}: the rod lies on ray {name}, so K is in O; neither a velocity nor a pressure angle.")
+
+    def told(j: int) -> Caption:
+        """The caption of a station's part."""
+        said = UNREAD if np.isnan(paper[j]) else one if paper[j] > NOTHING else none
+        return said.where(**values(j))
+
+    parts = tuple(Part(told(j[0]), (rods[j], across[j], k[j])) for j in stations.places.values())
+    named = [j for j, *_ in stations.places.values() if not np.isnan(paper[j])]
+    out = across.directions * -run(rolled.givens.arcs)
+    marks: tuple[Mark, ...] = (
+        Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION, of=rods.act, index=rods.index),
+        Segments(np.zeros_like(k.shown), k.shown, Role.CURVE, of=across.act, index=across.index),
+        k.dots(),
+        *(k[j].label(stations.names[j], complex(unit(out)[j]), small=True) for j in named),
+    )
+    said = say(
+        "Do the same at every station, in the drawing of the roller itself, where K is numbered as its ray. At station "
+        "{name} OK is {paper:.2f} mm there: × {mu:g} = {v:.3f} mm/rad. The angle between rod and ray, read with the "
+        "protractor, is the pressure angle: {alpha:.2f}°. Repeat for the others."
+    ).where(**values(worked(stations, paper)))
+    why = say("The rod is the normal of the profile, so its angle with the follower's motion is the pressure angle.")
+    return Step(say("Velocities at all stations"), said, ROLLER, marks, ("v", "alpha"), why=why, parts=parts)
+
+
+def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
+    """N and M of every station, in a view of their own, for M may lie far out."""
+    stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
+    hand, o = showing(rolled), rolled.acts["O"].first
+    places: Points = np.concatenate([[0j], *(rolled.first(name) for name in "BNM")])
+    known = places[~np.isnan(places)]
+    scale = standard_scale(float(max(np.ptp(known.real), np.ptp(known.imag))) * mu, SIZE)
+    b, n, m, across = (
+        hand.enlarged(name, rolled.acts[name].first, o, mu / scale.per_mm)
+        for name in ("B", "N", "M", "perpendiculars in N")
+    )
+    rays, centre = hand.join("rays", hand.enlarged("O", o, o, 1.0), b), [CENTRES[arc] for arc in stations.arc]
+    ck, cn, om = (
+        np.abs(rolled.first(end) - start)
+        for end, start in (("K", rolled.first("C")), ("N", rolled.first("C")), ("M", 0j))
+    )
+    one = say(
+        "Station {title}: {centre}E = {centre}K = {ck:.2f} mm, {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, "
+        "{way}: × {mu:g}, a = {a:.3f} mm/rad²."
+    )
+
+    def values(j: int) -> Mapping[str, object]:
+        """What is drawn and read at a station."""
+        a = float(rolled.value("a")[j])
+        way = say("beyond O") if a > 0 else say("towards B")
+        named = {"title": stations.titles[j], "name": stations.names[j], "centre": centre[j], "mu": mu, "way": way}
+        return named | {"ck": ck[j], "cn": cn[j], "om": om[j], "a": a}
+
+    parts = tuple(
+        Part((UNREAD if np.isnan(om[j]) else one).where(**values(j)), (rays[j], b[j], n[j], across[j], m[j]))
+        for j in range(stations.u.size)
+    )
+    named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
+    marks: tuple[Mark, ...] = (
+        rays.ways(Role.CONSTRUCTION),
+        Segments(np.zeros_like(m.shown), m.shown, Role.CURVE, of=rays.act, index=rays.index),
+        Segments(n.shown, m.shown, Role.CONSTRUCTION, of=across.act, index=across.index),
+        *(b.dots(Role.CONSTRUCTION), m.dots(), n.dots(Role.CONSTRUCTION)),
+        *(m[j].label(stations.names[j], complex(unit(m.shown)[j]), small=True) for j in named),
+    )
+    said = say(
+        "Do the same at every station in the drawing of the roller; here, at {ratio}, its rays, B, N and M are shown, "
+        "the lengths given are those in the drawing of the roller. Station {name}: lay {centre}K = {ck:.2f} mm off "
+        "square to the rod, find {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, {way}: × {mu:g}, "
+        "a = {a:.3f} mm/rad². Repeat for the others."
+    ).where(ratio=ratio_text(scale.per_mm), **values(worked(stations, om)))
+    why = say(
+        "Where two arcs meet, the rod changes its length at once, so the acceleration jumps, and such a station has "
+        "two points M."
+    )
+    title = say("Accelerations at all stations")
+    return Step(title, said, ACCELERATIONS, marks, ("a", *ends), why=why, parts=parts)

@@ -1,0 +1,83 @@
+"""The closed profile of a cam of three arcs: a rise, an upper dwell, the rise mirrored as the return, a lower dwell."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.hand import showing
+from graphcam.drafting.ink import Construction, say
+from graphcam.drafting.marks import Arc, Points, Role
+from graphcam.drafting.scale import Scale
+from graphcam.given.motion import FULL_TURN
+from graphcam.given.three_arcs import ThreeArcs
+from graphcam.plane import cross
+
+
+@dataclass(frozen=True, eq=False)
+class ThreeArcsGivens:
+    """What lies on the board; see :func:`~graphcam.constructions.arc_outline.three_arcs`."""
+
+    given: ThreeArcs
+    dwell: float
+    mu_l: Scale
+
+
+ArcOutline = Construction[ThreeArcsGivens]
+SENSE = {1: say("clockwise"), -1: say("anticlockwise")}
+"""In which the follower is turned about a cam of that :func:`run`."""
+
+
+def run(arcs: ArcOutline) -> int:
+    """sigma of the first sample: +1 where the way from A to D is clockwise, so that the cam turns counter-clockwise."""
+    return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
+
+
+def middle_of_dwell(arcs: ArcOutline) -> Drawn:
+    """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
+    turn = -run(arcs) * arcs.givens.dwell / 2
+    return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
+
+
+def outline(
+    arcs: ArcOutline, axis: Drawn, circles: Sequence[Drawn], joints: Points, role: Role
+) -> list[tuple[Arc, Drawn]]:
+    """The closed profile of the first sample, arc by arc, each with the circle that it is a part of.
+
+    axis : the middle of the upper dwell
+    circles : about C2, C3 and C1, and about O the outer and the base circle
+    joints : (4,) where the arcs of the rise begin, and where the last one ends
+
+    The three arcs of the rise, the upper dwell if there is one, the return from the top down, the lower dwell.
+    """
+    hand = showing(arcs)
+    image = hand.mirrored("joints of the return", hand.given("joints", joints), axis).points
+    rise: list[tuple[Arc, Drawn]] = []
+    back: list[tuple[Arc, Drawn]] = []
+    for k, circle in enumerate(circles[:3]):
+        turn = float(np.angle((joints[k + 1] - circle.place) / (joints[k] - circle.place)))
+        other = hand.mirrored(f"{circle.act.name} on the return", circle.first, axis)
+        rise.append((arc(circle, joints[k], turn, role), circle))
+        back.append((arc(other, image[k], -turn, role), other))
+    dwell, angle = arcs.givens.dwell, float(abs(np.angle(joints[3] / joints[0])))
+    up = [(arc(circles[3], joints[3], -run(arcs) * dwell, role), circles[3])] if dwell else []
+    down = arc(circles[4], image[0], -run(arcs) * (FULL_TURN - 2 * angle - dwell), role)
+    return [*rise, *up, *back[::-1], (down, circles[4])]
+
+
+def arc(circle: Drawn, start: complex, turn: float, role: Role, overhang: float = 0.0) -> Arc:
+    """The part of a circle that begins at a point and turns by an angle [rad], counter-clockwise positive.
+
+    overhang : how far it runs on beyond both ends [mm]
+    """
+    radius, first = float(np.asarray(circle.first.radius).item()), float(np.angle(start - circle.place))
+    low, high = sorted((first, first + turn))
+    more = overhang / radius
+    return Arc(circle.place, radius, low - more, high + more, role, of=circle.act, index=circle.index)
+
+
+def cam(arcs: ArcOutline, axis: Drawn) -> list[tuple[Arc, Drawn]]:
+    """The closed profile of the cam; see :func:`outline`."""
+    circles = [arcs.acts[f"circle {name}"] for name in ("about C2", "about C3", "about C1", "through D", "through A")]
+    return outline(arcs, axis, circles, np.array([arcs.acts[name].place for name in "AGFD"]), Role.RESULT)

@@ -1,0 +1,143 @@
+"""The lines at the permitted angle to the normals of an arm's positions, as steps: beyond them no cam centre may lie.
+
+A line is known by the name of its act, "limits: rise", "limits: return", "limits: rest" or "limits: reach".
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.constructions.arm_positions import ArmPositions, directions, example, stroke
+from graphcam.constructions.axes import degrees, station_names
+from graphcam.constructions.views import REGION, at_scale
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import unit
+from graphcam.drafting.hand import showing
+from graphcam.drafting.ink import Part, Step, Words, say
+from graphcam.drafting.marks import AngleMark, Line, Role, Segments
+from graphcam.given.follower import sense
+from graphcam.given.limits import Limits
+from graphcam.words import sequence
+
+SHOWN_LINE = 0.77
+"""Length of the thin line at the limit through each end, as a fraction of the arm."""
+
+
+@dataclass(frozen=True)
+class _AtLimit:
+    """Lines at a limit to the arm's normal: to which side (1 towards the pivot), and at what angle [rad]."""
+
+    side: int
+    limit: float
+
+    @property
+    def said(self) -> dict[str, Words]:
+        """How they are turned from the normal that points down, and on which side of them A must lie."""
+        if self.side > 0:
+            return {"limit": degrees(self.limit), "turn": say("anticlockwise, towards C"), "kept": say("away from C")}
+        return {"limit": degrees(self.limit), "turn": say("clockwise, away from C"), "kept": say("towards C")}
+
+
+def _downwards(drawn: ArmPositions, lines: Drawn) -> Segments:
+    """The lines at a limit as far as they matter: from the ends down towards the region."""
+    along = unit(lines.first.directions)
+    down = SHOWN_LINE * abs(drawn.acts["start"].place) * np.where(along.imag < 0, along, -along)
+    return Segments(lines.shown, lines.shown + down, Role.CONSTRUCTION, of=lines.act, index=lines.index)
+
+
+def family_step(drawn: ArmPositions, name: str, direction: int, limit: float) -> Step:
+    """The lines at the limit of all arms of one direction of motion."""
+    integrated, tips, lines = drawn.givens.integrated, drawn.acts["tips"], drawn.acts[f"limits: {name}"]
+    so = _AtLimit(direction * sense(drawn.givens.rotation), limit)
+    at, k = np.flatnonzero(directions(drawn.givens) == direction).tolist(), example(integrated, tips, direction)
+    named, own = station_names(integrated.givens.stations), at.index(k)
+    title, phase = say("Lines at the limit of the rise"), say("rise")
+    if direction < 0:
+        title, phase = say("Lines at the limit of the return"), say("return")
+    said = say(
+        "At every D of the {phase} draw the normal to the arm downwards with the set squares, and from D with the "
+        "protractor the line at {limit} to this normal, turned from it {turn}. The cam centre A must lie on its side "
+        "{kept}. Station {name} is shown with its normal. Repeat for the others."
+    )
+    first = say("D{name}: with the set squares draw the normal to arm {name} downwards.")
+    second = say("Line {name}: from D{name} set off {limit} from the normal, {turn}. A must lie on its side {kept}.")
+    again = say(
+        "Line {name}: from D{name} set off {limit} from the normal to arm {name}, {turn}. A must lie on its side "
+        "{kept}."
+    )
+    normal, shown, angle = _normal(drawn, k, lines[own], so)
+    others = [Part(again.where(name=named[n], **so.said), (lines[i],)) for i, n in enumerate(at) if n != k]
+    return Step(
+        *(title, said.where(phase=phase, name=named[k], **so.said), at_scale(REGION, drawn.givens.mu_l)),
+        (shown, _downwards(drawn, lines), angle),
+        why=say(
+            "Because seen from D the cam centre makes the pressure angle with the normal to the arm, and on the "
+            "{phase} it may be {limit} at most."
+        ).where(phase=phase, limit=degrees(limit)),
+        parts=(
+            Part(first.where(name=named[k]), (normal,)),
+            Part(second.where(name=named[k], **so.said), (lines[own],)),
+            *others,
+        ),
+    )
+
+
+def _normal(drawn: ArmPositions, station: int, line: Drawn, so: _AtLimit) -> tuple[Drawn, Line, AngleMark]:
+    """The normal to an arm at its D, what is drawn of it, and the angle from there to the line at the limit."""
+    hand, tip, length = showing(drawn), drawn.acts["tips"].first[station], abs(drawn.acts["start"].place)
+    normal = hand.perpendicular("normal to the arm", drawn.acts["arms"].first[station], tip)
+    begin = float(np.angle(normal.directions))
+    start, end = sorted((begin, begin + so.side * so.limit))
+    angle = AngleMark(tip.place, 0.25 * length, start, end, degrees(so.limit), line.act, line.index)
+    return normal, stroke(normal, 0.4 * length), angle
+
+
+def dwells_step(drawn: ArmPositions, limits: Limits) -> Step:
+    """The lines at the limits where the arm dwells."""
+    sigma, top = sense(drawn.givens.rotation), highest_arm(drawn)
+    families = {"rest": _AtLimit(-sigma, limits.rise)}
+    if limits.return_ is not None:
+        families["rest after the return"] = _AtLimit(sigma, limits.return_)
+    at = say("From {place} set off {limit} from the normal downwards, {turn}. A must lie on the side {kept}.")
+    parts, marks = list[Part](), list[Segments]()
+    for name, so in families.items():
+        lines = drawn.acts[f"limits: {name}"]
+        marks.append(_downwards(drawn, lines))
+        parts += [Part(at.where(place=place, **so.said), (lines[n],)) for n, place in enumerate(("B₀", top))]
+    each = say("{limit} {turn} (A on the side {kept})")
+    said = say(
+        "In a dwell D is the end of the arm. From B₀ and from the end {top} of the highest arm draw lines at the limit "
+        "to the other side of the normal, set off from it with the protractor: {turns}."
+    ).where(top=top, turns=sequence([each.where(**so.said) for so in families.values()], "; "))
+    return Step(
+        *(say("Lines at the limit in the dwells"), said, at_scale(REGION, drawn.givens.mu_l), tuple(marks)),
+        why=say(
+            "Because in a dwell nothing is laid off along the arm, and the angle has its limit to the other side as "
+            "well."
+        ),
+        parts=tuple(parts),
+    )
+
+
+def highest_arm(drawn: ArmPositions) -> str:
+    """The name of the highest arm."""
+    integrated = drawn.givens.integrated
+    return station_names(integrated.givens.stations)[int(np.argmax(integrated.first("s")))]
+
+
+def reach_step(drawn: ArmPositions) -> Step:
+    """The lines of the lowest and of the highest arm, which the cam centre lies below."""
+    lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
+    out = lines.shown - 1.3 * abs(drawn.acts["start"].place) * unit(lines.first.directions)
+    produced = Segments(lines.shown, out, Role.CONSTRUCTION, of=lines.act, index=lines.index)
+    lowest, highest = say("Produce CB₀ with the ruler; A must lie below it."), say("Produce arm {top} with the ruler.")
+    return Step(
+        say("The arm produced"),
+        say(
+            "With the ruler produce CB₀ and the highest arm, {top}, beyond their ends. A must lie below both.", top=top
+        ),
+        at_scale(REGION, drawn.givens.mu_l),
+        (produced,),
+        why=say("Because the cam lies below the arm, which must not swing across the line of centres CA."),
+        parts=(Part(lowest, (lines[0],)), Part(highest.where(top=top), (lines[1],))),
+    )

@@ -1,0 +1,167 @@
+"""The combined diagram of displacement and velocity, in which a translating follower's cam centre is found.
+
+At every displacement s_i on the line of motion, v_i is laid off turned by 90 degrees in the sense of the cam's
+rotation, to D_i, in the scale of s.  Seen from a cam centre A, the angle between A D_i and the line of motion is the
+pressure angle.
+"""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphcam.constructions.axes import OVERHANG, numbers, pieces_of, station_names, turning
+from graphcam.constructions.integration import Integrated
+from graphcam.constructions.views import COMBINED
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, showing
+from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, say
+from graphcam.drafting.marks import Line, Role
+from graphcam.given.follower import Rotation, sense
+from graphcam.words import say_in, sequence
+
+
+def velocities(hand: Hand, integrated: Integrated, rotation: Rotation) -> Drawn:
+    """The ends of v, laid off at the displacements in the scale of s, turned by 90 degrees in the sense of the cam."""
+    s, v = integrated.readings["s"], integrated.readings["v"]
+    # The heights are projected across from the displacement diagram; the segments are set with dividers, in its scale.
+    heights = hand.project("displacements", hand.carry(s), hand.given("line of motion", along=UP))
+    return hand.lay_off("ends", heights, -sense(rotation) * RIGHT, hand.carry(v, v.scale / s.scale))
+
+
+def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
+    """The line on which the cam centre lies at an offset [mm], in the scale of s: downwards."""
+    return hand.erect("line of the offset", hand.lay_off("offset", start, -RIGHT, hand.at_scale(offset, s)), -UP)
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+NOTHING = 0.005
+"""A length of less [mm of paper] is told as none."""
+WORKED = 1 / 3
+"""So far through the first rise stands the station that is told in full."""
+
+
+def aside(x: float) -> Caption:
+    """To which side something lies, to the right if ``x`` is positive.
+
+    >>> str(aside(-2.0))
+    'to the left'
+    """
+    return say_in("aside", "to the left") if x < 0 else say_in("aside", "to the right")
+
+
+def worked_station(integrated: Integrated) -> int:
+    """The station that is told in full: of the first rise, with a length to lay off."""
+    stations, v = integrated.givens.stations, integrated.first("v")
+    first = stations.moving == stations.moving[pieces_of(integrated.givens.motion, stations, 1)[0].start]
+    return int(np.argmin(np.where(first & (v > np.max(v) / 10), np.abs(stations.u - WORKED), np.inf)))
+
+
+def laid_off(region: Construction[Any], bottom: float) -> Step:
+    """The displacements up the line of motion, and at each the velocity."""
+    integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
+    stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
+    s, v, factor = integrated.first("s"), integrated.first("v"), _factor(integrated)
+    # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
+    rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
+    apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
+    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + OVERHANG]), Role.AXIS),)
+    marks = (
+        *line,
+        *(ends.from_(heights, Role.CONSTRUCTION), heights.dots(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
+        *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
+        start.label("B₀", towards=-1j),
+    )
+    why = say(
+        "Because the line from a cam centre to the end of v leans from the motion by the pressure angle, as the "
+        "velocity plan will show."
+    )
+    parts = [
+        Part(
+            say("Draw the line of motion upright with a set square and mark B₀ on it, where the lift starts."), (start,)
+        )
+    ]
+    for k, name in enumerate(station_names(stations)):
+        said = say("Station {name}: {mark}; {lay}.", name=name, mark=_marked(s[k]), lay=_level(v[k], factor, x[k]))
+        parts.append(Part(said, (heights.first[k], ends.first[k])))
+    title, said = say("Velocities at the displacements"), _laying_off(region)
+    return Step(title, said, COMBINED, marks, given=line, why=why, parts=tuple(parts))
+
+
+def _laying_off(region: Construction[Any]) -> Caption:
+    """All stations in a few sentences, and one of them in full."""
+    integrated, sigma = region.givens.integrated, sense(region.givens.rotation)
+    k, factor = worked_station(integrated), _factor(integrated)
+    s, v = float(integrated.first("s")[k]), float(integrated.first("v")[k])
+    longest = float(np.abs(region.acts["ends"].shown.real).max())
+    marked = say(
+        "Draw the line of motion upright with a set square and carry every displacement s across to it with the "
+        "T-square, upwards from B₀, where the lift starts. At every mark lay v off level with the dividers, {rise} on "
+        "a rise and {back} on a return: v turned by 90° with the cam, {rotation}. Multiply every ordinate of v by "
+        "μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
+    ).where(rise=aside(-sigma), back=aside(sigma), rotation=turning(region.givens.rotation), factor=factor)
+    worked = say(
+        "Station {name}: mark it {s:.2f} mm up, lay off {v:.2f} mm × {factor:.5g} = {length:.2f} mm; and so for the "
+        "rest."
+    ).where(name=station_names(integrated.givens.stations)[k], s=s, v=v, factor=factor, length=v * factor)
+    longest = say("The longest measures {longest:.1f} mm.", longest=longest)
+    return sequence([marked, *([worked] if v > NOTHING else []), longest], " ")
+
+
+def _factor(integrated: Integrated) -> float:
+    """What an ordinate of v is multiplied by, to stand in the scale of s."""
+    return integrated.readings["v"].per_mm / integrated.readings["s"].per_mm
+
+
+def _marked(s: float) -> Caption:
+    """Where on the line of motion a displacement [mm of paper] is marked."""
+    return say("it lies at B₀") if abs(s) < NOTHING else say("mark s = {s:.2f} mm up from B₀", s=s)
+
+
+def _level(v: float, factor: float, x: float) -> Caption:
+    """How an ordinate of v [mm of paper] is laid off."""
+    if abs(v) < NOTHING:
+        return say("v is zero, so its end is the mark itself")
+    laid_off = say("lay v off level from there, {v:.2f} mm × {factor:.5g} = {length:.2f} mm {side}")
+    return laid_off.where(v=abs(v), factor=factor, length=abs(v) * factor, side=aside(x))
+
+
+def joined_up(region: Construction[Any]) -> Step:
+    """The curves through the ends, from jump to jump of the acceleration."""
+    hand, ends, stations = showing(region), region.acts["ends"], region.givens.integrated.givens.stations
+    names, pieces = station_names(stations), stations.pieces
+    curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
+    through = [
+        say_in("stations", "{first} to {last}", first=names[piece.start], last=names[piece.stop - 1])
+        for piece in pieces
+    ]
+    met = [names[a.stop - 1] for a, b in pairwise(pieces) if a.stop - 1 == b.start]
+    said = [say("Join the ends of v in their order with the French curve: {through}.", through=sequence(through))]
+    if met:
+        said.append(say("There is a corner at {names}, where the acceleration jumps.", names=sequence(met)))
+    said.append(say("Where the follower rests v is zero, so the curves start and end on the line of motion."))
+    why = say("Because the limits must be kept between the stations too.")
+    parts = tuple(
+        Part(_through(piece, each), (curve,)) for piece, each, curve in zip(pieces, through, curves, strict=True)
+    )
+    marks = tuple(curve.line(Role.RESULT) for curve in curves)
+    return Step(say("Curves of rise and return"), sequence(said, " "), COMBINED, marks, why=why, parts=parts)
+
+
+def _through(piece: slice, ends: Caption) -> Caption:
+    """How the ends of a piece are joined: two of them have no curve."""
+    if piece.stop - piece.start == 2:
+        return say("Join the ends {ends} with the ruler.", ends=ends)
+    return say("Draw the French curve through the ends {ends}.", ends=ends)
+
+
+def offset_caption(offset: float, mu: float) -> Caption:
+    """How the upright is found that the cam centre lies on at an offset [mm], at ``mu`` mm to a millimetre of paper."""
+    said = say(
+        "With e = {e:g} mm the follower moves {size:g} mm {side} of the cam centre, so draw an upright "
+        "{size:g}/{mu:.5g} = {paper:.2f} mm {other} of B₀."
+    )
+    size = abs(offset)
+    return said.where(e=offset, size=size, side=aside(offset), mu=mu, paper=size / mu, other=aside(-offset))

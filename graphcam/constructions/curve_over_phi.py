@@ -1,0 +1,80 @@
+"""The curve of a diagram over the cam angle: piece by piece through its points, and level in the dwells."""
+
+import numpy as np
+
+from graphcam.constructions.acceleration import AccelerationGivens
+from graphcam.constructions.axes import station_names
+from graphcam.drafting import euclid
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand
+from graphcam.drafting.ink import Caption, Part, say
+from graphcam.drafting.marks import Line, Points, Role
+from graphcam.given.motion import FULL_TURN
+from graphcam.plane import dot
+from graphcam.words import sequence
+
+STRAIGHT = 0.05
+"""Points that lie so near to a line [mm of paper] are joined with the ruler."""
+REST = 1e-9
+"""A dwell is longer [rad]."""
+
+_STRAIGHT = say("From {first} to {last} the points lie on one line: join them with the ruler.")
+_BENT = say("From {first} to {last} draw the curve through the points with the French curve.")
+_ALL_STRAIGHT = say(
+    "From jump to jump of the acceleration the points lie on one line: join them with the ruler, as the chords are the "
+    "curve."
+)
+_ALL_BENT = say("Draw a smooth curve through the points with the French curve, from jump to jump of the acceleration.")
+_EITHER = say(
+    "Draw the curve through the points from jump to jump of the acceleration: with the ruler where they lie on one "
+    "line, elsewhere with the French curve."
+)
+_LEVEL = say("In the dwells draw it level with the T-square.")
+
+
+def curve_over_phi(
+    givens: AccelerationGivens, hand: Hand, name: str, curve: Drawn, met: Caption
+) -> tuple[Caption, tuple[Line, ...], tuple[Part, ...]]:
+    """How the curve of that ``name`` is drawn, its lines, and its parts.
+
+    met : what happens at station {first} in a phase, where the acceleration jumps and one piece meets the next
+    """
+    stations, names = givens.stations, station_names(givens.stations)
+    begins = {span.start for span in stations.phases}
+    straight, lines, parts = list[bool](), list[Line](), list[Part]()
+    for piece in stations.pieces:
+        straight.append(_on_one_line(curve.shown[piece]))
+        ends = {"first": names[piece.start], "last": names[piece.stop - 1]}
+        said = (_STRAIGHT if straight[-1] else _BENT).where(**ends)
+        faired = hand.fair(name, curve.first, [piece])
+        parts.append(Part(said if piece.start in begins else sequence([said, met.where(**ends)], " "), (faired,)))
+        lines.append(faired.line(Role.RESULT))
+    caption = _ALL_STRAIGHT if all(straight) else _EITHER if any(straight) else _ALL_BENT
+    level, resting = _rests(givens, hand, curve)
+    if resting:
+        caption = sequence([caption, _LEVEL], " ")
+        parts.append(Part(_LEVEL, (level,)))
+    return caption, (*lines, *resting), tuple(parts)
+
+
+def _on_one_line(points: Points) -> bool:
+    """Whether points lie so near to the line from the first to the last that the ruler draws them."""
+    way = euclid.unit(points[-1:] - points[:1])
+    return bool(np.abs(dot(way * UP, points - points[0])).max() < STRAIGHT)
+
+
+def _rests(givens: AccelerationGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
+    """The levels of a curve before the dwells, and its level lines from each to the next phase."""
+    stations = givens.stations
+    ends = [k for span in stations.phases for k in (span.start, span.stop - 1)]
+    level = hand.erect("rests", curve.first[[*ends, -1]], RIGHT)
+    *places, last = level.points
+    turn = FULL_TURN / givens.mu_phi.per_mm
+    bounds = np.array([last.imag * UP, *places, turn + last.imag * UP]).reshape(-1, 2)
+    angles = np.array([0.0, *stations.phi[ends], FULL_TURN]).reshape(-1, 2)
+    resting = np.flatnonzero(np.diff(angles)[:, 0] > REST)
+    # At the start of the turn the follower rests where it does at its end.
+    before = np.arange(-1, len(ends), 2)[resting] % len(level.points)
+    lines = zip(bounds[resting], before, strict=True)
+    return level[before], tuple(Line(pair, Role.RESULT, False, level.act, np.array([k, k])) for pair, k in lines)

@@ -1,0 +1,313 @@
+"""The working profile: the envelope of the roller's circles, and the pressure angles that it shows."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.profile_view import Inverted, piecewise_curve
+from graphcam.constructions.roller import Rolled, laid_off_on_ob
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import UP, tangent_of_circle, unit
+from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role
+from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import ratio_text
+from graphcam.given.follower import sense
+from graphcam.given.stations import Stations
+from graphcam.words import say_many, sequence
+
+TOUCHING = 1e-9
+"""A touch point this little inside another circle, as a fraction of its radius, still lies on it: rounding."""
+TREMBLE = 3.0
+"""So many of a hand's errors may set a point inside a circle that only touches it."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileGivens:
+    """The pitch curve, the radius of the roller [mm], and what the steps compare with.
+
+    rolled : what the rule proposed, where it was applied;  measured : the pressure angles, where a follower has any
+    """
+
+    inverted: Inverted
+    roller_radius: float
+    rolled: Rolled | None
+    measured: Construction | None
+
+
+Profile = Construction[ProfileGivens]
+
+
+MEANING = Meaning(
+    "working_profile",
+    say("Working profile"),
+    say("The profile is what touches all positions of the follower: the inner envelope."),
+    {
+        "radius": ReadingMeaning(
+            say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
+        )
+    },
+    "report.paragraphs.working_profile",
+)
+
+
+def working_profile(
+    inverted: Inverted,
+    roller: float,
+    pencil: Pencil,
+    rolled: Rolled | None = None,
+    measured: Construction | None = None,
+) -> Profile:
+    """From each pitch point the roller's radius [mm] towards the cam, square to the circle through its neighbours.
+
+    rolled, measured : what the rule proposed, and the pressure angles, for the steps to compare with
+
+    Points: ``touch`` (..., m), NaN where covered; ``covered`` the touch points that were dropped.
+    """
+    hand, mu_l = Hand(pencil, MEANING), inverted.givens.mu_l.per_mm
+    stations, sigma, radius = inverted.givens.integrated.givens.stations, sense(inverted.givens.rotation), roller / mu_l
+    found = pitch = hand.found(inverted, "pitch")
+    if roller:
+        tangents = hand.tangents_at("tangents", pitch, partial(_tangents, stations, sigma))
+        circles = hand.circle("roller circles", pitch, radius)
+        found = hand.cross("touch points", tangents.turned(-UP * sigma), circles)
+    tremble = TREMBLE * math.hypot(pencil.line, pencil.dividers)
+    covered = _covered(found.points, pitch.points, radius * (1 - TOUCHING) - tremble)
+    nowhere, at = hand.given("nowhere", [np.nan]), np.arange(stations.u.size)
+    touch = hand.take("touch", found, nowhere, which=np.where(covered, at.size, at))
+    dropped = hand.take("covered", found, nowhere, which=np.where(covered, at, at.size))
+    hand.read("radius", between(hand.given("cam centre"), touch), mu_l)
+    givens = ProfileGivens(inverted, roller, rolled, measured)
+    return hand.finished(givens, _draw, {"touch": touch, "covered": dropped})
+
+
+def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
+    """The directions of the pitch curve at its points: of the circle through three, or of the arc of a rest."""
+    along = np.empty_like(pitch)
+    inner = np.ones(stations.u.size, dtype=bool)
+    for span in stations.phases:
+        inner[[span.start, span.stop - 1]] = False
+    at = np.flatnonzero(inner)
+    along[..., at] = tangent_of_circle(pitch[..., at - 1], pitch[..., at], pitch[..., at + 1])
+    # A phase ends at rest, where the curve runs on as an arc about the cam centre.
+    ends = np.flatnonzero(~inner)
+    along[..., ends] = -UP * sigma * unit(pitch[..., ends])
+    # No circle is drawn across a jump of the acceleration, where the curvature jumps too: the circles of the pieces on
+    # either side end there, and a chord makes equal angles with the tangents at its two ends.
+    for jump in sorted({p.start for p in stations.pieces} - {span.start for span in stations.phases}):
+        before = unit(pitch[..., jump] - pitch[..., jump - 1])
+        after = unit(pitch[..., jump + 1] - pitch[..., jump])
+        along[..., jump] = unit(before**2 * along[..., jump - 1].conj() + after**2 * along[..., jump + 1].conj())
+    return along
+
+
+def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
+    """Which touch points lie nearer than ``radius`` to the centre of another roller circle.
+
+    Of the centres that follow one another a whole run lies too far from most points, so few are looked at singly.
+    """
+    covered, count = np.zeros(touch.shape, dtype=bool), touch.shape[-1]
+    size = math.isqrt(count)
+    for start in range(0, count, size):
+        run = pitch[..., start : start + size]
+        middle = run.mean(axis=-1, keepdims=True)
+        reach = radius + np.abs(run - middle).max(axis=-1, keepdims=True)
+        near = np.nonzero(~covered & ~(np.abs(touch - middle) >= reach))
+        inside = np.abs(touch[near][:, None] - run[near[:-1]]) < radius
+        # Its own circle a point touches, however the hand may have set it.
+        other = near[-1][:, None] != start + np.arange(run.shape[-1])
+        covered[near] |= np.any(inside & other, axis=-1)
+    return covered
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
+def _draw(profile: Profile) -> list[Step]:
+    rounded = [_rounded(profile, profile.givens.rolled)] if profile.givens.rolled else []
+    if not profile.givens.roller_radius:
+        return [_envelope(profile)]
+    return [*rounded, _circles(profile), _touched(profile), _envelope(profile), _angles(profile)]
+
+
+def _rounded(profile: Profile, rolled: Rolled) -> Step:
+    """The proposed radius becomes a round one."""
+    proposed, adopted = float(rolled.value("roller_radius")), profile.givens.roller_radius
+    if math.isclose(proposed, adopted, rel_tol=1e-9):
+        said = say("The proposed radius of {adopted:g} mm is kept as it is.")
+    elif adopted < proposed:
+        said = say("Round {proposed:.2f} mm down to {adopted:g} mm, the radius of the roller that is built.")
+    else:
+        said = say("This drawing proposes {proposed:.2f} mm; on one without error it is decided: {adopted:g} mm.")
+    why = say("Because rollers are made in round sizes, and a larger one would break the rule.")
+    view, marks, parts = laid_off_on_ob(rolled, ["r"], np.array([adopted]))
+    said = said.where(proposed=proposed, adopted=adopted)
+    return Step(say("Roller radius rounded"), said, view, marks, why=why, parts=parts)
+
+
+def _names(profile: Profile) -> list[str]:
+    return station_names(profile.givens.inverted.givens.integrated.givens.stations)
+
+
+def _circles(profile: Profile) -> Step:
+    """The roller's circle about every point of the pitch curve."""
+    roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
+    circles, names = profile.acts["roller circles"].first, _names(profile)
+    said = say(
+        "Set the compass to {paper:.1f} mm (r = {roller:g} mm at {ratio}) and draw the circle of the roller about "
+        "every point of the pitch curve, from {first} to {last}."
+    ).where(paper=roller / mu_l, roller=roller, ratio=ratio_text(mu_l), first=names[0], last=names[-1])
+    why = say("Because the roller's centre runs on the pitch curve: these circles are places that the roller takes.")
+    each = say("Circle {name}: compass {paper:.1f} mm about point {name} of the pitch curve.")
+    parts = [Part(each.where(name=name, paper=roller / mu_l), (circles[k],)) for k, name in enumerate(names)]
+    marks = [circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names))]
+    return Step(say("Roller circles"), said, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+
+
+def _touched(profile: Profile) -> Step:
+    """Where each circle touches the profile."""
+    paper = profile.givens.roller_radius / profile.givens.inverted.givens.mu_l.per_mm
+    found, names = profile.acts["touch points"].first, _names(profile)
+    said = say(
+        "At every point of the pitch curve hold a set square or a mirror square to the curve, which runs there as the "
+        "circle through the point and its two neighbours, and mark the place {paper:.1f} mm inward, on the roller's "
+        "circle: the touch point."
+    ).where(paper=paper)
+    why = say("Because a circle touches the profile where the common normal of profile and pitch curve cuts it.")
+    each = say("Touch point {name}: {paper:.1f} mm inward from point {name}, square to the pitch curve.")
+    # Where two neighbours lie in one place, the curve has no direction that could be seen.
+    seen = np.flatnonzero(~np.isnan(found.points))
+    parts = tuple(Part(each.where(name=names[k], paper=paper), (found[int(k)],)) for k in seen)
+    return Step(say("Touch points"), said, PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why, parts=parts)
+
+
+def _envelope(profile: Profile) -> Step:
+    """The curve through the touch points that no other circle covers."""
+    covered, measured = profile.acts["covered"].first, profile.value("radius")
+    curve = piecewise_curve("working profile", profile.givens.inverted, profile.acts["touch"])
+    marks: list[Mark] = [curve.whole.line(Role.RESULT, closed=True)]
+    parts, lost = list(curve.parts), np.flatnonzero(~np.isnan(covered.points))
+    names = [_names(profile)[k] for k in lost]
+    said, why = _envelope_said(profile.givens.roller_radius, names)
+    if lost.size:
+        marks.append(covered[lost].dots(Role.LIMIT))
+        left_out = say("Leave out what lies inside another circle: {names}.", names=sequence(names))
+        parts.insert(0, Part(left_out, (covered[lost],)))
+    radii = say("Its radii run from {least:.2f} to {greatest:.2f} mm.")
+    radii = radii.where(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
+    caption, title = sequence([*said, *([curve.arcs] if curve.arcs else []), radii], " "), say("Working profile")
+    return Step(title, caption, PROFILE, tuple(marks), ("radius",), why=why, parts=tuple(parts))
+
+
+def _envelope_said(roller: float, lost: Sequence[str]) -> tuple[list[Caption], Caption]:
+    """How the touch points are joined, without those that are lost, and why."""
+    if not roller:
+        drawn = say("Without a roller the curve is the working profile itself: draw it over boldly.")
+        return [drawn], say("Because there is no roller between the cam and the points that were found.")
+    why = say("Because the roller presses on the cam from outside in every position, and never enters it.")
+    joined = say(
+        "Join the touch points with the French curve: the line touches every circle on its inner side and cuts none, "
+        "so it is their inner envelope, the working profile."
+    )
+    if not lost:
+        return [joined], why
+    undercut = say_many(
+        "At {count} station ({names}) the touch point lies inside another roller circle and is left out: the profile "
+        "is undercut and cannot be cut so.",
+        "At {count} stations ({names}) the touch point lies inside another roller circle and is left out: the profile "
+        "is undercut and cannot be cut so.",
+        len(lost),
+        names=sequence(lost),
+    )
+    joined = say(
+        "Join the other touch points with the French curve: the line cuts no circle, so it is their inner envelope, "
+        "the working profile."
+    )
+    return [undercut, joined], why
+
+
+def _angles(profile: Profile) -> Step:
+    """The pressure angles that the finished profile shows, beside those that were found without it."""
+    marks, parts, shown = list[Mark](), list[Part](), list[Caption]()
+    measured, apart = profile.givens.measured, 0.0
+    for found in _normals(profile):
+        name, degrees = _names(profile)[found.at], abs(math.degrees(found.angle))
+        told = {"name": name, "alpha": degrees}
+        each = say("station {name}: {alpha:.1f}°").where(**told)
+        if measured is not None:
+            planned = abs(math.degrees(measured.first("alpha")[found.at]))
+            each = say("station {name}: {alpha:.1f}° ({planned:.1f}° in the diagram)").where(**told, planned=planned)
+            apart = max(apart, abs(degrees - planned))
+        shown.append(each)
+        marks += found.marks
+        said = say(
+            "Station {name}: join touch point {name} to point {name} and go on beyond it; draw there the line on which "
+            "the follower moves, and measure the angle between them with a protractor: {alpha:.1f}°."
+        ).where(**told)
+        parts.append(Part(said, found.draws))
+    caption = say(
+        "Draw the line from the touch point through the roller's centre and measure with a protractor its angle to the "
+        "direction in which the follower moves, in each moving phase where it is greatest: {shown}."
+    ).where(shown=sequence(shown, "; "))
+    if not shown:
+        caption = say("All touch points of the moving phases are covered: no pressure angle can be measured.")
+    elif apart >= SAME_ANGLE:
+        differ = say(
+            "They differ, for the diagram uses the velocity at the station itself, while the normal here is found from "
+            "the neighbouring points."
+        )
+        caption = sequence([caption, differ], " ")
+    why = say("Because the roller presses along the common normal, which runs through its centre.")
+    return Step(say("Pressure angles on the profile"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+
+
+SAME_ANGLE = 0.05
+"""Angles that differ by less are read as the same [degrees]."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShownAngle:
+    """A pressure angle [rad] on the profile at a station, its marks, and what they are of."""
+
+    at: int
+    angle: float
+    marks: tuple[Mark, ...]
+    draws: tuple[Drawn, ...]
+
+
+def _normals(profile: Profile) -> Iterator[ShownAngle]:
+    """The profile's normal and the follower's line where they enclose the greatest angle in each moving phase.
+
+    None where the whole phase is covered.
+    """
+    hand, inverted = showing(profile), profile.givens.inverted
+    motion, pitch, touch = inverted.acts["motion"].first, inverted.acts["pitch"].first, profile.acts["touch"].first
+    normals = hand.join("normals", touch, pitch)
+    alpha = hand.angle("pressure angles", motion, normals)
+    lines, beyond = (hand.lay_off(f"far on {d.act.name}", pitch, d, NORMAL + 4) for d in (motion, normals))
+    for span in inverted.givens.integrated.givens.stations.phases:
+        angles = np.abs(alpha.paper[span])
+        if np.isnan(angles).all():
+            continue
+        at = int(span.start + np.nanargmax(angles))
+        direction, angle = float(np.angle(motion.directions[at])), float(alpha.paper[at])
+        start, end = sorted((direction, direction + angle))
+        said, index = say("{alpha:.1f}°", alpha=abs(np.degrees(angle))), normals[at].index
+        marks = (
+            lines[at].line_from(pitch[at], Role.CONSTRUCTION),
+            Line(np.array([touch[at].place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
+            AngleMark(pitch[at].place, NORMAL, start, end, said, normals.act, index),
+        )
+        yield ShownAngle(at, angle, marks, (normals[at], beyond[at], lines[at]))
+
+
+NORMAL = 26.0
+"""Radius of the arcs that show a pressure angle on the profile [mm]."""

@@ -1,0 +1,138 @@
+"""Groups of a drawing as elements of SVG in the step player's page, each with the act that it shows and its place."""
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
+from typing import cast
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from graphcam.drafting.marks import Points
+from graphcam.sheets.fonts import points_size
+from graphcam.sheets.model import (
+    ArcEntity,
+    Circles,
+    Curve,
+    Entity,
+    Group,
+    Heads,
+    Source,
+    Stroke,
+    Strokes,
+    Text,
+    kind_of,
+)
+from graphcam.sheets.places import by_place
+from graphcam.sheets.smooth import bezier
+from graphcam.sheets.styles import STYLES, Style
+
+MM_PER_POINT = 25.4 / 72
+ANCHORS = {"left": "", "center": " middle", "right": " end"}
+IDLE = re.compile(r"\.00|(?<=\.\d)0")
+"""The idle digits of a number with two decimals."""
+
+
+Numbers = Callable[[Source], tuple[int | None, bool]]
+"""The number on the page of the act that an entity shows, None without one, and whether it is drawn in parts."""
+
+
+def _unnumbered(_: Source) -> tuple[None, bool]:
+    return None, False
+
+
+def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> str:
+    """The elements of a group on a page of that height [mm]; 1 unit is 1 mm, y points down.
+
+    >>> import numpy as np
+    >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
+    <path class="line axis" d="M0 297L10 297M0 292L10 292"/>
+    """
+    pieces = ((place, entity) for whole in group.entities for place, entity in _in_pieces(whole, numbers))
+    runs = groupby(pieces, key=lambda piece: (piece[0], kind_of(piece[1]), piece[1].role))
+    return "".join(_run(kind, role, where, [e for _, e in run], height) for (where, kind, role), run in runs)
+
+
+def _in_pieces(entity: Entity, numbers: Numbers) -> Iterator[tuple[str, Entity]]:
+    """An entity, or its pieces that belong to different places of its act; each with the attributes that say so."""
+    number, in_parts = numbers(entity.source) if entity.source else (None, False)
+    if number is None:
+        yield "", entity
+        return
+    for place, piece in by_place(entity) if in_parts else [(None, entity)]:
+        yield f' data-act="{number}"' + ("" if place is None else f' data-at="{place}"'), piece
+
+
+def roles_css() -> str:
+    """The width, the line type and the ink in print of every role, as variables of its class."""
+    # Roles of a drawing in progress have two words: the style sheet knows what is former and what current.
+    return "\n".join(_role_css(role, style) for role, style in STYLES.items() if " " not in role)
+
+
+def _role_css(role: str, style: Style) -> str:
+    dashes = f"stroke-dasharray:{' '.join(f'{mm:g}' for mm in style.pattern)};" if style.pattern else ""
+    return f".page .{role}{{--width:{style.width:g}px;--print:{style.colour};{dashes}}}"
+
+
+def _run(kind: str, role: str, where: str, run: Iterable[Entity], height: float) -> str:
+    if kind == "text":
+        return "".join(_text(cast(Text, text), where, height) for text in run)
+    paths = "".join(_path(entity, height) for entity in run)
+    return f'<path class="{kind} {role}"{where} d="{paths}"/>'
+
+
+def _text(text: Text, where: str, height: float) -> str:
+    x, y = _number(text.at.real), _number(height - text.at.imag)
+    size = f"{points_size(text.height) * MM_PER_POINT:.3f}"
+    turn = f' transform="rotate({-math.degrees(text.angle):.2f} {x} {y})"' if text.angle else ""
+    classes = f"text{ANCHORS[text.align]}" + (f" {text.role}" if text.role != "text" else "")
+    return f'<text class="{classes}"{where} x="{x}" y="{y}" font-size="{size}"{turn}>{escape(text.text)}</text>'
+
+
+def _path(entity: Entity, height: float) -> str:
+    match entity:
+        case Strokes(starts=starts, ends=ends):
+            return _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
+        case Stroke(points=points, closed=closed):
+            return _numbers("M" + "L".join(["%.2f %.2f"] * len(points)) + "Z" * closed, points, height)
+        case Curve(points=points):
+            control = bezier(points)
+            return _numbers("M%.2f %.2fC" + " ".join(["%.2f %.2f"] * (len(control) - 1)) + "Z", control, height)
+        case Circles(centres=centres, radius=radius):
+            # Two half turns: an arc of a whole turn is none in SVG.
+            r, d = _number(radius), _number(2 * radius)
+            turns = f"a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1 -{d} 0z"
+            return _numbers(f"M%.2f %.2f{turns}" * len(centres), centres - radius, height)
+        case ArcEntity():
+            return _arc(entity, height)
+        case Heads(corners=corners):
+            return _numbers("M%.2f %.2fL%.2f %.2fL%.2f %.2fZ" * len(corners), corners, height)
+        case Text():
+            raise AssertionError("a text has no path")
+
+
+def _arc(arc: ArcEntity, height: float) -> str:
+    # In two halves, so that the angle that each turns is never in doubt.
+    turns = arc.start, (arc.start + arc.end) / 2, arc.end
+    points = np.array([arc.centre + cmath.rect(arc.radius, turn) for turn in turns])
+    r = _number(arc.radius)
+    return _numbers(f"M%.2f %.2fA{r} {r} 0 0 0 %.2f %.2fA{r} {r} 0 0 0 %.2f %.2f", points, height)
+
+
+def _numbers(template: str, points: Points, height: float) -> str:
+    """A template with the coordinates of points: lengths to 0.01 mm, y down, without idle digits."""
+    flat = np.ravel(points)
+    written = template % tuple(np.column_stack([flat.real, height - flat.imag]).ravel().tolist())
+    return _without_idle(written)
+
+
+def _number(mm: float) -> str:
+    """A length to 0.01 mm, without idle digits."""
+    return _without_idle(f"{mm:.2f}")
+
+
+def _without_idle(numbers: str) -> str:
+    """Numbers of two decimals without the digits and signs that say nothing."""
+    return IDLE.sub("", numbers.replace("-0.00", "0.00"))

@@ -1,0 +1,133 @@
+"""What every step owes to who draws it again: a reason, a caption, and parts that together draw all of it, once."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from golden_random import TASKS as RANDOM
+from test_acts import own_marks
+
+import graphcam as gc
+from graphcam.drafting.acts import Act, Kind
+from graphcam.drafting.ink import Construction, Step
+from graphcam.errors import DesignError
+
+DONE = {"coursework", "arm", "flat", "measured", "translating", "spring", "arcs"}
+"""The kinds of tasks whose constructions have their reasons and parts."""
+BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
+TASKS = {"arcs": gc.builtin_arcs_task()} | BUILT_IN | RANDOM
+Place = tuple[Act, int]
+
+
+def of_every_task(names: list[str]) -> pytest.MarkDecorator:
+    return pytest.mark.parametrize("name", [name for name in names if name.split()[0] in DONE])
+
+
+EVERY = of_every_task(["arcs", *BUILT_IN, *RANDOM])
+
+
+@cache
+def steps(name: str) -> list[tuple[str, Construction, Step]]:
+    """Every step of every construction of a task, with where it is found; none where no cam solves it."""
+    try:
+        solution = gc.solve(TASKS[name])
+        drawn: dict[str, Construction] = dict(solution.drawn)
+    except DesignError:
+        return []
+    spring = getattr(solution, "spring", None)
+    drawn |= {"force plan": spring.force_plan} if spring and spring.force_plan else {}
+    return [(f"{key}: {step.title}", each, step) for key, each in drawn.items() for step in each.steps()]
+
+
+def sentences(text: str) -> list[str]:
+    """The sentences of a text: one ends where a point, a question or an exclamation is followed by a capital."""
+    return re.split(r"(?<=[.!?])\s+(?=[A-ZΑ-Ω])", text)
+
+
+@EVERY
+def test_every_step_has_a_reason_of_one_sentence_and_a_caption(name):
+    for where, _, step in steps(name):
+        why, caption = str(step.why), str(step.caption)
+        assert why, where
+        assert len(sentences(why)) == 1, (where, why)
+        for said in (why, caption):
+            assert said[0].isupper() or not said[0].isalpha(), (where, said)
+            assert said.endswith("."), (where, said)
+            assert not re.search(r"\b(nan|inf)\b|\{|\}|-0\.0+\b", said), (where, said)
+
+
+@EVERY
+def test_the_captions_of_parts_are_sentences_and_all_different(name):
+    for where, _, step in steps(name):
+        said = [str(part.caption) for part in step.parts]
+        for each in said:
+            assert each.endswith("."), (where, each)
+            assert not re.search(r"\b(nan|inf)\b|\{|\}|-0\.0+\b", each), (where, each)
+        assert [text for text, n in Counter(said).items() if n > 1] == [], where
+
+
+def drawn_by(step: Step) -> list[list[Place]]:
+    """The places that each part of a step draws."""
+    return [[(each.act, k) for each in part.draws for k in each.index.tolist()] for part in step.parts]
+
+
+def left_out(step: Step) -> list[str]:
+    """The marks of a step that no part draws, whole or at some place; a reading's number comes with the last part."""
+    drawn = {place for part in drawn_by(step) for place in part}
+    acts = {act for act, _ in drawn}
+    found: list[str] = []
+    for mark in own_marks(step):
+        assert isinstance(mark.of, Act)
+        if mark.of.kind is not Kind.READ:
+            places = {(mark.of, 0)} if mark.index is None else {(mark.of, k) for k in mark.index.tolist()}
+            known = mark.of in acts if mark.index is None else places <= drawn
+            found += [] if known else [f"{type(mark).__name__} of {mark.of.name!r}, {sorted(k for _, k in places)}"]
+    return found
+
+
+@EVERY
+def test_the_parts_of_a_step_draw_all_its_marks(name):
+    for where, _, step in steps(name):
+        if step.parts:
+            assert left_out(step) == [], where
+
+
+@EVERY
+def test_no_place_is_drawn_by_two_parts(name):
+    for where, _, step in steps(name):
+        parts = Counter(place for part in drawn_by(step) for place in set(part))
+        assert [(act.name, k) for (act, k), n in parts.items() if n > 1] == [], where
+
+
+@EVERY
+def test_every_part_draws_something_that_is_shown(name):
+    """Given marks and axes count: what lies there already may be gone over.  What is reckoned draws nothing."""
+    for where, _, step in steps(name):
+        marked = {mark.of: mark.index for mark in step.marks if isinstance(mark.of, Act)}
+        for part in step.parts:
+            shown = any(each.act in marked for each in part.draws) or not part.draws or not own_marks(step)
+            assert shown, (where, str(part.caption))
+
+
+@EVERY
+def test_the_places_of_parts_and_marks_are_those_of_their_acts(name):
+    for where, _, step in steps(name):
+        for mark in step.marks:
+            if isinstance(mark.of, Act) and mark.index is not None:
+                assert np.all((mark.index >= 0) & (mark.index < mark.of.size)), where
+        for act, k in (place for part in drawn_by(step) for place in part):
+            assert 0 <= k < act.size, where
+
+
+def test_a_part_that_is_missing_or_said_twice_would_be_found():
+    _, _, step = next(each for each in steps("arcs") if str(each[2].title) == "Stations")
+    assert left_out(step) == []
+    assert left_out(replace(step, parts=step.parts[1:])) != []
+    twice = replace(step, parts=(*step.parts, step.parts[0]))
+    assert max(Counter(place for part in drawn_by(twice) for place in set(part)).values()) == 2
+    assert len(sentences("It is so. And so.")) == 2
