@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.constructions.arc_outline import FLAT
-from graphcam.constructions.arc_plan import NOTHING, worked
+from graphcam.constructions.arc_plan import worked
 from graphcam.constructions.arc_stations import RollerOnArcs
 from graphcam.constructions.axes import NUMBER_ROOM, axes_over_phi, degree_ticks, reach
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
@@ -21,6 +21,7 @@ from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.words import sequence

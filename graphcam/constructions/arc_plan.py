@@ -15,6 +15,7 @@ from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale, ratio_text, standard_scale
+from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 
 PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
@@ -25,8 +26,6 @@ SIZE = 190.0
 """A plan is drawn at the largest standard scale at which it is not larger [mm]."""
 BEYOND = 7.0
 """How far the follower's line runs on beyond the plan [mm]."""
-NOTHING = 5e-3
-"""So short a length [mm] is none."""
 
 
 def shown(stations: ArcStations) -> int:

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions.arc_outline import FLAT, Move, in_parts
-from graphcam.constructions.arc_plan import NOTHING, UNREAD, plans, worked
+from graphcam.constructions.arc_plan import UNREAD, plans, worked
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, outline, run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
 from graphcam.drafting.acts import Drawn
@@ -22,6 +22,7 @@ from graphcam.drafting.ink import Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.words import joined
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import NOTHING, arc_through, example
+from graphcam.constructions.arm_positions import arc_through, example
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
@@ -16,6 +16,7 @@ from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
 
 

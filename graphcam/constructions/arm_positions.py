@@ -20,6 +20,7 @@ from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Arc, Line, Points, Role
 from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
 
@@ -65,8 +66,6 @@ def directions(givens: ArmGivens) -> NDArray[np.intp]:
 
 BEYOND = 0.03
 """How far an arc is drawn beyond what it is drawn for [rad]."""
-NOTHING = 0.005
-"""What is smaller is written as 0.00."""
 NEAR = 1.0
 """Arms whose ends are nearer to one another bear one number [mm]."""
 

@@ -27,6 +27,8 @@ EVERY = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
 """Every how many stations may be named."""
 SAME_LEVEL = 1e-6
 """Levels that differ by less than this part of the lift are one."""
+LEVEL_DIGITS = 9
+"""Decimals of a millimetre to which heights are equal but for rounding: a hand that errs makes no two alike."""
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
@@ -95,8 +97,16 @@ def together(parts: Iterable[int], stations: Stations) -> str:
             runs[-1].append(part)
         else:
             runs.append([part])
-    told = [f"{names[r[0]]}-{names[r[-1]]}" if len(r) > 2 else ", ".join(names[part] for part in r) for r in runs]
-    return ", ".join(told)
+    return in_runs([names[part] for part in run] for run in runs)
+
+
+def in_runs(runs: Iterable[Sequence[str]]) -> str:
+    """Names in runs of neighbours; of three or more in a run the first and the last.
+
+    >>> in_runs([["1", "2", "3"], ["5"], ["7", "8"]])
+    '1-3, 5, 7, 8'
+    """
+    return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
 
 
 def part_titles(drawn: Construction[OverStations]) -> list[Caption]:
@@ -269,19 +279,13 @@ def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
 
 
-def once(heights: Drawn) -> list[int]:
-    """Those of heights on an axis that no other shares: lines that would fall on one another are drawn once."""
-    y = heights.shown.imag
-    return [int(np.argmin(np.abs(y - level))) for level in np.unique(np.round(y, 3))]
-
-
 def as_high(heights: Floats) -> NDArray[np.intp]:
     """For each of heights (..., n) the number of the first that is as high: what falls on it is not drawn again.
 
     >>> as_high(np.array([3.0, 1.0, 3.0, -2.0, 1.0])).tolist()
     [0, 1, 0, 3, 1]
     """
-    level = np.round(heights, 9)
+    level = np.round(heights, LEVEL_DIGITS)
     order = np.argsort(level, axis=-1, kind="stable")
     ascending = np.take_along_axis(level, order, -1)
     # In ascending order: where each run of equal heights begins.

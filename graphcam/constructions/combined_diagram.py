@@ -18,6 +18,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, say
 from graphcam.drafting.marks import Line, Role
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
 
@@ -37,8 +38,6 @@ def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-NOTHING = 0.005
-"""A length of less [mm of paper] is told as none."""
 WORKED = 1 / 3
 """So far through the first rise stands the station that is told in full."""
 

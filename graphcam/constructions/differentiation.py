@@ -23,7 +23,7 @@ from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import unit
+from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
@@ -221,8 +221,8 @@ def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-READABLE, READABLE_ANGLE = 0.005, 0.05
-"""Lengths [mm] and angles [degrees] of less are not told: they are nothing."""
+READABLE_ANGLE = 0.05
+"""Angles [degrees] of less are not told: they are nothing."""
 
 _TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
     "chords": (
@@ -300,7 +300,7 @@ class _Pass:
 
 def _raised(mm: float, nothing: Caption) -> Caption:
     """How far up or down."""
-    if abs(mm) < READABLE:
+    if abs(mm) < NOTHING:
         return nothing
     return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
 

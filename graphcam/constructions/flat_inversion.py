@@ -22,6 +22,7 @@ from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
 
@@ -78,8 +79,6 @@ def flat_inversion(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-READABLE = 0.005
-"""Lengths [mm of paper] and angles [degrees] of less are not told: they are nothing."""
 WORKED = 4
 """The station that a caption works in full."""
 
@@ -157,7 +156,7 @@ def _ray(inverted: profile_view.Inverted, k: int, against: Caption) -> Caption:
     angle = math.degrees(inverted.givens.integrated.givens.stations.phi[k])
     said = (
         say("Ray {name}: draw the upright from the cam centre to the prime circle.")
-        if angle < READABLE
+        if angle < NOTHING
         else say(
             "Ray {name}: set the protractor to {angle:.2f}° from the upright, {against}, and draw from the cam centre "
             "to the prime circle."
@@ -195,7 +194,7 @@ def _face(inverted: profile_view.Inverted, k: int) -> Caption:
     values = _on_profile(inverted, "s", k)
     said = (
         say("Station {name}: the follower has not risen, so draw the face where ray {name} meets the prime circle.")
-        if values["mm"] < READABLE
+        if values["mm"] < NOTHING
         else say(
             "Station {name}: lay off {mm:.2f} mm × {factor:.4f} = {length:.2f} mm outward on ray {name}, and draw the "
             "face."
@@ -232,7 +231,7 @@ def _contact(inverted: profile_view.Inverted, k: int) -> Caption:
     values, v = _on_profile(inverted, "v", k), float(inverted.givens.integrated.first("v")[k])
     said = (
         say("Station {name}: the follower does not move, so the contact is the end of ray {name}.")
-        if values["mm"] < READABLE
+        if values["mm"] < NOTHING
         else say("Station {name}: {mm:.2f} mm × {factor:.4f} = {length:.2f} mm {side} along the face: the contact.")
     )
     side = _side(v * sense(inverted.givens.rotation))

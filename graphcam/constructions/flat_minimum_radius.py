@@ -25,6 +25,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
 from graphcam.words import sequence
@@ -154,9 +155,6 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-READABLE = 0.005
-"""Lengths of less are not told [mm of paper]: they are nothing."""
-
 
 def _draw(region: FlatRegion) -> list[Step]:
     return [_laid_off(region), _joined(region), _touched(region), _found(region)]
@@ -210,13 +208,13 @@ def _station(region: FlatRegion, k: int) -> Caption:
             "and after it, {after}."
         )
         return both.where(**said, near=_level(before, region))
-    if abs(a) < READABLE:
+    if abs(a) < NOTHING:
         return say("Station {name}: mark the axis of s {height}; there is no acceleration.").where(**said)
     return say("Station {name}: mark the axis of s {height}, and from there lay off {after}.").where(**said)
 
 
 def _raised(y: float) -> Caption:
-    if abs(y) < READABLE:
+    if abs(y) < NOTHING:
         return say("at the axis of a")
     return say("{mm:.2f} mm above the axis of a", mm=y) if y > 0 else say("{mm:.2f} mm below the axis of a", mm=-y)
 
@@ -224,7 +222,7 @@ def _raised(y: float) -> Caption:
 def _level(a: float, region: FlatRegion) -> Caption:
     """How an ordinate of the acceleration [mm of paper] is laid off."""
     factor = _factor(region)
-    if abs(a) < READABLE:
+    if abs(a) < NOTHING:
         return say("nothing")
     said = (
         say("{mm:.2f} mm × {factor:.4f} = {length:.2f} mm to the right")
@@ -322,7 +320,7 @@ def _found(region: FlatRegion) -> Step:
 
 def _sum(least: float, need: float) -> Caption:
     """The permitted radius and the greatest -(s + a) [mm]."""
-    if abs(need) < READABLE / 10:
+    if abs(need) < NOTHING / 10:
         return say("ρ")
     plus, minus = say("{least:g} + {need:.3f}"), say("{least:g} − {need:.3f}")
     return (plus if need > 0 else minus).where(least=least, need=abs(need))

@@ -34,15 +34,13 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import unit
+from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
-NOTHING = 5e-3
-"""What is shorter [mm of paper] is not told."""
 NEAR = 6.0
 """Points of s so near to the axis [mm of paper] are called by the numbers there."""
 FLAT = 1e-9

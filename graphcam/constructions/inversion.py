@@ -15,6 +15,7 @@ from graphcam.drafting.marks import Line, Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.words import say_in, sequence
@@ -224,7 +225,7 @@ def _lengths(inverted: OffsetInverted) -> Floats:
     """What is laid off at the stations [mm of paper]; nothing where it is less than can be set."""
     s = inverted.givens.integrated.readings["s"]
     lengths = inverted.givens.integrated.first("s") * s.per_mm / inverted.givens.mu_l.per_mm
-    return np.where(np.abs(lengths) < LEAST_SETTING, 0.0, lengths)
+    return np.where(np.abs(lengths) < NOTHING, 0.0, lengths)
 
 
 def _length_said(inverted: OffsetInverted, k: int) -> Caption:
@@ -241,7 +242,3 @@ def _length_said(inverted: OffsetInverted, k: int) -> Caption:
         factor=integrated.readings["s"].per_mm / inverted.givens.mu_l.per_mm,
         length=abs(length),
     )
-
-
-LEAST_SETTING = 0.005
-"""Less than this [mm] no dividers are set to."""

@@ -11,7 +11,6 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, pieces_of, station_names
 from graphcam.constructions.combined_diagram import (
-    NOTHING,
     aside,
     joined_up,
     laid_off,
@@ -38,6 +37,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
 from graphcam.plane import dot

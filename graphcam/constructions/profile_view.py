@@ -144,16 +144,11 @@ class PiecewiseCurve:
     arcs: Caption | None
 
 
-def closed_curve(name: str, inverted: Inverted, points: Drawn) -> Drawn:
+def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCurve:
     """A closed curve through one point a station: faired between jumps, an arc about the cam centre in every dwell.
 
     points : (m,) places on the paper, NaN where there is none
     """
-    return piecewise_curve(name, inverted, points).whole
-
-
-def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCurve:
-    """A :func:`closed_curve`, and how it is drawn."""
     motion, pieces = inverted.givens.integrated.givens.motion, _pieces(name, inverted, points.first)
     known = np.flatnonzero(~np.isnan(np.concatenate([piece.points for _, piece in pieces])))
     whole = showing(inverted).take(name, *(piece for _, piece in pieces), which=known)

@@ -14,7 +14,7 @@ from graphcam.words import Words
 
 PAPER = "mm of paper"
 """The unit of a reading that stands for nothing but its own length."""
-NOTHING = 1e-9
+ROUNDING = 1e-9
 """A length or an angle of less [mm or degrees] is rounding of the arithmetic."""
 
 
@@ -87,7 +87,7 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     reading = construction.readings[name]
     # Not Construction.first: a place of the same name would come before the reading.
     paper = reading.paper[0] if construction.pencil.samples is not None else reading.paper
-    paper = np.where(np.abs(paper) < NOTHING, 0.0, paper)
+    paper = np.where(np.abs(paper) < ROUNDING, 0.0, paper)
     meaning = construction.meaning.reading(name)
     mu = reading.per_mm
     if reading.unit == PAPER:

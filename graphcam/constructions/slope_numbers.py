@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import EVERY
+from graphcam.constructions.axes import EVERY, in_runs
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.marks import Label, Points
 
@@ -65,4 +65,4 @@ def ranges(numbers: NDArray[np.intp]) -> str:
     '3-5, 9, 11, 12'
     """
     runs = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
-    return ", ".join(f"{run[0]}-{run[-1]}" if run.size > 2 else ", ".join(map(str, run)) for run in runs)
+    return in_runs([str(number) for number in run] for run in runs)

@@ -13,6 +13,9 @@ UNITS: Mapping[str, Caption] = {
     )
 }
 
+NOTHING = 0.005
+"""A length on paper [mm], or an angle [degrees], of less is written as 0.00: it is neither set nor told."""
+
 
 def unit(name: str) -> Caption:
     """The unit of that name.

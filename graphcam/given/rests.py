@@ -77,6 +77,7 @@ class _Squares(NamedTuple):
     level: Floats
 
     def at(self, level: float) -> Floats:
+        """The sums of squares if the rest lies at a level."""
         return self.least + self.weight * (level - self.level) ** 2
 
 

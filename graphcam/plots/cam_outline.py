@@ -20,7 +20,7 @@ BELOW = 0.22
 """Room for the legend, as a part of the cam's height."""
 FACE = 0.5
 """Half of the drawn face, as a part of the prime radius."""
-TURNS = {"ccw": "counter-clockwise", "cw": "clockwise"}
+TURNS = {"ccw": "anticlockwise", "cw": "clockwise"}
 
 
 def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:

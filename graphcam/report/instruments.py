@@ -7,6 +7,7 @@ import numpy as np
 from graphcam.drafting.acts import Act, Drawn, Floats, Kind, Setting
 from graphcam.drafting.euclid import unit
 from graphcam.drafting.moves import ActPlaces
+from graphcam.drafting.units import NOTHING
 from graphcam.plane import cross
 from graphcam.words import Caption, say
 
@@ -27,8 +28,6 @@ REACH = 150.0
 """Dividers open so far [mm]; longer lengths are set off with the ruler."""
 STRAIGHT = 0.02
 """Points no farther than this from the line through the ends of a piece are joined with the ruler [mm]."""
-NOTHING = 5e-3
-"""So short a length [mm], or so small an angle [degrees], nobody sets."""
 
 
 def instruments(moves: Iterable[ActPlaces]) -> list[Caption]:

@@ -62,7 +62,7 @@ def polar_coordinates(solution: Solution) -> str:
     rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
     header = (say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"))
     said = say(
-        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted counter-clockwise from the "
+        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted anticlockwise from the "
         "horizontal, on the cam as it stands at φ = 0. A dash stands where no point of the profile is left."
     )
     return blocks(said, table(header, rows, solution.tell), tell=solution.tell)

@@ -19,13 +19,13 @@ from graphcam.constructions.axes import (
     height_names,
     numbered,
     numbers,
-    once,
     part_names,
     phase_symbol,
     phi_axes,
     station_names,
     together,
 )
+from graphcam.constructions.slope_numbers import falling_together
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Arrow, Role, Segments
@@ -105,10 +105,9 @@ def test_where_stations_stand_close_every_second_or_third_is_named_and_both_ends
         assert min(np.diff(named)) * apart >= 6
 
 
-def test_of_heights_that_fall_on_one_another_each_is_drawn_once():
+def test_heights_that_fall_on_one_another_are_found_together_from_the_lowest():
     heights = hand().given("heights", np.array([3, 1, 3.0001, -2, 1.0]) * 1j)
-    kept = once(heights)
-    assert_allclose(np.round(heights.points[kept].imag, 3), [-2, 1, 3])
+    assert [group.tolist() for group in falling_together(heights)] == [[3], [1, 4], [0, 2]]
 
 
 def test_of_equal_heights_the_first_stands_for_all_in_every_sample():

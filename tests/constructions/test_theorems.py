@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
-from graphcam.constructions.profile_view import closed_curve
+from graphcam.constructions.profile_view import piecewise_curve
 from graphcam.drafting.hand import showing
 from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.scale import Scale
@@ -246,7 +246,7 @@ def test_a_dwells_arc_is_drawn_from_the_end_that_was_touched(missing):
     nowhere[missing] = nowhere.size
     hand = showing(profile)
     touched = hand.take("touched", touch, hand.given("nowhere", [np.nan]), which=nowhere)
-    line = closed_curve("profile", profile.givens.inverted, touched).points
+    line = piecewise_curve("profile", profile.givens.inverted, touched).whole.points
     assert np.isfinite(line).all()
     on_the_arc = line[np.abs(np.abs(line) - radius) < 1e-9]
     if len(missing) == 2:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, strategies as st
 from issued_variants import SECRET, issued, key, marked, outcomes
 
-from graphcam.constructions.profile_view import closed_curve
+from graphcam.constructions.profile_view import piecewise_curve
 from graphcam.drafting.pencil import Pencil
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers
@@ -260,7 +260,7 @@ def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
     chain = board_chain(drawn(exercise, "Anna", SECRET, answer_key.draw).task)
     points, smooth = (
         key(answer_key)["pitch"],
-        closed_curve("pitch curve", chain.inversion, chain.inversion.acts["pitch"]).points,
+        piecewise_curve("pitch curve", chain.inversion, chain.inversion.acts["pitch"]).whole.points,
     )
     closed = np.append(smooth, smooth[0])
     out_and_back = np.concatenate([smooth[:60], [smooth[59] * 1.15], smooth[60:]])

@@ -110,6 +110,7 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
             return first  # not even the number of points agrees
 
         def left(shift: NDArray[np.float64]) -> float:
+            """How far the points lie off when they are shifted by x, y [mm]."""
             return self._off(known, points, complex(shift[0], shift[1]))
 
         fine = {"xatol": FINE, "fatol": FINE}

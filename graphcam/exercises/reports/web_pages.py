@@ -30,6 +30,7 @@ def _environment() -> Environment:
 
     @pass_context
     def told(context: Context, value: Any) -> Any:
+        """A caption in the language of the page's exercise; other values as they are."""
         return context["exercise"].tell(value) if isinstance(value, Caption) else value
 
     loader = FunctionLoader(_read)

@@ -27,6 +27,7 @@ def main() -> None:
     shown: list[dict[str, Any]] = []
 
     def hand_out(values: dict[str, Any]) -> None:
+        """Keep values, and write them to the pipe as a line of JSON."""
         shown.append(values)
         os.write(order["pipe"], json.dumps(values, default=plain).encode() + b"\n")
 
@@ -60,6 +61,7 @@ def offer_display(namespace: dict[str, Any], hand_out: Callable[[dict[str, Any]]
     """What a notebook calls ``display``, also under the name by which IPython has it."""
 
     def display(*values: Any, raw: bool = False, **_: Any) -> None:
+        """Hand out the answers among what a cell shows."""
         for value in values:
             bundle = value if raw else bundle_of(value)
             if isinstance(bundle, dict) and isinstance(bundle.get(MIME), dict):
@@ -82,7 +84,7 @@ def ignoring(_: str) -> Callable[..., None]:
     """A function for anything else that a notebook wants to show."""
 
     def show(*_: Any, **__: Any) -> None:
-        pass
+        """Show nothing: there is no screen."""
 
     return show
 

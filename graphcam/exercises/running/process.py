@@ -44,6 +44,7 @@ class _Sink:
     held: bytearray = field(default_factory=bytearray)
 
     def take(self, data: bytes) -> None:
+        """Keep data, of too much the first or the last part."""
         self.held += data
         if len(self.held) > self.most:
             self.held = self.held[-self.most :] if self.last else self.held[: self.most]

@@ -44,6 +44,7 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Resource
             os.chown(folder, _user(), _user())
 
         def order(pipe: int) -> bytes:
+            """What the other process is to run, as JSON; it answers through the pipe."""
             ran = {"cells": cells, "names": names, "limits": resources, "user": _user(), "path": path, "pipe": pipe}
             return json.dumps(ran).encode()
 
