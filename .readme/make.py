@@ -47,7 +47,8 @@ for name, width in WIDTHS.items():
         if name == "coursework":
             player = player_picture(Path(folder, str(files["player"])))
             player.quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "player.png", optimize=True)
-    picture.quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(HERE / f"{name}.png", optimize=True)
+    # Of all ways this one keeps grey lines grey.
+    picture.quantize(COLOURS, Image.Quantize.FASTOCTREE).save(HERE / f"{name}.png", optimize=True)
 
 cam = gc.solve(gc.builtin_task()).cam
 plots, picture = Figure((12, 5.6), layout="tight"), BytesIO()

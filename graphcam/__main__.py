@@ -1,6 +1,47 @@
-"""``python -m graphcam`` is ``graphcam``."""
+"""``graphcam``, and ``python -m graphcam``: Ctrl-C is heard while the libraries load, which takes long."""
 
-from graphcam.cli import main
+import os
+import signal
+from types import FrameType
+
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as of a shell."""
+WRONG_OUTPUT = 2
+"""Exit status when what is printed cannot be written."""
+
+
+def main() -> None:
+    """Run the command line; Ctrl-C ends it with one line."""
+    # Whoever starts it in the background may want it not to hear.
+    heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if heard:
+        signal.signal(signal.SIGINT, _end)
+    from graphcam.cli import main as run
+
+    if heard:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        run()
+    except KeyboardInterrupt:
+        _end()
+    except SystemExit as end:
+        # So the command line ends after Ctrl-C, without a word.
+        if end.code == INTERRUPTED:
+            _end()
+        # All is done, and the end of Python itself is not worth interrupting.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        raise
+    except OSError as error:
+        # The commands tell of the files; what is left is that to which they print.
+        os.write(2, f"graphcam: the standard output cannot be written ({error.strerror})\n".encode())
+        os._exit(WRONG_OUTPUT)
+
+
+def _end(signal_number: int = signal.SIGINT, _frame: FrameType | None = None) -> None:
+    """Say it and end at once: there is nothing to be cleared away, not yet or no more."""
+    os.write(2, b"graphcam: interrupted\n")
+    os._exit(INTERRUPTED)
+
 
 if __name__ == "__main__":
     main()

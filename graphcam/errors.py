@@ -57,6 +57,10 @@ class TaskError(GraphcamError):
         return f"{self.path}: {_sentence(self.field, self.value, self.expected, self.remedy)}"
 
 
+class LetteringWarning(UserWarning):
+    """A drawing has characters that no font on the machine has."""
+
+
 def _sentence(what: str, value: object, allowed: str, remedy: str) -> str:
     shown = repr(value) if isinstance(value, str) else f"{value}"
     return f"{what} is {shown}, but must be {allowed}" + (f"; {remedy}" if remedy else "")

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
+import errno
+import hashlib
 import os
-import shutil
-import tempfile
-from collections.abc import Generator
-from contextlib import contextmanager
+from collections.abc import Generator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from types import MappingProxyType
 
+from graphcam.drafts import draft_folder
 from graphcam.errors import GraphcamError
+
+REMEDIES: Mapping[int | None, str] = {
+    errno.ENOSPC: "make room on the disk, or choose a folder on another one",
+    errno.EDQUOT: "delete some of your files there, or choose a folder on another disk",
+    errno.EROFS: "choose a folder on a disk that can be written to",
+    errno.EACCES: "choose a folder in which you may write, or change its permissions",
+    errno.EPERM: "choose a folder in which you may write, or change its permissions",
+    errno.ENAMETOOLONG: "choose a shorter name",
+    errno.EFBIG: "choose a folder on another disk, or raise the limit on the size of files",
+    errno.EIO: "check the disk, or choose a folder on another one",
+}
+"""What to do about an error of the system, by its number."""
+ELSEWHERE = "choose another place"
+"""What to do about any other."""
+NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class OutputError(GraphcamError):
@@ -19,7 +36,7 @@ class OutputError(GraphcamError):
     the output '/proc/out' cannot be written (No such file or directory); choose another place
     """
 
-    def __init__(self, path: str | Path, why: str, remedy: str = "choose another place") -> None:
+    def __init__(self, path: str | Path, why: str, remedy: str = ELSEWHERE) -> None:
         super().__init__(path, why, remedy)
         self.path = path
         self.why = why
@@ -30,30 +47,36 @@ class OutputError(GraphcamError):
 
 
 @contextmanager
-def whole_folder(folder: str | Path) -> Generator[Path]:
+def whole_folder(folder: str | Path, former: Mapping[str, str] = NOTHING) -> Generator[Path]:
     """A temporary folder whose files move into ``folder`` when all of them are written.
 
     On an error nothing is left behind: neither the files nor a folder that was made for them.  Files that ``folder``
     held before stay, but for those of the same names.
 
+    former : files of a run before that go when the new ones come, with their :func:`digest`; one that somebody has
+        changed since is his own, and stays
+
     Raises
     ------
     OutputError : the folder cannot be made or written, or is a file
 
-    >>> with tempfile.TemporaryDirectory() as place:
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as place:
     ...     with whole_folder(Path(place, "out")) as draft:
     ...         _ = (draft / "a.txt").write_text("a")
     ...     sorted(path.name for path in Path(place, "out").iterdir())
     ['a.txt']
     """
+    if folder == "":
+        raise OutputError(folder, "it has no name", "name a folder; that in which you are is '.'")
     folder = Path(folder)
     # In the folder itself, so that each file moves by a rename within one file system.
     with _draft(folder, folder) as draft:
-        yield draft
-        try:
-            _move(draft, folder)
-        except OSError as error:
-            raise _output_error(folder, error) from error
+        new, old = draft / "new", draft / "old"
+        new.mkdir()
+        old.mkdir()
+        yield new
+        _exchange(new, old, folder, former)
 
 
 @contextmanager
@@ -66,7 +89,8 @@ def whole_file(path: str | Path) -> Generator[Path]:
     ------
     OutputError : the file cannot be written
 
-    >>> with tempfile.TemporaryDirectory() as place:
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as place:
     ...     with whole_file(Path(place, "a.txt")) as draft:
     ...         _ = draft.write_text("a")
     ...     sorted(path.name for path in Path(place).iterdir())
@@ -77,10 +101,7 @@ def whole_file(path: str | Path) -> Generator[Path]:
     with _draft(path, path.parent) as folder:
         draft = folder / path.name
         yield draft
-        try:
-            draft.replace(path)
-        except OSError as error:
-            raise _output_error(path, error) from error
+        draft.replace(path)
 
 
 @contextmanager
@@ -88,20 +109,30 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
     """A temporary folder in a place that is made where it is not there yet; on an error nothing is left of both."""
     made = _missing(place)
     try:
-        if target != place and target.is_dir():
-            raise IsADirectoryError("it is a folder")
-        place.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(prefix=".graphcam-", dir=place))
-    except (OSError, ValueError) as error:
-        _remove(made)
-        raise _output_error(target, error) from error
-    try:
-        yield draft
+        with ExitStack() as drafts:
+            try:
+                if target != place and target.is_dir():
+                    raise IsADirectoryError("it is a folder")
+                place.mkdir(parents=True, exist_ok=True)
+                draft = drafts.enter_context(draft_folder(place))
+            except (OSError, ValueError) as error:
+                raise _output_error(target, error) from error
+            try:
+                yield draft
+            except OSError as error:
+                if _is_of(place, error):
+                    raise _output_error(target, error) from error
+                raise
     except BaseException:
-        shutil.rmtree(draft, ignore_errors=True)
         _remove(made)
         raise
-    draft.rmdir()
+
+
+def _is_of(place: Path, error: OSError) -> bool:
+    """Whether an error is of a place: it names a file there, or it names none and is of a disk."""
+    if error.filename is None:
+        return error.errno in REMEDIES
+    return Path(os.fsdecode(error.filename)).absolute().is_relative_to(place.absolute())
 
 
 def check_new(path: str | Path) -> None:
@@ -125,21 +156,55 @@ def write_new(path: str | Path, text: str) -> None:
     OutputError : the file is there already, or cannot be written
     """
     try:
-        with Path(path).open("x", encoding="utf-8") as file:
+        with Path(path).open("x", encoding="utf-8") as file, ExitStack() as on_error:
+            on_error.callback(os.unlink, path)
             file.write(text)
+            file.flush()
+            on_error.pop_all()
     except FileExistsError as error:
         raise OutputError(path, "it is there already", "name a new file, or remove that one first") from error
     except (OSError, ValueError) as error:
         raise _output_error(path, error) from error
 
 
-def _move(draft: Path, folder: Path) -> None:
-    for path in sorted(draft.iterdir()):
+def digest(path: Path) -> str:
+    """What tells whether a file is still the same: the SHA-256 of its bytes, in hexadecimal."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _exchange(new: Path, old: Path, folder: Path, former: Mapping[str, str]) -> None:
+    """Move all files from ``new`` into the folder, what stood there in their place into ``old``, and former files too.
+
+    If one cannot be moved, all go back to where they were.
+    """
+    names = sorted(path.name for path in new.iterdir())
+    for name in names:
         # A folder of the same name cannot be replaced by a file: say so before the first file has moved.
-        if (folder / path.name).is_dir():
-            raise IsADirectoryError(f"{path.name} is a folder there")
-    for path in sorted(draft.iterdir()):
-        path.replace(folder / path.name)
+        if (folder / name).is_dir():
+            raise IsADirectoryError(errno.EISDIR, f"{name} is a folder there", str(folder / name))
+    replaced = [name for name in names if os.path.lexists(folder / name)]
+    replaced += [name for name in former if name not in names and _unchanged(folder, name, former[name])]
+    moves = [*((folder / name, old / name) for name in replaced), *((new / name, folder / name) for name in names)]
+    begun: list[tuple[Path, Path]] = []
+    try:
+        for source, target in moves:
+            begun.append((source, target))
+            source.replace(target)
+    except BaseException:
+        for source, target in reversed(begun):
+            # The last one may not have moved.
+            with suppress(OSError):
+                target.replace(source)
+        raise
+
+
+def _unchanged(folder: Path, name: str, known: str) -> bool:
+    """Whether a file in the folder itself, not a link to one elsewhere, is still what it was."""
+    path = folder / name
+    try:
+        return Path(name).name == name and path.is_file() and not path.is_symlink() and digest(path) == known
+    except OSError:
+        return False
 
 
 def _missing(folder: Path) -> list[Path]:
@@ -164,5 +229,6 @@ def _remove(made: list[Path]) -> None:
 
 
 def _output_error(path: str | Path, error: OSError | ValueError) -> OutputError:
-    why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return OutputError(path, why)
+    if isinstance(error, OSError):
+        return OutputError(path, error.strerror or str(error), REMEDIES.get(error.errno, ELSEWHERE))
+    return OutputError(path, str(error))

@@ -11,11 +11,15 @@ from functools import cache
 from gettext import GNUTranslations, NullTranslations
 from importlib import resources
 from io import BytesIO
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.words import Caption, Words
+
+MINUS = "−"
+"""As wide as a plus; a hyphen is what a program reads."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +34,8 @@ class Language:
     >>> russian = language("ru")
     >>> russian.text(say("{value:.2f} {unit}", value=1.5, unit=say("mm")))
     '1,50 мм'
-    >>> ENGLISH.text(say("{value:.2f} {unit}", value=1.5, unit=say("mm")))
-    '1.50 mm'
+    >>> ENGLISH.text(say("{value:.2f} {unit}", value=-1.5, unit=say("mm")))
+    '−1.50 mm'
     """
 
     name: str
@@ -64,9 +68,11 @@ class _Formatter(string.Formatter):
         self.language = language
 
     def format_field(self, value: Any, format_spec: str) -> str:
+        """A caption in the language; a number with its decimal sign and a true minus."""
         if isinstance(value, str | Caption):
             return format(self.language.text(value), format_spec)
-        return format(value, format_spec).replace(".", self.language.decimal)
+        written = format(value, format_spec).replace(".", self.language.decimal)
+        return written.replace("-", MINUS) if isinstance(value, Real) else written
 
 
 ENGLISH = Language("en")

@@ -98,7 +98,7 @@ show_steps(integration, 4, 5, 6, within=solution)
 # **The scales** come last, and they come from the lift alone:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(integration, 7, within=solution)
+show_steps(integration, 7, 8, 9, within=solution)
 
 # %% [markdown]
 # ## Try it yourself

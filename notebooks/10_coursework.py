@@ -68,7 +68,7 @@ picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: thr
 # ## Step by step through the decisions
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-show_steps(solution.drawn["integration"], 7, within=solution)
+show_steps(solution.drawn["integration"], 7, 8, 9, within=solution)
 show_steps(solution.drawn["minimum_radius"], 5, within=solution)
 
 # %% [markdown]
@@ -167,7 +167,7 @@ table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s
 # 4. The follower's line stands on the favourable side; the numbers run against the rotation of the cam.
 # 5. $s$ is laid off from the prime circle; the dwells are arcs about the centre.
 # 6. The greatest pressure angle *of the adopted cam* is below the limit; the roller keeps the rule.
-# 7. The gauge on a print measures 100 mm.
+# 7. The scale bar on a print measures 100 mm.
 #
 # ## Where the error comes from
 #

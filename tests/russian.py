@@ -12,7 +12,7 @@ KNOWN = {
 
 
 def english_words(text: str, names: Iterable[str] = ()) -> set[str]:
-    """Latin words of three letters or more, but for TeX's and for names, which are the same in every language."""
+    """Latin words of three letters or more, but for TeX's, HTML's and names, which are the same in every language."""
     for name in names:
         text = re.sub(rf"\b{re.escape(name)}\b", " ", text)
-    return set(re.findall("[A-Za-z]{3,}", re.sub(r"\\[A-Za-z]+", "", text))) - KNOWN
+    return set(re.findall("[A-Za-z]{3,}", re.sub(r"\\[A-Za-z]+|</?sub>", "", text))) - KNOWN

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+import subprocess
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -54,7 +55,7 @@ def asked(monkeypatch):
         calls.append((task, pencil))
         return Solution(task)
 
-    solving.solve, report.check_choices = solve, lambda solution, upto, dxf: None
+    solving.solve, report.check_choices = solve, lambda solution, upto, dxf, working_drawing: None
     for module in (solving, report):
         monkeypatch.setitem(sys.modules, module.__name__, module)
     return calls
@@ -167,6 +168,10 @@ def test_the_version(run):
     assert run("--version").stdout == f"graphcam {graphcam.__version__}\n"
 
 
+def test_the_help_shows_what_stands_in_brackets(run):
+    assert "task's table [part]" in " ".join(run("solve", "--help").stdout.replace("│", " ").split())
+
+
 @pytest.mark.parametrize("command", [[], ["solve"], ["init"]])
 def test_the_examples_of_the_help_run(run, asked, tmp_path, command):
     shown = run(*command, "--help").stdout.splitlines()
@@ -179,3 +184,76 @@ def test_the_examples_of_the_help_run(run, asked, tmp_path, command):
         result = run(*words)
         assert result.exit_code == 0, (example, result.output)
         (tmp_path / "cam.toml").unlink(missing_ok=True)
+
+
+INTERRUPTED = """
+import os, signal, sys
+
+# What runs in the background of a shell would not hear.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+class Interrupting:
+    "Sends what Ctrl-C sends when a module is about to be loaded."
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+module, sys.argv[1:] = sys.argv[1], ["solve", "--out", "out"]
+from graphcam.__main__ import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    "module",
+    ["graphcam.cli", "typer", "graphcam.cli.solve", "numpy", "numpy.linalg", "graphcam.tasks.task", "pydantic",
+     "graphcam.report.output_folder", "matplotlib", "ezdxf"],
+)  # fmt: skip
+def test_an_interruption_is_one_line_from_the_first_moment(module, tmp_path):
+    ran = subprocess.run([sys.executable, "-c", INTERRUPTED, module], cwd=tmp_path, capture_output=True, text=True)
+    assert [line for line in ran.stderr.splitlines() if not line.endswith("...")] == ["graphcam: interrupted"]
+    assert ran.returncode == 130
+    assert files(tmp_path) == []
+
+
+def test_a_full_disk_under_the_standard_output_is_one_line(tmp_path):
+    with Path("/dev/full").open("w") as full:
+        words = [sys.executable, "-m", "graphcam", "solve", "--json"]
+        ran = subprocess.run(words, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == WRONG_INPUT
+    assert ran.stderr == "graphcam: the standard output cannot be written (No space left on device)\n"
+
+
+def test_who_starts_it_deaf_to_interruptions_is_not_interrupted(tmp_path):
+    """As a shell does with what runs in the background."""
+    deaf = INTERRUPTED.replace(
+        "class Interrupting", "signal.signal(signal.SIGINT, signal.SIG_IGN)\n\nclass Interrupting"
+    )
+    deaf = deaf.replace('["solve", "--out", "out"]', '["--version"]')
+    ran = subprocess.run([sys.executable, "-c", deaf, "typer"], cwd=tmp_path, capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (0, f"graphcam {graphcam.__version__}\n", "")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["solve", "--out", ""],
+        ["solve", ""],
+        ["notebook", "--out", ""],
+        ["bench", "--out", ""],
+        ["sweep", "space.toml", "--out", ""],
+        ["init", ""],
+        ["exercise", "simulate", "inversion-translating", "--out", ""],
+        ["exercise", "make", "inversion-translating", "--roster", "r.csv", "--secret-file", "s", "--out", ""],
+        ["exercise", "grade", "", "--secret-file", "s", "--out", "grades.csv"],
+        ["exercise", "grade", ".", "--secret-file", "s", "--out", ""],
+        ["exercise", "grade", ".", "--secret-file", "s", "--out", "grades.csv", "--feedback", ""],
+        ["exercise", "export", "inversion-translating", "--format", "moodle", "--out", ""],
+    ],
+)
+def test_a_place_without_a_name_is_refused(run, tmp_path, words):
+    result = run(*words)
+    assert result.exit_code == WRONG_INPUT
+    assert "names no place" in " ".join(result.stderr.replace("│", " ").split())
+    assert files(tmp_path) == []

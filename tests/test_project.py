@@ -93,6 +93,9 @@ def test_the_wheel_holds_tasks_and_types(tmp_path):
     assert {f"graphcam/data/tasks/{name}.toml" for name in ("coursework", "arm", "flat")} <= held
     assert {"graphcam/py.typed", "graphcam/data/commented.toml", "graphcam/cli/solve.py"} <= held
     assert "graphcam/exercises/library/whole-cam.toml" in held
+    assert "graphcam/data/fonts/osifont.ttf" in held
+    licences = f"graphcam-{graphcam.__version__}.dist-info/licenses"
+    assert {f"{licences}/LICENSE", f"{licences}/graphcam/data/fonts/osifont-licence.txt"} <= held
     assert {name.split("/")[0] for name in held} == {"graphcam", f"graphcam-{graphcam.__version__}.dist-info"}
 
 

@@ -17,7 +17,6 @@ from graphcam.bench.bench_report import Report
 from graphcam.bench.convergence import Series
 from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
-from graphcam.sheets.fonts import FAMILY
 
 INK, GREY, FAINT, ACCENT = "#1f2328", "#7d858c", "#e7e9eb", "#b3331f"
 BLUES = ("#1d4e89", "#3d85c6", "#2a9d8f")
@@ -27,7 +26,7 @@ SETTINGS: dict[Any, Any] = (
     dict.fromkeys(("text.color", "axes.labelcolor", "xtick.labelcolor", "ytick.labelcolor"), INK)
     | dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), GREY)
     | dict.fromkeys(("axes.spines.top", "axes.spines.right"), False)
-    | {"font.family": FAMILY, "font.size": 10.0, "pdf.fonttype": 42, "axes.linewidth": 0.8}
+    | {"font.family": "DejaVu Sans", "font.size": 10.0, "pdf.fonttype": 42, "axes.linewidth": 0.8}
     | {"axes.titlesize": 11.5, "axes.titleweight": "bold", "axes.titlelocation": "left"}
 )
 DPI = 160

@@ -98,7 +98,7 @@ def view_svg(task: Task | ArcsTask, view: str, names: Sequence[str]) -> str:
     """The steps of one view as SVG, a group each; nothing is drawn but the constructions ``names`` and what they need.
 
     >>> view_svg(builtin_task(), "velocity", ["integration"]).count("<g id=")
-    3
+    4
     """
     drawn = solve(task).drawn
     steps = (step for name in names for step in drawn[name].steps() if step.marks and step.view.name == view)

@@ -11,14 +11,24 @@ import typer
 from typer import Argument, Option
 
 import graphcam
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.shared import (
+    DEFAULT_FOLDER,
+    TaskFile,
+    named,
+    one_message,
+    print_table,
+    progress_bar,
+    progress_lines,
+    said,
+)
 from graphcam.files import OutputError, write_new
 
 
 def notebook(
     task: TaskFile = None,
-    out: Annotated[Path, Option(metavar="DIR", help="Folder for the notebook and its task.")] = DEFAULT_FOLDER
-    / "notebook",
+    out: Annotated[
+        Path, Option(parser=named, metavar="DIR", help="Folder for the notebook and its task.")
+    ] = DEFAULT_FOLDER / "notebook",
     run: Annotated[bool, Option("--execute", help="Execute it, so that it holds its figures.")] = False,
     html: Annotated[bool, Option("--html", help="Execute it and make a page that stands alone.")] = False,
     pdf: Annotated[bool, Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
@@ -51,8 +61,9 @@ def bench(
     quick: Annotated[
         bool, Option("--quick", help="Fewer and shorter measurements: about 40 s of processor time.")
     ] = False,
-    out: Annotated[Path, Option(metavar="DIR", help="Folder for the report and its figures.")] = DEFAULT_FOLDER
-    / "bench",
+    out: Annotated[
+        Path, Option(parser=named, metavar="DIR", help="Folder for the report and its figures.")
+    ] = DEFAULT_FOLDER / "bench",
 ) -> None:
     """Report speed against error: drawn, sampled and exact, beside what else one would use.
 
@@ -74,8 +85,10 @@ def bench(
 
 
 def sweep(
-    space: Annotated[Path, Argument(metavar="SPACE.toml", help="File with the values of every size.")],
-    out: Annotated[str, Option(metavar="PLACE", help="Results, a row a design: a .csv or .parquet file, or a folder.")],
+    space: Annotated[Path, Argument(parser=named, metavar="SPACE.toml", help="File with the values of every size.")],
+    out: Annotated[
+        str, Option(parser=said, metavar="PLACE", help="Results, a row a design: a .csv or .parquet file, or a folder.")
+    ],
     workers: Annotated[int, Option(min=1, help="Processes that compute.")] = 1,
     cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
 ) -> None:
@@ -112,7 +125,9 @@ def sweep(
 
 
 def init(
-    file: Annotated[Path, Argument(metavar="FILE", help="Name of the task file to write; it must not be there yet.")],
+    file: Annotated[
+        Path, Argument(parser=named, metavar="FILE", help="Name of the task file to write; it must not be there yet.")
+    ],
 ) -> None:
     """Write a task file in which every key is explained: the coursework task, to be changed.
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Argument, Option
 
-from graphcam.cli.shared import DEFAULT_FOLDER, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_bar, progress_lines
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 
@@ -45,7 +45,7 @@ def simulate(
     variants: Annotated[int, Option(min=1, metavar="N", help="Variants that are drawn.")] = 5,
     hands: Annotated[int, Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
     as_json: Annotated[bool, Option("--json", help="Print the figures as JSON alone.")] = False,
-    out: Annotated[Path | None, Option(metavar="FILE", help="Write the JSON into a new file.")] = None,
+    out: Annotated[Path | None, Option(parser=named, metavar="FILE", help="Write the JSON into a new file.")] = None,
 ) -> None:
     """Let simulated students do an exercise: careful ones, and some with every catalogued mistake.
 
@@ -94,9 +94,14 @@ def _print_matrix(found: Simulation) -> None:
 @exercise.command()
 def make(
     name: Name,
-    roster: Annotated[Path, Option(metavar="CSV", help="The students: their ids in a column 'id', or the first.")],
-    secret_file: Annotated[Path, Option(metavar="F", help="The course's secret, any bytes, kept by you.")],
-    out: Annotated[Path, Option(metavar="DIR", help="Folder for the papers.")] = DEFAULT_FOLDER / "exercise",
+    roster: Annotated[
+        Path, Option(parser=named, metavar="CSV", help="The students: their ids in a column 'id', or the first.")
+    ],
+    secret_file: Annotated[
+        Path, Option(parser=named, metavar="F", help="The course's secret, any bytes, kept by you.")
+    ],
+    out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the papers.")] = DEFAULT_FOLDER
+    / "exercise",
     language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
 ) -> None:
@@ -122,9 +127,9 @@ def make(
 
 @exercise.command()
 def grade(
-    folder: Annotated[Path, Argument(metavar="DIR", help="The folder with a folder for every student.")],
-    secret_file: Annotated[Path, Option(metavar="F", help="The course's secret.")],
-    out: Annotated[Path, Option(metavar="CSV", help="The grades; reports of that name go beside it.")],
+    folder: Annotated[Path, Argument(parser=named, metavar="DIR", help="The folder with a folder for every student.")],
+    secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
+    out: Annotated[Path, Option(parser=named, metavar="CSV", help="The grades; reports of that name go beside it.")],
     exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
     level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 nothing is run.")] = Level.L0,
     seconds: Annotated[float, Option(min=0.1, help="What a notebook's code may take.")] = 10.0,
@@ -132,7 +137,9 @@ def grade(
         int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
     ] = os.cpu_count() or 1,
     cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
-    feedback: Annotated[Path | None, Option(metavar="DIR", help="A page for every student goes there.")] = None,
+    feedback: Annotated[
+        Path | None, Option(parser=named, metavar="DIR", help="A page for every student goes there.")
+    ] = None,
     gradebook: Annotated[str, Option(metavar="URL", help="Also enter the scores here, sqlite:///gradebook.db.")] = "",
 ) -> None:
     """Grade what a course handed in: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
@@ -158,12 +165,15 @@ def export(
     name: Annotated[str, Argument(metavar="NAME", help="An exercise, or the path of its file.")],
     target: Annotated[LearningSystem, Option("--format", help="The system that it is for.")],
     count: Annotated[int, Option(min=1, max=1000, metavar="N", help="How many variants.")] = 1,
-    roster: Annotated[Path | None, Option(metavar="CSV", help="A variant for each of these students instead.")] = None,
+    roster: Annotated[
+        Path | None, Option(parser=named, metavar="CSV", help="A variant for each of these students instead.")
+    ] = None,
     secret_file: Annotated[
-        Path | None, Option(metavar="F", help="The course's secret; without it a new one is made.")
+        Path | None, Option(parser=named, metavar="F", help="The course's secret; without it a new one is made.")
     ] = None,
     language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
-    out: Annotated[Path, Option(metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER / "export",
+    out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
+    / "export",
 ) -> None:
     """Export variants of an exercise for Moodle, nbgrader or Gradescope.
 

@@ -4,14 +4,15 @@ import shutil
 import sys
 import textwrap
 import time
+import warnings
 from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from graphcam.errors import GraphcamError
+from graphcam.errors import GraphcamError, LetteringWarning
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -19,8 +20,23 @@ REFRESHED = 0.1
 """Seconds between two looks of a bar."""
 DEFAULT_FOLDER = Path("graphcam-out")
 """Where the files go if nothing is said."""
+
+
+def said(place: str) -> str:
+    """A place that is said: an empty one would be taken for the folder in which one is."""
+    if not place:
+        raise typer.BadParameter("'' names no place; the folder in which you are is '.'")
+    return place
+
+
+def named(path: str | Path) -> Path:
+    """A path that is named."""
+    return Path(said(str(path)))
+
+
 TaskFile = Annotated[
-    Path | None, typer.Argument(metavar="TASK.toml", help="Task file; without it the built-in coursework.")
+    Path | None,
+    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; without it the built-in coursework."),
 ]
 
 
@@ -32,6 +48,23 @@ def one_message() -> Generator[None]:
     except (GraphcamError, OSError) as error:
         typer.echo(f"graphcam: {error}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
+
+
+@contextmanager
+def warnings_told() -> Generator[None]:
+    """What a drawing's letters lack on this machine is told in one line."""
+    with warnings.catch_warnings(action="always", category=LetteringWarning):
+        otherwise = warnings.showwarning
+
+        def told(message: Warning | str, category: type[Warning], *where: Any) -> None:
+            """In one line, as every other warning; what else warns is shown as before."""
+            if issubclass(category, LetteringWarning):
+                typer.echo(f"warning: {message}", err=True)
+            else:
+                otherwise(message, category, *where)
+
+        warnings.showwarning = told
+        yield
 
 
 def progress_lines(*, quiet: bool) -> Callable[[str], None]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import json
-from collections.abc import Generator
+from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +14,15 @@ import typer
 from typer import Option
 
 import graphcam
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, one_message, print_table, progress_lines
+from graphcam.cli.shared import (
+    DEFAULT_FOLDER,
+    TaskFile,
+    named,
+    one_message,
+    print_table,
+    progress_lines,
+    warnings_told,
+)
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -26,16 +34,18 @@ LARGE = ("A1", "A2")
 FOLDER = f"Folder for the files, {DEFAULT_FOLDER} if left out."
 JSON_ALONE = "Print the solution as JSON alone; write files only with --out."
 OWN_SHEETS = "Each construction on sheets of its own, A3 where the task has A1 or A2."
-BLANK = "A blank sheet to draw on: axes, divisions, and what the task gives."
-HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME."
+BLANK = "A blank sheet to draw on, without answers: axes, divisions, and what the task gives."
+HALF_DONE = "A half-done sheet, without other answers: up to step K, or to the end of the construction NAME."
 BY_HAND = "Draw with a hand of this standard deviation, in mm, in lines, divider settings and at a protractor's edge."
 KINDS = "plain: for every CAD program; cad: with true dimensions and attributes."
+# Brackets are markup here.
+AS_PART = r"For the workshop: the cam's working drawing too, a solid and G-code, by the task's table \[part]."
 OTHER_LANGUAGE = f"Language of sheet and note, not the task's: {', '.join(languages())}."
 
 
 def solve(
     task: TaskFile = None,
-    out: Annotated[Path | None, Option(metavar="DIR", help=FOLDER)] = None,
+    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=FOLDER)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
     pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=BY_HAND)] = None,
     divisions: Annotated[int | None, Option(metavar="N", help="Parts per phase or arc, not the task's.")] = None,
@@ -45,6 +55,7 @@ def solve(
     worksheet: Annotated[bool, Option("--worksheet", help=BLANK)] = False,
     upto: Annotated[str | None, Option(metavar="K|NAME", help=HALF_DONE)] = None,
     dxf: Annotated[str, Option(metavar="KIND", help=KINDS)] = "plain",
+    working_drawing: Annotated[bool, Option("--working-drawing", help=AS_PART)] = False,
 ) -> None:
     """Solve a task: draw the sheet, write the note and the tables, compare with exact values.
 
@@ -67,32 +78,32 @@ def solve(
     graphcam solve cam.toml --per-construction --upto integration
 
     graphcam solve cam.toml --dxf cad   (dimensions and title block that a CAD program can edit)
+
+    graphcam solve cam.toml --working-drawing   (the cam as a part, with its polar table)
     """
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    with one_message(), _collecting_later():
+    with one_message(), warnings_told(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
+        from graphcam.solving.shown_solution import without_answers
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
         solution = solved(given, None if pencil is None else graphcam.Pencil.of(pencil, seed=seed))
-        document = solution.to_dict()
+        document = solution.to_dict() if last is None else without_answers(solution.to_dict())
         if folder is None:
             # A wrong choice is one even where nothing is drawn by it.
-            check_choices(solution, last, dxf=dxf)
+            check_choices(solution, last, dxf=dxf, working_drawing=working_drawing)
         else:
-            parts = per_construction
-            document["files"] = solution.write(folder, upto=last, per_construction=parts, dxf=dxf, progress=progress)
-    if as_json:
-        typer.echo(json.dumps(document, indent=2, allow_nan=False))
-    else:
-        _print_quantities(document["quantities"])
-        typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
-    for sentence in solution.warnings:
-        typer.echo(f"warning: {sentence}", err=True)
+            parts, as_part = per_construction, working_drawing
+            document["files"] = solution.write(
+                folder, upto=last, per_construction=parts, dxf=dxf, working_drawing=as_part, progress=progress
+            )
+    # A warning tells what somebody with an unfinished sheet is to find.
+    _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
 
 
 @contextmanager
@@ -122,6 +133,20 @@ def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
     if worksheet:
         return 0
     return int(upto) if upto is not None and upto.isdecimal() else upto
+
+
+def _print_solution(
+    document: dict[str, Any], folder: Path | None, sentences: Iterable[object], *, as_json: bool
+) -> None:
+    """The document as JSON, or the quantities, which an unfinished sheet does not tell, and the files; warnings."""
+    if as_json:
+        typer.echo(json.dumps(document, indent=2, allow_nan=False))
+    else:
+        if "quantities" in document:
+            _print_quantities(document["quantities"])
+        typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
+    for sentence in sentences:
+        typer.echo(f"warning: {sentence}", err=True)
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:

@@ -17,13 +17,16 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import (
     degrees,
+    degrees_below,
     numbers,
+    ordinate,
     part_names,
     part_titles,
     phase_ends,
     phase_names,
     phase_title,
     phi_axes,
+    reach,
     station_names,
     together,
 )
@@ -190,15 +193,16 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     level = say("With T-square and ruler draw the axis, {length:.1f} mm long.", length=ends[-1])
     upright = say("From its left end set off {ends} mm with the ruler; raise uprights with the set square.", ends=told)
     cuts = diagram.acts["axis"].first[[k for span in stations.phases for k in (span.start, span.stop - 1)]]
-    across, up, thin, *names = phi_axes(motion, mu_phi, heights, "a")
+    across, up, thin, *others = phi_axes(motion, mu_phi, heights, ordinate("a", diagram.givens.unit))
     # A thin line belongs to the cut that it stands on; that at the end of the turn goes with the last one.
     nearest = [int(np.argmin(np.abs(cuts.shown.real - end))) for end in ends[1:]]
     thin = replace(thin, of=cuts.act, index=cuts.index[nearest])
-    axes = (across, up, thin, *names, turn.line_from(0j, Role.RESULT))
+    axes = (across, up, thin, *others, turn.line_from(0j, Role.RESULT))
     title = say("Axis of the cam angle")
     why = say("Because all diagrams stand over the cam angle, one axis with one scale serves them all.")
     parts = Part(level, (turn.first,)), Part(upright, (cuts,))
-    return Step(title, said, ACCELERATION, axes, ("base",), given=axes, why=why, parts=parts)
+    under = degrees_below(ends[-1], mu_phi, reach(heights)[0])
+    return Step(title, said, ACCELERATION, axes, ("base",), given=axes, why=why, parts=parts, under=under)
 
 
 def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> Step:
@@ -350,8 +354,10 @@ BESIDE = 6.0
 def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: Drawn) -> Dimension:
     """The dimension of a phase's largest ordinate, beyond where the curve crosses the axis: clear of the others."""
     line, of = curve.shown, diagram.acts["greatest"]
-    height = np.sign(line.imag[np.argmax(np.abs(line.imag))]) * line.imag
-    top = complex(line[np.flatnonzero(height >= (1 - LEVEL) * height.max())[-1]])
+    side = float(np.sign(line.imag[np.argmax(np.abs(line.imag))]))
+    height = side * line.imag
+    # A curve is drawn through points, of which none need be its highest.
+    top = complex(line.real[np.flatnonzero(height >= (1 - LEVEL) * height.max())[-1]], side * law.greatest)
     crossing = float(line.real[np.flatnonzero(height > LEVEL * height.max())[-1]])
     by = crossing + min(BESIDE, (float(line.real[-1]) - crossing) / 2) - top.real
     # To the right of an ordinate that points up is on the negative side of its dimension.

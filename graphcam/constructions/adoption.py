@@ -80,6 +80,11 @@ class Adoption:
     rounding: float
 
 
+def nothing_adopted() -> Adoption | None:
+    """Of a region that is drawn for itself."""
+    return None
+
+
 def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step:
     """The decision as a step of its own, before anything is drawn with what it adopts.
 

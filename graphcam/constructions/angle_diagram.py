@@ -1,19 +1,19 @@
 """The diagram of the pressure angle over the cam angle, from which the greatest angles are read."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.axes import degree_ticks, phase_angle, phase_ends, phi_axes, pieces_of, station_names
+from graphcam.constructions.axes import numbers, ordinate, phases_below, phi_axes, pieces_of, reach, station_names
 from graphcam.constructions.curve_over_phi import curve_over_phi
+from graphcam.constructions.graduation import graduated
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import Dimension, Mark, Role
+from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -90,11 +90,12 @@ def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
 def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     givens = plotted.givens.measured.givens.integrated.givens
     motion, stations, mu_phi, curve = givens.motion, givens.stations, givens.mu_phi, plotted.acts["curve"]
-    ends, low = phase_ends(motion, mu_phi), min(0.0, float(np.nanmin(curve.shown.imag))) - 24.0
+    axis, heights = plotted.acts["acceleration: axis"].first, curve.shown.imag
     axes = (
-        *phi_axes(motion, mu_phi, curve.shown.imag, "α"),
-        *degree_ticks(mu_phi),
-        *(Dimension(a + UP * low, b + UP * low, phase_angle(motion, k)) for k, (a, b) in enumerate(pairwise(ends))),
+        *phi_axes(motion, mu_phi, heights, ordinate("α", givens.unit)),
+        *graduated(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
+        *phases_below(motion, mu_phi, reach(heights)[0]),
+        *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
     met = say("At {first}, where the acceleration jumps, it turns a corner.")
     drawn, lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
@@ -112,7 +113,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     why = say(
         "Because the angle is greatest between two stations as a rule, it is read off the curve through all of them."
     )
-    marks = (*axes, curve.dots(Role.CONSTRUCTION), *lines)
+    marks = (*axes, curve.from_(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
     return Step(title, said, ANGLE, marks, given=axes, why=why, parts=(*set_off, *faired))
 

@@ -1,5 +1,6 @@
 """Lift, velocity, acceleration and pressure angle of a roller on a cam of arcs, over the cam angle."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -11,7 +12,8 @@ import numpy as np
 from graphcam.constructions.arc_outline import FLAT
 from graphcam.constructions.arc_plan import worked
 from graphcam.constructions.arc_stations import RollerOnArcs
-from graphcam.constructions.axes import NUMBER_ROOM, axes_over_phi, degree_ticks, reach
+from graphcam.constructions.axes import NUMBER_ROOM, PHASES_BELOW, axes_over_phi, degrees_below, ordinate, reach
+from graphcam.constructions.graduation import graduated
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -134,9 +136,9 @@ TITLES = {
 }
 SPANS = (
     say("rise {angle:.2f}°"),
-    say("upper dwell {angle:.2f}°"),
+    say("dwell {angle:.2f}°"),
     say("return {angle:.2f}°"),
-    say("lower dwell {angle:.2f}°"),
+    say("dwell {angle:.2f}°"),
 )
 """The phases and their angles."""
 CARRIED = {
@@ -207,8 +209,11 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
     curve, dots, feet = _whole_turn(plotted, hand, name), plotted.acts[name].first, plotted.acts["stations"].first
     low, high = reach(curve.shown.imag)
-    axes = axes_over_phi(float(ends.shown[-1].real), curve.shown.imag, SYMBOLS[name])
-    axes += degree_ticks(mu_phi) if name == "alpha" else ()
+    end, per_mm = float(ends.shown[-1].real), _per_mm(plotted, name)
+    axes = axes_over_phi(end, mu_phi, curve.shown.imag, ordinate(SYMBOLS[name], "mm"))
+    axes += graduated(curve.shown.imag, per_mm)
+    below = degrees_below(end, mu_phi, low)
+    axes += below if name == "alpha" else ()
     limits = hand.erect("limits", ends[1:])
     marks: list[Mark] = [
         *axes,
@@ -217,7 +222,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         ),
         dots.from_(feet, Role.CONSTRUCTION),
         *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
-        *(_phases(ends, mu_phi, low - 24.0) if name == "alpha" else ()),
+        *(_phases(ends, mu_phi, low - PHASES_BELOW) if name == "alpha" else ()),
     ]
     at_stations, key = _at_stations(plotted, name), "lift" if name == "s" else f"max_{name}"
     ordinates = np.array([values["ordinate"] for values in at_stations])
@@ -234,7 +239,10 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         marks, parts = marks + found, [*parts, touched]
     marks += _names(plotted, dots)  # the number of the maximum finds its place first
     caption = sequence([each.where(**values) for each in said], " ")
-    return Step(TITLES[name], caption, VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], parts=tuple(parts))
+    under = () if name == "alpha" else below
+    return Step(
+        TITLES[name], caption, VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], parts=tuple(parts), under=under
+    )
 
 
 def _maximum(
@@ -247,16 +255,23 @@ def _maximum(
     touched = say("Slide the T-square down until it touches the curve: {paper:.2f} mm above the axis.")
     if side < 0:
         touched = say("Slide the T-square up until it touches the curve: {paper:.2f} mm below the axis.")
-    number = Label(top.place, say("{value:.2f}", value=side * values["value"]), side * UP, of=read)
+    shown = say("{value:.2f}°") if name == "alpha" else say("{value:.2f}")
+    number = Label(top.place, shown.where(value=side * values["value"]), side * UP, of=read)
     return [top.dots(Role.LIMIT), number], Part(touched.where(**values), (top,))
+
+
+def _per_mm(plotted: Construction[ArcDiagramsGivens], name: str) -> float:
+    """The scale of a diagram, of that of the pressure angle in degrees."""
+    if name == "alpha":
+        return math.degrees(plotted.givens.mu_phi.per_mm)
+    return plotted.readings["lift" if name == "s" else f"max_{name}"].per_mm
 
 
 def _at_stations(plotted: Construction[ArcDiagramsGivens], name: str) -> list[dict[str, Any]]:
     """What is taken from the drawing of the roller at each station, and laid off."""
     rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi.per_mm
     stations, feet, dots = rolled.givens.stations, plotted.acts["stations"].shown, plotted.acts[name].shown
-    degree, angle = float(np.degrees(mu_phi)), name == "alpha"
-    mu = degree if angle else plotted.readings["lift" if name == "s" else f"max_{name}"].per_mm
+    degree, angle, mu = float(np.degrees(mu_phi)), name == "alpha", _per_mm(plotted, name)
     factor = 1 / mu if angle else rolled.readings[name].per_mm / mu
     ordinates = (dots - feet).imag
     lengths = np.degrees(rolled.first(name)) if angle else rolled.first(name)
@@ -334,11 +349,12 @@ def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str)
 
 
 def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
-    """The angles of rise, dwell and return."""
+    """The angles of rise, dwells and return; the last one takes up what rounding the others leaves of the turn."""
     bounds = ends.shown[[0, 3, 4, 7, 8]] + UP * height
-    spans = zip(pairwise(bounds), SPANS, np.degrees(np.diff(bounds.real) * mu_phi.per_mm), strict=True)
+    angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm).round(2)
+    angles[-1] = 360 - angles[:-1].sum()
     return [
         Dimension(a, b, said.where(angle=angle), of=ends.act, index=ends.index[3:4])
-        for (a, b), said, angle in spans
-        if angle > 0
+        for (a, b), said, angle in zip(pairwise(bounds), SPANS, angles, strict=True)
+        if abs(b - a) > 0
     ]

@@ -19,12 +19,12 @@ from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane import dot
 from graphcam.words import joined, sequence
 
-ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"))
+ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"), main=True)
 OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
@@ -59,11 +59,12 @@ MEANING = Meaning(
 )
 
 
-def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> ArcOutline:
+def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil, paper: Paper = UNLIMITED) -> ArcOutline:
     """Find the centres and the points of touching of both roots.
 
     dwell : angle [rad] for which the outer circle holds the follower up
     mu_l : drawing scale [mm/mm]
+    paper : for the plans of the roller on the arcs
 
     Points: ``C1``, ``C2``, ``C3`` and ``F``, the other root's ``other_C3`` and ``other_F``, with ``A``, ``D``, ``G``
     and the laid off ``P`` and ``other_P``.
@@ -99,7 +100,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil) -> A
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
         for reading, along in zip(_xy(name), (RIGHT, UP), strict=True):
             hand.read(reading, between(o, points[name], along), mu_l.per_mm)
-    return hand.finished(ThreeArcsGivens(given, dwell, mu_l), _draw, points)
+    return hand.finished(ThreeArcsGivens(given, dwell, mu_l, paper), _draw, points)
 
 
 def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, Drawn]:

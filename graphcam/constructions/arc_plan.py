@@ -4,26 +4,31 @@ See :mod:`~graphcam.constructions.arc_roller` for what is drawn.
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from graphcam.constructions.arc_outline import FLAT, Move, in_a_row, in_parts
 from graphcam.constructions.arc_profile import run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
+from graphcam.constructions.velocity_plan import VelocityScale
+from graphcam.constructions.views import at_scale
 from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Part, Step, View, say
-from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import Scale, ratio_text, standard_scale
-from graphcam.drafting.units import NOTHING
+from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
+from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.units import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 
-PLAN = View("plan", say("Velocity and acceleration at a station"), across="plan", up="plan")
+PLAN = View("plan", say("Velocity and acceleration"), across="plan", up="plan")
 ACCELERATIONS = View("accelerations", say("The accelerations at all stations"), "accelerations x", "accelerations y")
 SHOWN = 2, 0.5
 """The plan is drawn for the station in the middle of the arc FD."""
 SIZE = 190.0
 """A plan is drawn at the largest standard scale at which it is not larger [mm]."""
+BESIDE = complex(20.0, 25.0)
+"""What stands about a plan: letters, the ends of lines [mm]."""
 BEYOND = 7.0
 """How far the follower's line runs on beyond the plan [mm]."""
 
@@ -59,10 +64,26 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, (), why=FLAT)]
-    scale = standard_scale(float(max(np.ptp(places.real), np.ptp(places.imag))) * mu_l, SIZE)
-    hand = showing(rolled)
+    scale = _scale(rolled, places)
+    hand, velocities = showing(rolled), VelocityScale(scale, rolled.givens.omega)
     _crank_drive(hand, rolled, at, upright * mu_l / scale.per_mm)
-    return [_velocity(hand, rolled, at, scale), _acceleration(hand, rolled, at, scale)]
+    return [_velocity(hand, rolled, at, velocities), _acceleration(hand, rolled, at, velocities)]
+
+
+def _at_scale(station: str, scale: VelocityScale) -> View:
+    """The view of the plan at a station; its title says its scales."""
+    title = say("v and a at station {name}, {ratio}, μᵥ = {mu:.4g} ({per_v})/mm, μₐ = {mu_a:.4g} ({per_a})/mm")
+    scales = {"ratio": ratio_text(scale.mu_l.per_mm), "mu": scale.mu.per_mm, "per_v": unit_named(scale.mu.unit)}
+    scales |= {"mu_a": scale.acceleration.per_mm, "per_a": unit_named(scale.acceleration.unit)}
+    return replace(PLAN, title=title.where(name=station, **scales), mu_l=scale.mu_l.per_mm)
+
+
+def _scale(rolled: RollerOnArcs, places: Points) -> Scale:
+    """The largest standard scale at which places of the drawing of the roller fit a view of their own."""
+    arcs = rolled.givens.arcs.givens
+    size = arcs.mu_l.per_mm * complex(np.ptp(places.real), np.ptp(places.imag))
+    usual = standard_scale(max(size.real, size.imag), SIZE, arcs.paper.ratios)
+    return coarsest(usual, arcs.paper.scale(size, BESIDE))
 
 
 PLACES = ("B", "C", "K", "right", "beyond", "N", "M")
@@ -95,14 +116,15 @@ def _far(hand: Hand, start: str, end: str) -> float:
     return abs(hand.acts[end].place - hand.acts[start].place)
 
 
-def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
+def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
     """The rod from B to its centre, and K."""
     arcs, acts, station, centre = rolled.givens.arcs, hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
+    mu, ok = scale.mu_l.per_mm, _far(hand, "O", "K")
     c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(run(arcs))
-    values = {"name": station, "centre": centre, "arc": ARCS[SHOWN[0]], "ratio": ratio_text(scale.per_mm)}
-    values |= {"times": arcs.givens.mu_l.per_mm / scale.per_mm, "mu": scale.per_mm, "v": float(rolled.value("v")[at])}
+    values = {"name": station, "centre": centre, "arc": ARCS[SHOWN[0]], "ratio": ratio_text(mu)}
+    values |= {"times": arcs.givens.mu_l.per_mm / mu, "mu": mu, "v": float(rolled.value("v")[at])}
     values |= {"ob": _far(hand, "O", "B"), "oc": _far(hand, "O", "C"), "bc": _far(hand, "B", "C")}
-    values |= {"paper": _far(hand, "O", "K"), "side": say("on the left") if c.real < 0 else say("on the right")}
+    values |= {"paper": ok, "side": say("on the left") if c.real < 0 else say("on the right")}
     opening = say("Station {name}, on the arc {arc}, is drawn upright at {ratio}: every length times {times:g}.")
     moves: list[Move] = [
         (
@@ -120,12 +142,14 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
         (say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad is the velocity v."), acts["OK"]),
     ]
     axis = np.array([min(0.0, m.imag, c.imag) - BEYOND, b.imag + BEYOND]) * UP
+    speed = () if scale.omega is None else (Label(acts["K"].place / 2, scale.named("v", ok), -UP, of=acts["OK"].act),)
     names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
     marks: tuple[Mark, ...] = (
         Line(axis, Role.AXIS, of=acts["follower"].act, index=acts["follower"].index.repeat(2)),
         *(acts["rod"].way(Role.CURVE), acts["OK"].way(Role.RESULT), _segment(hand, "rod", "B", "K", Role.CURVE)),
         *(acts[name].dots() for name in "OBCK"),
         *(acts[name].label(text, towards) for name, text, towards in names),
+        *speed,
     )
     parts = in_parts(moves, values)
     why = say(
@@ -134,10 +158,11 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
         centre=centre,
     )
     said = in_a_row([Part(opening.where(**values), ()), *parts])
-    return Step(say("Velocity at station {name}", name=station), said, PLAN, marks, why=why, parts=parts)
+    title, view = say("Velocity at station {name}", name=station), _at_scale(station, scale)
+    return Step(title, said, view, marks, why=why, parts=parts)
 
 
-def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> Step:
+def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
     """The right angle that cuts N′ off, N, and M."""
     acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
@@ -145,7 +170,7 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> St
     if a > 0:
         directed = say("it is directed away from the cam centre, for M lies beyond O")
     values = {"centre": centre, "ck": _far(hand, "C", "K"), "cn": _far(hand, "C", "N′"), "directed": directed}
-    values |= {"om": _far(hand, "O", "M"), "mu": scale.per_mm, "a": a}
+    values |= {"om": _far(hand, "O", "M"), "mu": scale.mu_l.per_mm, "a": a}
     moves: list[Move] = [
         (
             say(
@@ -177,7 +202,7 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: Scale) -> St
         centre=centre,
     )
     title = say("Acceleration at station {name}", name=station)
-    return Step(title, in_a_row(parts), PLAN, marks, why=why, parts=parts)
+    return Step(title, in_a_row(parts), _at_scale(station, scale), marks, why=why, parts=parts)
 
 
 # --- at all stations -------------------------------------------------------------------------------------------------
@@ -231,7 +256,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     hand, o = showing(rolled), rolled.acts["O"].first
     places: Points = np.concatenate([[0j], *(rolled.first(name) for name in "BNM")])
     known = places[~np.isnan(places)]
-    scale = standard_scale(float(max(np.ptp(known.real), np.ptp(known.imag))) * mu, SIZE)
+    scale = _scale(rolled, known)
     b, n, m, across = (
         hand.enlarged(name, rolled.acts[name].first, o, mu / scale.per_mm)
         for name in ("B", "N", "M", "perpendiculars in N")
@@ -276,4 +301,4 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         "two points M."
     )
     title = say("Accelerations at all stations")
-    return Step(title, said, ACCELERATIONS, marks, ("a", *ends), why=why, parts=parts)
+    return Step(title, said, at_scale(ACCELERATIONS, scale), marks, ("a", *ends), why=why, parts=parts)

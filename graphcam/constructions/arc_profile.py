@@ -9,7 +9,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Construction, say
 from graphcam.drafting.marks import Arc, Points, Role
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import Paper, Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.plane import cross
@@ -22,6 +22,7 @@ class ThreeArcsGivens:
     given: ThreeArcs
     dwell: float
     mu_l: Scale
+    paper: Paper
 
 
 ArcOutline = Construction[ThreeArcsGivens]

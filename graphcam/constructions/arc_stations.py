@@ -10,7 +10,9 @@ from graphcam.drafting.ink import Construction, View, Words, say
 from graphcam.given.laws import Floats
 
 ROLLER = View(
-    "roller", say("The roller on the arcs"), "roller x", "roller y", scale=say("The roller on the arcs, {ratio}")
+    *("roller", say("The roller on the arcs"), "roller x", "roller y"),
+    scale=say("The roller on the arcs, {ratio}"),
+    main=True,
 )
 ARCS = ("AG", "GF", "FD")
 """The arcs of the rise, in order."""
@@ -66,11 +68,12 @@ def divide_arcs(parts: int) -> ArcStations:
 
 @dataclass(frozen=True, eq=False)
 class ArcRollerGivens:
-    """The arcs, the roller on them [mm], and where it stands."""
+    """The arcs, the roller on them [mm], where it stands, and how fast the cam turns [rad/s], if that is given."""
 
     arcs: ArcOutline
     roller_radius: float
     stations: ArcStations
+    omega: float | None = None
 
 
 RollerOnArcs = Construction[ArcRollerGivens]

@@ -11,16 +11,19 @@ from graphcam.constructions.arm_positions import ArmPositions, directions, examp
 from graphcam.constructions.axes import degrees, station_names
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import unit
+from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Part, Step, Words, say
-from graphcam.drafting.marks import AngleMark, Line, Role, Segments
+from graphcam.drafting.marks import AngleMark, Line, Points, Role, Segments
 from graphcam.given.follower import sense
 from graphcam.given.limits import Limits
+from graphcam.plane import dot
 from graphcam.words import sequence
 
-SHOWN_LINE = 0.77
-"""Length of the thin line at the limit through each end, as a fraction of the arm."""
+SHORTEST, BEYOND = 20.0, 5.0
+"""A line at a limit that does not bound the region is drawn only so far, one that does so far beyond it [mm]."""
+BESIDE = 1.0
+"""A line that comes so near to a corner of the region bounds it [mm]."""
 
 
 @dataclass(frozen=True)
@@ -38,15 +41,32 @@ class _AtLimit:
         return {"limit": degrees(self.limit), "turn": say("clockwise, away from C"), "kept": say("towards C")}
 
 
-def _downwards(drawn: ArmPositions, lines: Drawn) -> Segments:
-    """The lines at a limit as far as they matter: from the ends down towards the region."""
-    along = unit(lines.first.directions)
-    down = SHOWN_LINE * abs(drawn.acts["start"].place) * np.where(along.imag < 0, along, -along)
-    return Segments(lines.shown, lines.shown + down, Role.CONSTRUCTION, of=lines.act, index=lines.index)
+def _downwards(lines: Drawn, hatched: Points) -> Segments:
+    """The lines at a limit as far as they matter: from the ends down along the region."""
+    down = _down(lines)
+    ends = [touch + way * reach(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
+    return Segments(lines.shown, np.array(ends), Role.CONSTRUCTION, of=lines.act, index=lines.index)
 
 
-def family_step(drawn: ArmPositions, name: str, direction: int, limit: float) -> Step:
-    """The lines at the limit of all arms of one direction of motion."""
+def _down(lines: Drawn) -> Points:
+    """The directions of lines, downwards."""
+    along = unit(np.atleast_1d(lines.first.directions))
+    return np.where(along.imag < 0, along, -along)
+
+
+def reach(touch: complex, way: complex, hatched: Points) -> float:
+    """How far a line is drawn from a touch: as far as it bounds the region of these corners [mm].
+
+    >>> square = np.array([0j, 20 + 0j, 20 - 60j, -60j])
+    >>> reach(20 + 1j, -1j, square), reach(30 + 1j, -1j, square)
+    (66.0, 20.0)
+    """
+    along = dot(way, hatched - touch)[np.abs(dot(way * UP, hatched - touch)) < BESIDE]
+    return max([SHORTEST, *(along + BEYOND).tolist()])
+
+
+def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, hatched: Points) -> Step:
+    """The lines at the limit of all arms of one direction of motion, down to the region ``hatched``."""
     integrated, tips, lines = drawn.givens.integrated, drawn.acts["tips"], drawn.acts[f"limits: {name}"]
     so = _AtLimit(direction * sense(drawn.givens.rotation), limit)
     at, k = np.flatnonzero(directions(drawn.givens) == direction).tolist(), example(integrated, tips, direction)
@@ -69,7 +89,7 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float) ->
     others = [Part(again.where(name=named[n], **so.said), (lines[i],)) for i, n in enumerate(at) if n != k]
     return Step(
         *(title, said.where(phase=phase, name=named[k], **so.said), at_scale(REGION, drawn.givens.mu_l)),
-        (shown, _downwards(drawn, lines), angle),
+        (shown, _downwards(lines, hatched), angle),
         why=say(
             "Because seen from D the cam centre makes the pressure angle with the normal to the arm, and on the "
             "{phase} it may be {limit} at most."
@@ -92,8 +112,8 @@ def _normal(drawn: ArmPositions, station: int, line: Drawn, so: _AtLimit) -> tup
     return normal, stroke(normal, 0.4 * length), angle
 
 
-def dwells_step(drawn: ArmPositions, limits: Limits) -> Step:
-    """The lines at the limits where the arm dwells."""
+def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
+    """The lines at the limits where the arm dwells, down to the region ``hatched``."""
     sigma, top = sense(drawn.givens.rotation), highest_arm(drawn)
     families = {"rest": _AtLimit(-sigma, limits.rise)}
     if limits.return_ is not None:
@@ -102,7 +122,7 @@ def dwells_step(drawn: ArmPositions, limits: Limits) -> Step:
     parts, marks = list[Part](), list[Segments]()
     for name, so in families.items():
         lines = drawn.acts[f"limits: {name}"]
-        marks.append(_downwards(drawn, lines))
+        marks.append(_downwards(lines, hatched))
         parts += [Part(at.where(place=place, **so.said), (lines[n],)) for n, place in enumerate(("B₀", top))]
     each = say("{limit} {turn} (A on the side {kept})")
     said = say(

@@ -6,12 +6,13 @@ makes the pressure angle with the arm's normal; so through every D the line at t
 is drawn, and A may lie where no line cuts it off.  Between the positions the lines are faired like any other curve.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphcam.constructions.arm_limit_lines import dwells_step, family_step, highest_arm, reach_step
+from graphcam.constructions.adoption import Adoption, nothing_adopted
+from graphcam.constructions.arm_limit_lines import dwells_step, family_step, highest_arm, reach, reach_step
 from graphcam.constructions.arm_positions import (
     ArmGivens,
     arc_through,
@@ -20,15 +21,18 @@ from graphcam.constructions.arm_positions import (
     positions_step,
     velocities_step,
 )
+from graphcam.constructions.arm_region_detail import detail_scale, region_enlarged
 from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many, permitted_part
+from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many
+from graphcam.constructions.region_picture import RegionPicture, picture_of
+from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import Dimension, Mark, Points, Region, Role, Segments
+from graphcam.drafting.marks import Dimension, Label, Line, Mark, Points, Region, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -41,10 +45,14 @@ from graphcam.words import joined
 
 @dataclass(frozen=True, eq=False)
 class ArmLeastRadiusGivens(ArmGivens):
-    """What lies on the board; see :func:`arm_least_radius`."""
+    """What lies on the board; see :func:`arm_least_radius`.
+
+    adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
+    """
 
     limits: Limits
     distance: float | None
+    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 ArmRegion = Construction[ArmLeastRadiusGivens]
@@ -155,9 +163,9 @@ def _nearest_on(hand: Hand, lines: Drawn, circle: Drawn) -> Drawn:
     # A line cuts the circle in two points, equally far from the foot of the perpendicular from the pivot; the permitted
     # arc lies between them, on the inward side.  From the left, the nearest place is where the last arc begins.
     inwards, radius = _inward(lines), np.asarray(circle.radius)[..., None]
-    reach = dot(inwards, lines.points - circle.points[..., None]) / radius
+    depth = dot(inwards, lines.points - circle.points[..., None]) / radius
     with np.errstate(invalid="ignore"):
-        half = np.where(reach < -1, np.inf, np.arccos(reach))
+        half = np.where(depth < -1, np.inf, np.arccos(depth))
     middle = np.angle(-inwards)
     first, last = middle - half, (middle + half).min(axis=-1)
     bind = hand.take("lines that bind", lines, which=np.argmax(first, axis=-1)[..., None])[0]
@@ -186,8 +194,6 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BELOW = 30.0
-"""How far below the cam centre the region is shown [mm]."""
 BOUNDS = {
     "rise": say("the lines of the rise"),
     "return": say("the lines of the return"),
@@ -196,35 +202,67 @@ BOUNDS = {
     "reach": say("the lines of the arm"),
 }
 """What bounds the region, by the names of the acts."""
+BINDING = {
+    "rise": say("rise, {station}"),
+    "return": say("return, {station}"),
+    "rest": say("dwell, {station}"),
+    "rest after the return": say("dwell, {station}"),
+    "reach": say("arm {station}"),
+}
+"""How a line that binds is labelled, by the names of the acts."""
 DWELLS = ("rest", "rest after the return")
 """The acts that draw two lines: one from B₀ and one from the end of the highest arm."""
 
 
 def _draw(region: ArmRegion) -> list[Step]:
     limits, found = region.givens.limits, np.isfinite(region.acts["centre"][0].place)
-    families = [family_step(region, "rise", 1, limits.rise)]
+    picture = picture_of([region.acts["start"].place, region.acts["centre"][0].place, *_adopted(region)])
+    hatched = picture.permitted(_shown(region))
+    families = [family_step(region, "rise", 1, limits.rise, hatched)]
     if limits.return_ is not None:
-        families.append(family_step(region, "return", -1, limits.return_))
-    dwells = dwells_step(region, limits) if limits.rest else reach_step(region)
+        families.append(family_step(region, "return", -1, limits.return_, hatched))
+    dwells = dwells_step(region, limits, hatched) if limits.rest else reach_step(region)
     return [
         positions_step(region),
         velocities_step(region),
         *families,
         dwells,
-        _shaded(region),
-        _result(region, found=found),
+        _shaded(region, picture, hatched),
+        _result(region, hatched, found=found),
+        *(_enlarged(region) if found else []),
     ]
 
 
-def _shaded(region: ArmRegion) -> Step:
-    """The permitted places between the arm's end and the pivot, down to a little below the cam centre."""
-    centre, start, lines = region.acts["centre"][0].place, region.acts["start"].place, region.acts["lines"].first
-    bottom = (centre.imag if np.isfinite(centre) else start.real) - BELOW
-    corners = [complex(1.3 * start.real, bottom), complex(0, bottom), 0j, complex(1.3 * start.real, 0)]
-    hand, sides = showing(region), np.diff([*corners, corners[0]])
-    bounds = hand.take("bounds", lines, hand.given("edges of the picture", corners, sides))
-    cuts = zip(lines.points, _inward(lines), strict=True)
-    hatched = Region(permitted_part([Boundary("", *cut) for cut in cuts], corners), of=bounds.act)
+def _enlarged(region: ArmRegion) -> list[Step]:
+    """The surroundings of the cam centre, where they are small and one is adopted."""
+    adopted = region.givens.adopted()
+    scale = adopted and detail_scale(adopted.prime_radius, region.givens.mu_l)
+    if scale is None:
+        return []
+    bind = [(region.acts["lines that bind"].first[n], name) for n, name in _named(region)]
+    return [region_enlarged(region, scale, _shown(region), bind, _adopted(region))]
+
+
+def _shown(region: ArmRegion) -> list[Boundary]:
+    """The boundaries of the first sample."""
+    lines = region.acts["lines"].first
+    return [Boundary("", *line) for line in zip(lines.points, _inward(lines), strict=True)]
+
+
+def _adopted(region: ArmRegion) -> list[complex]:
+    """The cam centre that is taken in the end, where one is."""
+    adopted, arm, mu = region.givens.adopted(), region.givens.arm, region.givens.mu_l.per_mm
+    if adopted is None:
+        return []
+    place = circles_meet(np.asarray(0j), adopted.place, np.asarray(-arm + 0j), adopted.prime_radius)
+    return [complex(place) / mu]
+
+
+def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
+    """The permitted places, down to a little below the cam centre."""
+    corners = picture.corners
+    edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
+    bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
     said = say(
         "Hatch the part that lies on the permitted side of all lines; between the stations its edge is the curve that "
         "the lines touch."
@@ -235,31 +273,68 @@ def _shaded(region: ArmRegion) -> Step:
             "that the lines touch. A spring drives the return, which therefore has no lines."
         )
     return Step(
-        *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l), (hatched,)),
+        *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l)),
+        *((Region(hatched, of=bounds.act),),),
         why=say("Because from a cam centre in the hatching no position of the arm exceeds its permitted angle."),
     )
 
 
-def _place(region: ArmRegion) -> Caption:
-    """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
+def _bound_by(region: ArmRegion) -> list[tuple[int, str, int]]:
+    """The lines that bind, each once: its place among them, its family, and its number in that, from the end."""
     which = np.asarray(region.acts["lines that bind"].act.takes["which"])
     families = [name for name in BOUNDS if f"limits: {name}" in region.acts]
     ends = np.cumsum([region.acts.get(name, region.acts[f"limits: {name}"]).shown.size for name in families])
-    bind = np.unique(which[0] if region.acts["lines"].sampled else which)
+    bind, places = np.unique(which[0] if region.acts["lines"].sampled else which, return_index=True)
+    of = np.searchsorted(ends, bind, side="right").tolist()
+    return [(n, families[f], int(k - ends[f])) for n, f, k in zip(places.tolist(), of, bind.tolist(), strict=True)]
+
+
+def _binding_marks(region: ArmRegion, hatched: Points) -> tuple[Mark, ...]:
+    """The lines that bind, drawn out along the region, each with the name of what it limits."""
+    bind, centre = region.acts["lines that bind"], region.acts["centre"][0].place
+    lines, named = list[Mark](), list[Mark]()
+    for n, text in _named(region):
+        touch = complex(bind.shown[n])
+        way = complex(unit(np.asarray(centre - touch)))
+        end = touch + way * max(reach(touch, way, hatched), abs(centre - touch))
+        lines.append(Line(np.array([touch, end]), Role.LIMIT, of=bind.act, index=bind.index[[n, n]]))
+        named.append(Label(end, text, way, small=True, of=bind.act, index=bind.index[[n]]))
+    return (*lines, *named)
+
+
+def _named(region: ArmRegion) -> list[tuple[int, Caption]]:
+    """Of every line that binds its place among them, and what it limits."""
+    bind, integrated, tips = region.acts["lines that bind"], region.givens.integrated, region.acts["tips"].shown
+    named = list[tuple[int, Caption]]()
+    for n, family, k in _bound_by(region):
+        if family in ("rise", "return"):
+            at = touched(integrated, tips, complex(bind.shown[n]), 1 if family == "rise" else -1)
+        else:
+            at = [_at_rest(region)[k]]
+        named.append((n, BINDING[family].where(station="–".join(at))))
+    return named
+
+
+def _at_rest(region: ArmRegion) -> tuple[str, str]:
+    """Where the two lines of a dwell begin."""
+    return "B₀", highest_arm(region)
+
+
+def _place(region: ArmRegion) -> Caption:
+    """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
     found = dict[tuple[str, str], Caption]()
-    for k in bind.tolist():
-        n = int(np.searchsorted(ends, k, side="right"))
-        place = ("B₀", highest_arm(region))[k - int(ends[n]) + 2] if families[n] in DWELLS else ""
-        found[families[n], place] = BOUNDS[families[n]].where(place=place)
+    for _, family, k in _bound_by(region):
+        place = _at_rest(region)[k] if family in DWELLS else ""
+        found[family, place] = BOUNDS[family].where(place=place)
     bounds = joined(list(found.values()))
     if region.givens.distance is not None:
         return say("the place of the arc nearest to B₀ in the hatching, where the arc meets {bounds}", bounds=bounds)
-    if bind.size > 1:
+    if len(_bound_by(region)) > 1:
         return say("the corner of the hatching nearest to B₀, between {bounds}", bounds=bounds)
     return say("the place of the hatching nearest to B₀, the foot of the perpendicular on {bounds}", bounds=bounds)
 
 
-def _result(region: ArmRegion, *, found: bool) -> Step:
+def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
     start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
     said = say("No cam centre keeps all the limits.")
@@ -280,22 +355,24 @@ def _result(region: ArmRegion, *, found: bool) -> Step:
     place, bind = _place(region), acts["lines that bind"]
     line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
     r0, away = (float(region.value(name)) for name in reads)
-    said = say("A is {place}. Join it to B₀ and C and measure: {sizes}.")
+    said = say("A₀ is {place}. Join it to B₀ and C and measure: {sizes}.")
     if c is not None:
         said = say(
-            "Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm. A is {place}. Join it to B₀ and "
-            "C and measure: {sizes}."
+            "Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm. A₀ is {place}. Join it to "
+            "B₀ and C and measure: {sizes}."
         ).where(paper=length(c), c=c)
-    sizes = say("AB₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and AC = {away:.2f} mm, so c = {c:.3f} mm").where(
+    sizes = say("A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = {c:.3f} mm").where(
         paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away
     )
-    parts.append(Part(say("Mark A, {place}.", place=place), (bind, centre)))
-    parts.append(Part(say("Join A to B₀ and C and measure: {sizes}.", sizes=sizes), (acts["prime radius"], line)))
+    parts.append(Part(say("Mark A₀, {place}.", place=place), (bind, centre)))
+    parts.append(Part(say("Join A₀ to B₀ and C and measure: {sizes}.", sizes=sizes), (acts["prime radius"], line)))
     marks = (
-        *(*arcs, Segments(bind.shown, centre.place + 0 * bind.shown, Role.LIMIT, of=bind.act, index=bind.index)),
+        *(*arcs, *_binding_marks(region, hatched)),
         *(acts["prime radius"].way(Role.LIMIT), line.way(Role.AXIS)),
-        *(centre.dots(Role.RESULT), centre.label("A", -UP)),
-        Dimension(start.place, centre.place, say("r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act),
+        *(centre.dots(Role.RESULT), centre.label("A₀", -UP)),
+        Dimension(
+            start.place, centre.place, say("min r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act
+        ),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, region.readings["distance"].act),
     )
     return replace(step, caption=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))

@@ -12,7 +12,8 @@ import numpy as np
 
 from graphcam.constructions.adoption import adoption_step
 from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm_positions, stroke
-from graphcam.constructions.axes import station_names, turning
+from graphcam.constructions.arm_region_detail import adopted_enlarged, detail_scale
+from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import (
     ANGLES,
@@ -20,18 +21,19 @@ from graphcam.constructions.pressure_angle import (
     angle_at,
     read_angles,
     shown_station,
-    velocity_plan,
 )
-from graphcam.constructions.views import PLAN, REGION, at_scale
+from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
+from graphcam.constructions.views import ARM_ANGLES, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Construction, Part, Step, say
-from graphcam.drafting.marks import Role, Segments
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
+from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +94,8 @@ def arm_pressure_angle(
 
 PLAN_ARM = 70.0
 """The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
+PLAN_BESIDE = complex(40.0, 40.0)
+"""What stands beside the mechanism and the plan, and between them: letters, the ends of lines, the title [mm]."""
 NORMAL = 9.0
 """So much of the normal to each arm is drawn [mm]."""
 ACROSS = 0.2
@@ -99,17 +103,33 @@ ACROSS = 0.2
 
 
 def _draw(measured: ArmAngles) -> list[Step]:
-    k, scale = shown_station(measured), standard_scale(measured.givens.arm, PLAN_ARM)
+    k = shown_station(measured)
+    scale = _plan_scale(measured, k)
+    scales = VelocityScale(scale, measured.givens.omega)
     plan, decided, mu_l = _plan(measured, k, scale), measured.givens.adopted, measured.givens.mu_l
     rounding = [adoption_step(decided(), "c", mu_l.per_mm, at_scale(REGION, mu_l))] if decided else []
     return [
         *rounding,
         _centre(measured),
-        _mechanism(measured, plan, k, scale),
-        _velocities(measured, plan, k, scale),
-        _angle(measured, plan, k, scale),
+        *_enlarged(measured),
+        _mechanism(measured, plan, k, scales),
+        _velocities(measured, plan, k, scales),
+        _angle(measured, plan, k, scales),
         _everywhere(measured, k),
     ]
+
+
+def _plan_scale(measured: ArmAngles, k: int) -> Scale:
+    """The largest standard scale at which the arm is no longer than usual, and the paper takes the plan beside it."""
+    givens, sigma = measured.givens, sense(measured.givens.rotation)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    # About the cam centre [mm], the pivot level with it.
+    arm = -givens.arm * np.exp(-1j * (float(measured.first("psi0")) + s))
+    b, pole = givens.distance + arm, givens.distance + 0.6 * abs(givens.distance + arm)
+    d = b + sigma * v * arm
+    places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
+    size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
+    return coarsest(standard_scale(givens.arm, PLAN_ARM, givens.paper.ratios), givens.paper.scale(size, PLAN_BESIDE))
 
 
 def _centre(measured: ArmAngles) -> Step:
@@ -138,7 +158,7 @@ def _centre(measured: ArmAngles) -> Step:
     marks = (
         *(tips.dots(Role.CONSTRUCTION), *arcs),
         *(radius.way(Role.LIMIT), line.way(Role.CONSTRUCTION), centre.dots(Role.RESULT)),
-        centre.label(say("A (r₀ = {r0:g})", r0=givens.prime_radius), -UP),
+        centre.label(_named(givens), -UP),
         angle,
     )
     return Step(
@@ -151,6 +171,18 @@ def _centre(measured: ArmAngles) -> Step:
             Part(third.where(**sizes), (line,)),
         ),
     )
+
+
+def _named(givens: ArmPressureAngleGivens) -> Caption:
+    """The adopted cam centre with its sizes."""
+    return say("A (r₀ = {r0:g}, c = {c:g})", r0=givens.prime_radius, c=givens.distance)
+
+
+def _enlarged(measured: ArmAngles) -> list[Step]:
+    """The adopted cam centre beside the one found, where both are shown enlarged."""
+    givens = measured.givens
+    scale = detail_scale(givens.prime_radius, givens.mu_l) if givens.adopted else None
+    return [adopted_enlarged(measured, scale, _named(givens))] if scale else []
 
 
 def _carried(drawn: Construction, name: str, factor: float = 1.0) -> Setting:
@@ -184,15 +216,15 @@ def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
     return hand
 
 
-def _mechanism(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
     """The arm and the cam centre at the shown station, and the velocity along the arm."""
     givens, (a, b, c, d) = measured.givens, (plan.acts[each] for each in "ABCD")
     ab, bd, cb = (plan.acts[each] for each in ("AB", "BD", "CB"))
     integrated, names = givens.integrated, station_names(givens.integrated.givens.stations)
     psi0, s = (np.degrees(float(each)) for each in (measured.first("psi0"), integrated.value("s")[k]))
-    v, arm = float(integrated.first("v")[k]), givens.arm / scale.per_mm
+    v, arm, ratio = float(integrated.first("v")[k]), scales.mu_l.paper(givens.arm), ratio_text(scales.mu_l.per_mm)
     factor = arm * integrated.readings["v"].per_mm
-    sizes = {"ratio": ratio_text(scale.per_mm), "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
+    sizes = {"ratio": ratio, "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
     sizes |= {"v": abs(v), "factor": factor, "bd": abs(v) * factor, "side": along_the_arm(sense(givens.rotation) * v)}
     texts = (
         say("Draw AC level, {ac:.1f} mm long, with C on the right."),
@@ -214,7 +246,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
     draws = ((a, c), (cb[k], b[k]), (ab[k],), (bd[k], d[k]))
     return Step(
         say("The mechanism at station {name}", name=names[k]),
-        *(said.where(**sizes), at_scale(PLAN, scale), marks),
+        *(said.where(**sizes), scales.view(names[k]), marks),
         why=say(
             "Because l·ds/dφ, the velocity of B turned by 90°, is a length along the arm, the velocities can be drawn "
             "into the mechanism."
@@ -223,7 +255,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
     )
 
 
-def _velocities(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
     """The velocity plan at the shown station, and how its sides are turned from those of the mechanism."""
     names, rotation = station_names(measured.givens.integrated.givens.stations), measured.givens.rotation
     pole, v1, v2, v21 = (plan.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
@@ -240,20 +272,22 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
         "v₁ = {across:.1f} mm, square to AB, as AB turned by 90° {turn}, and v₂ = BD = {along:.1f} mm, square to the "
         "arm, as BD turned by 90° {back}. The line from the tip of v₁ to that of v₂ is v₂₁ = {closing:.1f} mm."
     )
+    speeds = scales.told(pole, v1, v2)
+    said = sequence([said.where(**sizes), *speeds], " ")
+    captions = [text.where(**sizes) for text in texts]
+    captions[-1] = sequence([captions[-1], *speeds], " ")
     return Step(
         say("Velocity plan at station {name}", name=names[k]),
-        *(said.where(**sizes), at_scale(PLAN, scale), velocity_plan(pole, v1, v2, v21)),
+        *(said, scales.view(names[k]), velocity_plan(pole, v1, v2, v21, scales)),
         why=say(
             "Because the velocity of the arm's end is that of the cam's point and the sliding along the profile "
             "together, v₂ = v₁ + v₂₁."
         ),
-        parts=tuple(
-            Part(text.where(**sizes), drawn) for text, drawn in zip(texts, ((pole, v1), (v2,), (v21,)), strict=True)
-        ),
+        parts=tuple(Part(text, drawn) for text, drawn in zip(captions, ((pole, v1), (v2,), (v21,)), strict=True)),
     )
 
 
-def _angle(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
+def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
     """The angle between the arm's normal and DA at the shown station."""
     normal, ray, d = (plan.acts[name] for name in ("normal", "DA", "D"))
     name, reading = station_names(measured.givens.integrated.givens.stations)[k], plan.readings["alpha"]
@@ -273,7 +307,7 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scale: Scale) -> Step:
     square = say("At D draw the normal to the arm downwards, square to CD, with the set squares.")
     measure = say("Join D to A and measure the angle from the normal to DA with the protractor: {alpha:.2f}°.")
     return Step(
-        *(say("The pressure angle"), said.where(**sizes), at_scale(PLAN, scale), marks),
+        *(say("The pressure angle"), said.where(**sizes), scales.view(name), marks),
         why=say(
             "Because the plan turned by 90° is the triangle ABD: v₂ lies along BD, so DA is square to v₂₁ and has the "
             "direction of the normal to the profile."
@@ -286,7 +320,9 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
     """The rays and the normals at all stations."""
     names, alpha = station_names(measured.givens.integrated.givens.stations), np.degrees(measured.first("alpha"))
     rays, normals = measured.acts["rays"], measured.acts["normals"]
-    down = normals.shown + NORMAL * unit(normals.first.directions)
+    # At the shown station as far as the arc of its angle, at the others only their direction.
+    lengths = np.where(np.arange(len(names)) == k, 4.4 * NORMAL, NORMAL)
+    down = normals.shown + lengths * unit(normals.first.directions)
     strokes = Segments(normals.shown, down, Role.CONSTRUCTION, of=normals.act, index=normals.index)
     begin, end = (float(np.angle(line.first[k].directions)) for line in (normals, rays))
     shown = say("α = {alpha:.1f}°", alpha=alpha[k])
@@ -297,14 +333,21 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
         "Ray {name}: draw the normal to arm {name} downwards from D{name}, join D{name} to A and measure the angle "
         "from the normal to the ray: {alpha:.2f}°."
     )
+    apart = say("Prick A and the ends D of all stations through onto a drawing of their own.")
     said = say(
-        "From every D draw the normal to its arm downwards with the set squares, join D to A and measure the angle "
-        "from the normal to DA with the protractor, positive anticlockwise. Station {name}: {alpha:.2f}°. Repeat for "
-        "the others. The least transmission angle is 90° − |α| = {least:.2f}°, at station {worst}."
+        "Prick A and the ends D of all stations through onto a drawing of their own, where the lines at the limits do "
+        "not cross the rays. From every D draw the normal to its arm downwards with the set squares, join D to A and "
+        "measure the angle from the normal to DA with the protractor, positive anticlockwise. Station {name}: "
+        "{alpha:.2f}°. Repeat for the others. The least transmission angle is 90° − |α| = {least:.2f}°, at station "
+        "{worst}."
     ).where(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
+    tips, centre = measured.acts["tips"], measured.acts["centre"]
+    places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
+    named = numbers(tips, measured.givens.integrated.givens.stations, UP)
+    parts = [Part(each.where(name=name, alpha=alpha[n]), (normals[n], rays[n])) for n, name in enumerate(names)]
     return Step(
-        *(say("The pressure angle at every station"), said, at_scale(REGION, measured.givens.mu_l)),
-        *((strokes, rays.ways(Role.CONSTRUCTION), angle), ("alpha", "transmission")),
+        *(say("The pressure angle at every station"), said, at_scale(ARM_ANGLES, measured.givens.mu_l)),
+        *((strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle), ("alpha", "transmission")),
         why=say("Because what holds at one station holds at all: only D and the arm differ, A is the same."),
-        parts=tuple(Part(each.where(name=name, alpha=alpha[n]), (normals[n], rays[n])) for n, name in enumerate(names)),
+        parts=(Part(apart, (tips, centre)), *parts),
     )

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -10,9 +11,10 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Caption, Construction, say
+from graphcam.drafting.ink import Caption, Construction, Words, say
 from graphcam.drafting.marks import Arrow, Dimension, Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.units import unit
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
@@ -190,21 +192,33 @@ def reach(heights: Floats) -> tuple[float, float]:
     return float(np.fmin.reduce(heights, initial=0.0)), float(np.fmax.reduce(heights, initial=0.0))
 
 
-def axes_over_phi(end: float, heights: Floats, symbol: str) -> tuple[Mark, ...]:
-    """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], and their names."""
+def ordinate(symbol: str, lift_unit: str) -> Caption:
+    """What an ordinate axis is called, with its unit; ``lift_unit`` is that of s.
+
+    >>> str(ordinate("a", "mm")), str(ordinate("α", "mm"))
+    ('a, mm/rad²', 'α, °')
+    """
+    per = {"s": "", "v": "/rad", "a": "/rad²"}
+    return say("{symbol}, {unit}", symbol=symbol, unit=unit(lift_unit + per[symbol]) if symbol in per else "°")
+
+
+def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
+    """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], degrees, and names."""
     low, high = reach(heights)
     right, top = complex(end + OVERHANG), (high + OVERHANG) * UP
+    scale = say("μᵩ = {mu:.4g}°/mm", mu=math.degrees(mu_phi.per_mm))
     return (
-        *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE)),
-        *(Label(right, "φ", towards=1 - 1j), Label(top, symbol, towards=-1 + 0j)),
+        *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), degree_ticks(end, mu_phi)),
+        *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
+        Label(complex(end), scale, towards=-1 - 1j, small=True),
     )
 
 
-def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, symbol: str) -> tuple[Mark, ...]:
+def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
     """The axes of a diagram over one turn of the motion, and thin lines where the phases end."""
     ends, (low, high) = phase_ends(motion, mu_phi), reach(heights)
-    across, up, *names = axes_over_phi(ends[-1], heights, symbol)
-    return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *names)
+    across, up, *others = axes_over_phi(ends[-1], mu_phi, heights, name)
+    return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *others)
 
 
 def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
@@ -216,17 +230,67 @@ def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tup
     )
 
 
+SHORT_TICK, TICK, LONG_TICK = 0.8, 1.0, 1.8
+"""Lengths of strokes where stations have numbers, of those of a graduation, and of those that are numbered [mm]."""
+TICKS_ROOM = 2.0
+"""The strokes of a graduation stand at least so far apart [mm of paper]."""
 DEGREES_ROOM = 12.0
 """Numbers of degrees stand at least so far apart [mm of paper]."""
+DEGREES = 10, 30, 60, 90
+"""Every so many degrees of the cam angle there may be a stroke, and from the second on a number."""
 
 
-def degree_ticks(mu_phi: Scale) -> tuple[Mark, ...]:
-    """Short strokes with numbers along the axis of the cam angle, every 30 degrees, or 60 where room is scarce."""
-    every = 30 if mu_phi.paper(math.radians(30)) >= DEGREES_ROOM else 60
-    degrees = np.arange(every, 361, every)
+def every_degrees(mu_phi: Scale) -> tuple[int, int]:
+    """Every so many degrees of the cam angle there is room for a stroke, and for a number.
+
+    >>> every_degrees(Scale(math.radians(1), "rad")), every_degrees(Scale(math.radians(4), "rad"))
+    ((10, 30), (10, 60))
+    """
+    tick, number = (
+        next((n for n in DEGREES[first:] if mu_phi.paper(math.radians(n)) >= room), DEGREES[-1])
+        for first, room in enumerate((TICKS_ROOM, DEGREES_ROOM))
+    )
+    return tick, number
+
+
+def degree_ticks(end: float, mu_phi: Scale) -> Segments:
+    """Strokes along the axis of the cam angle up to ``end`` [mm of paper], across it where degrees are numbered below.
+
+    They are so short that the numbers of stations keep their places.
+    """
+    tick, number = every_degrees(mu_phi)
+    degrees = np.arange(tick, math.degrees(mu_phi.value(end)) + tick / 2, tick)
     x = np.radians(degrees) / mu_phi.per_mm
-    strokes = Segments(x + 0j, x - 1.5 * UP, Role.SCALE)
-    return (strokes, *(Label(complex(at), f"{n}°", towards=-UP, small=True) for at, n in zip(x, degrees, strict=True)))
+    return Segments(x + np.where(degrees % number, 0, SHORT_TICK) * UP, x - SHORT_TICK * UP, Role.SCALE)
+
+
+BELOW, PHASES_BELOW = 7.0, 26.0
+"""So far below the lowest diagram the degrees stand, and the angles of the phases [mm]."""
+
+
+def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
+    """A graduated line under a diagram that reaches down to ``low`` [mm of paper], with the numbers of its degrees.
+
+    On the axis itself the numbers of the stations stand, and the curve.
+    """
+    level, (tick, every) = (low - BELOW) * UP, every_degrees(mu_phi)
+    degrees = np.arange(0, math.degrees(mu_phi.value(end)) + tick / 2, tick)
+    x, lengths = np.radians(degrees) / mu_phi.per_mm + level, np.where(degrees % every, TICK, LONG_TICK)
+    below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
+    return (
+        *(Line(np.array([0.0, end]) + level, Role.SCALE), Segments(x, x - lengths * UP, Role.SCALE)),
+        *(Label(at, say("{n:g}°", n=n), towards=-UP, small=True) for n, at in below),
+    )
+
+
+def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
+    """The degrees under the lowest diagram, which reaches down to ``low`` [mm of paper], and the phases' angles."""
+    ends = phase_ends(motion, mu_phi)
+    spans = enumerate(pairwise(ends + (low - PHASES_BELOW) * UP))
+    return (
+        *degrees_below(ends[-1], mu_phi, low),
+        *(Dimension(complex(a), complex(b), phase_angle(motion, k)) for k, (a, b) in spans),
+    )
 
 
 def numbered(points: Points, stations: Stations) -> list[int]:

@@ -10,7 +10,7 @@ from graphcam.constructions.curvature import curvature
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import GOST_2_302, Paper, Ratios, Scale
 from graphcam.given.follower import Follower, Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -18,6 +18,9 @@ from graphcam.given.motion import Motion
 from graphcam.given.roller_rule import Candidate
 from graphcam.given.spring_load import SpringLoad
 from graphcam.given.stations import Stations, divide
+
+Values = tuple[Floats, Floats, Floats]
+"""s, v and a at places of the turn."""
 
 
 @dataclass(frozen=True)
@@ -95,8 +98,15 @@ class DrawnFollower(ABC):
         """What the prime radius must be greater than for the mechanism to close at all [mm]."""
 
     @abstractmethod
-    def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
+    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
         """How far the drawing of the profile reaches from the cam centre [mm]."""
+
+    def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
+        """How wide + i high the combined diagram is that shares the scale of s, in units of the lift; 0 for none.
+
+        values : over the turn;  prime_radius : mm, None where it is to be found
+        """
+        return 0j
 
     @abstractmethod
     def built(self, place: float | None, roller_radius: float) -> Follower:
@@ -136,7 +146,9 @@ class Board:
     prime_radius, roller_radius : mm, or None where the task leaves them to be found
     ordinate, poles : mm of paper; mu_phi : rad/mm, for the pressure angle's axis too
     rounding : adopted sizes are multiples of it [mm]; None for the largest power of ten below r0/10, at most 1 mm
-    profile_room : width and height of paper that the profile may take [mm]
+    profile_room : width and height of paper that the profile, or another view of its own, may take [mm]
+    ratios : the drawing scales of the sheet's standard
+    omega : of the cam [rad/s], where the task gives a speed
     refine : divides every part again, to see what finer parts would change
     """
 
@@ -153,7 +165,14 @@ class Board:
     mu_phi: Scale
     rounding: float | None
     profile_room: tuple[float, float]
+    omega: float | None = None
+    ratios: Ratios = GOST_2_302
     refine: int = 1
+
+    @property
+    def paper(self) -> Paper:
+        """What a view of its own finds on the sheet."""
+        return Paper(*self.profile_room, self.ratios)
 
     @cached_property
     def stations(self) -> Stations:

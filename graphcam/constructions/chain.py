@@ -28,13 +28,13 @@ from graphcam.constructions.scheme import scheme
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 
-PHASE_ANGLES = 48.0
-"""What the phase angles and their texts need on both sides of the profile together [mm of paper]."""
+PHASE_ANGLES = complex(58.0, 44.0)
+"""What the phase angles and their texts need beside the profile, and above and below it together [mm of paper]."""
 FURTHER = 5
 """So many multiples of the rounding from the least radius on are tried: a round one is not worth a much larger cam."""
 FINER = (1.0, 0.1, 0.01, 0.001)
@@ -89,7 +89,8 @@ class Chain(Drawings):
     @DrawnOnce
     def integration(self) -> Construction:
         """Velocity and displacement by two graphical integrations."""
-        return integration(self.acceleration, self.board.poles, self.pencil)
+        lowest = "angle_diagram" not in self.names
+        return integration(self.acceleration, self.board.poles, self.pencil, lowest=lowest)
 
     @DrawnOnce
     def differentiation(self) -> Construction:
@@ -108,7 +109,9 @@ class Chain(Drawings):
     @DrawnOnce
     def minimum_radius(self) -> Construction:
         """The least prime radius, and where the follower stands."""
-        return self._least_radius(self.board.follower.place)
+        drawn = self._least_radius(self.board.follower.place)
+        # Asked for only where the steps are told: the region is drawn as far as the cam centre that is adopted.
+        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted_if_any))
 
     @DrawnOnce
     def pressure_angle(self) -> Construction:
@@ -116,7 +119,9 @@ class Chain(Drawings):
         follower, rotation = self.board.follower, self.board.rotation
         drawn = follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
         # Asked for only where the steps are told: the region of a given cam need not be drawn for its angles.
-        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted))
+        board = self.board
+        givens = replace(drawn.givens, adopted=self.adopted, paper=board.paper, omega=board.omega)
+        return replace(drawn, givens=givens)
 
     @DrawnOnce
     def angle_diagram(self) -> Construction:
@@ -129,7 +134,7 @@ class Chain(Drawings):
         follower, rotation, scale = self.board.follower, self.board.rotation, self.profile_scale
         drawn = follower.inversion(self.integration, rotation, self.prime_radius, self.place, scale, self.pencil)
         # Asked for only where the steps are told: the region of a given cam need not be drawn for its profile.
-        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted))
+        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted, paper=self.board.paper))
 
     @DrawnOnce
     def curvature(self) -> Construction:
@@ -225,6 +230,13 @@ class Chain(Drawings):
         least, given = float(at_place.value("prime_radius")), board.prime_radius is not None
         return Adoption(self.prime_radius, self.place, least, found, given, self.rounding)
 
+    def adopted_if_any(self) -> Adoption | None:
+        """The same; None where what the region leaves open cannot be read off it."""
+        try:
+            return self.adopted()
+        except DesignError:
+            return None
+
     @cached_property
     def _adopted(self) -> tuple[float, float]:
         """Prime radius and place: round numbers that go with one another on the region, where it has any."""
@@ -302,12 +314,13 @@ class Chain(Drawings):
         rollers = board.roller_radius
         if rollers is None:
             rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)
-        room, lift = min(board.profile_room), board.motion.lift
-        reach = board.follower.reach(r0, self.place, lift, max(rollers, 0.0))
+        room, ratios = min(board.profile_room), board.ratios
+        reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0))
         # The arcs of the phase angles about the curve do not grow with the scale.
-        inner = room - min(PHASE_ANGLES, room / 4)
-        within = board.follower.reach(r0, self.place, lift, 0.0)
-        return max(standard_scale(2 * reach, room), standard_scale(2 * within, inner), key=lambda scale: scale.per_mm)
+        width, height = board.profile_room
+        inner = max(min(width - PHASE_ANGLES.real, height - PHASE_ANGLES.imag), room / 2)
+        within = board.follower.reach(r0, self.place, board.motion, 0.0)
+        return coarsest(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))
 
     def _least_radius(self, place: float | None) -> Construction:
         board = self.board

@@ -70,8 +70,9 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
     marks = (
         *line,
         *(ends.from_(heights, Role.CONSTRUCTION), heights.dots(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
+        # Beside the line of motion, away from the rest line; it stands there before the numbers look for room.
+        start.label("B₀", towards=sense(region.givens.rotation) - UP),
         *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
-        start.label("B₀", towards=-1j),
     )
     why = say(
         "Because the line from a cam centre to the end of v leans from the motion by the pressure angle, as the "

@@ -13,7 +13,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, pole_marks
+from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
+from graphcam.constructions.graduation import graduated
 from graphcam.constructions.slope_numbers import every_kth, falling_together, ray_numbers, row_numbers
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
@@ -313,14 +314,16 @@ def _lean(angle: float) -> Caption:
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
     runs = _Pass(c, 1, "s", "v"), _Pass(c, 2, "v", "a")
-    return [_draw_source(c), *(draw(run) for run in runs for draw in (_traced, _with_rays, _joined)), _draw_scales(c)]
+    drawn = [draw(run) for run in runs for draw in (_traced, _with_rays, _joined)]
+    return [_draw_source(c), *drawn, *(_scale(run) for run in runs)]
 
 
 def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     s, stations, mu_s = c.acts["s"].first, c.acts["stations"].first, c.givens.mu_s
     k = int(np.argmax(np.abs(s.shown.imag)))
     below = row_numbers(stations, 0, np.full(s.shown.shape, -UP))
-    plotted = (*_axes(c, "s"), s.dots(), s.from_(stations, Role.CONSTRUCTION), *below)
+    axes = (*_axes(c, "s"), *graduated(s.shown.imag, mu_s.per_mm))
+    plotted = (*axes, s.dots(Role.CONSTRUCTION), s.from_(stations, Role.CONSTRUCTION), *below)
     plotted_at = say_many(
         "The displacement is plotted at {count} station.",
         "The displacement is plotted at {count} stations.",
@@ -336,7 +339,8 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
         told.append(say("After the last station the next turn begins with station 0."))
     why = say("Because the velocity is the slope of the displacement, and only a curve has a slope.")
     marks = (*plotted, _curve(c, "s"))
-    return Step(say("The displacement"), sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why)
+    title, under = say("The displacement"), _degrees(c, "s")
+    return Step(title, sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why, under=under)
 
 
 def _traced(run: _Pass) -> Step:
@@ -372,7 +376,7 @@ def _with_rays(run: _Pass) -> Step:
     axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
-        *(derived.from_(heights, Role.CONSTRUCTION), derived.dots()),
+        *(derived.from_(heights, Role.CONSTRUCTION), derived.dots(Role.CONSTRUCTION)),
         *ray_numbers(heights, run.first, groups, every_kth(derived.shown)),
         *row_numbers(derived, run.first, outward),
     )
@@ -392,6 +396,7 @@ def _with_rays(run: _Pass) -> Step:
         given=axes,
         why=why.where(**worked),
         parts=tuple(Part(one.where(**run.said(k)), (rays[k], heights[k], derived[k])) for k in range(count)),
+        under=() if run.target == "a" else _degrees(c, run.target),
     )
 
 
@@ -425,32 +430,49 @@ def _curve(c: Construction[DifferentiationGivens], name: str) -> Mark:
     return line[drawn].line(Role.RESULT)
 
 
+def _end(c: Construction[DifferentiationGivens]) -> float:
+    """Where the diagrams end [mm of paper]."""
+    return float(c.givens.x[-1]) if c.givens.turn is None else c.givens.turn
+
+
 def _axes(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ...]:
-    end = float(c.givens.x[-1]) if c.givens.turn is None else c.givens.turn
-    return axes_over_phi(end, c.acts[symbol].shown.imag, symbol)
+    heights, name = c.acts[symbol].shown.imag, ordinate(symbol, c.givens.mu_s.unit)
+    return (*axes_over_phi(_end(c), c.givens.mu_phi, heights, name), *(_degrees(c, symbol) if symbol == "a" else ()))
 
 
-def _draw_scales(c: Construction[DifferentiationGivens]) -> Step:
+def _degrees(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ...]:
+    """The numbers of the common axis, under the diagram of a quantity."""
+    return degrees_below(_end(c), c.givens.mu_phi, reach(c.acts[symbol].shown.imag)[0])
+
+
+_SCALES = {
+    "v": say(
+        "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: the "
+        "maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
+    ),
+    "a": say(
+        "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: the "
+        "maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
+    ),
+}
+_SCALE_TITLES = {"v": say("The scale of v"), "a": say("The scale of a")}
+
+
+def _scale(run: _Pass) -> Step:
+    """The scale of a derivative, its greatest value, and the divisions of its ordinates, away from the rays."""
+    c, name, pole = run.c, run.target, run.c.givens.poles[run.number - 1]
     scales = {"mu_phi": c.givens.mu_phi.per_mm, "mu_s": c.givens.mu_s.per_mm, "unit": unit(c.givens.mu_s.unit)}
-    scales |= {f"mu_{name}": c.readings[name].scale for name in "va"}
-    said = {
-        "v": say(
-            "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "
-            "the maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
-        ),
-        "a": say(
-            "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: "
-            "the maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
-        ),
-    }
-    parts = tuple(
-        Part(
-            text.where(**scales, pole=pole, mm=float(c.first(f"max_{name}")), value=float(c.value(f"max_{name}"))),
-            (c.acts[f"highest {name}"], c.acts[f"lowest {name}"]),
-        )
-        for (name, text), pole in zip(said.items(), c.givens.poles, strict=True)
+    scales |= {f"mu_{each}": c.readings[each].scale for each in "va"}
+    greatest = {"pole": pole, "mm": float(c.first(f"max_{name}")), "value": float(c.value(f"max_{name}"))}
+    said = _SCALES[name].where(**scales, **greatest)
+    why = say("Because a ray cuts off H times a slope on paper, where {source} and φ have their scales.")
+    end, heights = _end(c), c.acts[name].shown.imag
+    upright, read = Line(end + UP * np.array(reach(heights)), Role.SCALE), c.readings[name]
+    return Step(
+        _SCALE_TITLES[name],
+        *(said, _view(c, name)),
+        (upright, *graduated(heights, float(read.scale), end, read.act)),
+        (f"max_{name}", name),
+        why=why.where(source=run.source),
+        parts=(Part(said, ()),),
     )
-    why = say("Because a ray cuts off H times a slope on paper, where s has the scale μₛ and φ the scale μᵩ.")
-    both = sequence([part.caption for part in parts], " ")
-    reads = ("max_v", "max_a", "v", "a")
-    return Step(say("The scales of the derivatives"), both, _view(c, "a"), (), reads, why=why, parts=parts)

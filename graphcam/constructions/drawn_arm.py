@@ -1,6 +1,8 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
 import cmath
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,15 +11,16 @@ from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import turning
-from graphcam.constructions.board import DrawnFollower, FollowerSize, roller_given
+from graphcam.constructions.board import DrawnFollower, FollowerSize, Values, roller_given
 from graphcam.constructions.sketch import bearing, edge, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
-from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
+from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, standard_scale
 from graphcam.given.follower import Oscillating, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
+from graphcam.given.motion import Motion
 
 ARM_ON_PAPER = 130.0
 """The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""
@@ -31,12 +34,12 @@ EDGE = say("The cam turns {rotation} about A and swings an arm about the pivot C
 class DrawnOscillating(DrawnFollower):
     """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found.
 
-    on_paper : the arm positions are drawn at the largest standard scale at which the arm is not longer [mm of paper]
+    mu_l : scale of the arm positions [mm/mm]; None for the usual one
     """
 
     arm: float
     place: float | None
-    on_paper: float = ARM_ON_PAPER
+    mu_l: Scale | None = None
     place_name = "distance"
     place_title = say("distance")
     unit = Oscillating.lift_unit
@@ -60,13 +63,32 @@ class DrawnOscillating(DrawnFollower):
     @property
     def _mu_l(self) -> Scale:
         """The scale of the arm positions."""
-        return standard_scale(self.arm, self.on_paper)
+        return self.mu_l or standard_scale(self.arm, ARM_ON_PAPER)
 
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
         """About the pivots on their circle."""
         return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
+
+    def positions(
+        self, values: Values, rotation: Rotation, limits: Limits, centres: Iterable[tuple[float, float]]
+    ) -> complex:
+        """About how wide + i high the arm positions are [mm].
+
+        values : over the turn;  centres : prime radii and distances of the cam centres that are found in them [mm]
+        """
+        s, v, _ = values
+        outward = -np.exp(-1j * s)
+        tips = self.arm * (1 + sense(rotation) * v) * outward
+        # The arm produced lies beyond B₀, the region below the ends.
+        drawn: list[complex] = [0j, *tips.tolist()]
+        drawn.append(-self.arm * (1.3 if limits.rest else 2.3))
+        for radius, c in centres:
+            cos = (c * c + self.arm**2 - radius**2) / (2 * c * self.arm)
+            drawn.append(-cmath.rect(c, math.acos(min(1.0, max(-1.0, cos)))))
+        places: Points = np.array(drawn)
+        return complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The distances at which no line of the region cuts the cam centre off."""
@@ -76,9 +98,9 @@ class DrawnOscillating(DrawnFollower):
         """The arm must reach the prime circle from its pivot."""
         return abs(place - self.arm)
 
-    def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
+    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
         """The pivot circle, or the pitch curve with a roller on it where that is larger."""
-        return max(place, prime_radius + self.arm * lift + roller_radius)
+        return max(place, prime_radius + self.arm * motion.lift + roller_radius)
 
     def built(self, place: float | None, roller_radius: float) -> Oscillating:
         """The follower with these sizes."""

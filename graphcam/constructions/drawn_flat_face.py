@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import turning
-from graphcam.constructions.board import DrawnFollower, FollowerSize
+from graphcam.constructions.board import DrawnFollower, FollowerSize, Values
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
 from graphcam.constructions.sketch import BASE, guided_stem, plain_cam
@@ -18,9 +18,12 @@ from graphcam.drafting.scale import Scale
 from graphcam.given.follower import FlatFaced, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
+from graphcam.given.motion import FULL_TURN, Motion
 
 STEM, GUIDE, HALF_FACE = 34.0, 12.0, 17.0
 """In the kinematic diagram: length of the stem, height of its guide above the face, and half the face [mm]."""
+SAMPLES = 361
+"""Of a turn, to see how far aside a profile is touched."""
 MOVED = say("The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B.")
 
 
@@ -69,9 +72,16 @@ class DrawnFlatFaced(DrawnFollower):
         """Any prime radius closes the mechanism."""
         return 0.0
 
-    def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
+    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
         """The profile reaches a little beyond the highest position of the face, where it is touched aside."""
-        return 1.2 * (prime_radius + lift)
+        s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, SAMPLES))
+        return max(1.2 * (prime_radius + motion.lift), float(np.hypot(prime_radius + s, v).max()))
+
+    def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
+        """The displacement over the acceleration, and the prime radius below it."""
+        s, _, a = values
+        radius = max(self.least_curvature + max(-float((s + a).min()), 0.0), prime_radius or 0.0)
+        return complex(float(np.ptp(a)), float(s.max()) + radius)
 
     def built(self, place: float | None, roller_radius: float) -> FlatFaced:
         """The follower, which has no sizes."""

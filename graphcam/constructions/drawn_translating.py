@@ -1,12 +1,13 @@
 """The translating follower on the drawing board: knife edge or roller, central or offset."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.constructions.axes import turning
-from graphcam.constructions.board import DrawnFollower, roller_given
+from graphcam.constructions.board import DrawnFollower, Values, roller_given
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
@@ -19,6 +20,7 @@ from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
+from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 
 STEM, GUIDE, OFFSET = 30.0, 9.0, 8.0
@@ -71,9 +73,29 @@ class DrawnTranslating(DrawnFollower):
         """The follower's line must cross the prime circle."""
         return abs(place)
 
-    def reach(self, prime_radius: float, place: float, lift: float, roller_radius: float) -> float:
+    def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
         """The pitch curve's greatest radius, and a roller on it."""
-        return prime_radius + lift + roller_radius
+        return prime_radius + motion.lift + roller_radius
+
+    def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
+        """The velocities over the displacement, and the lines of the region down to the lowest of the marked places."""
+        s, v, _ = values
+        rise, offset = math.tan(limits.rise), sense(rotation) * (self.place or 0.0)
+        # Where the lines meet zero lift, from the line of motion to the side of the rise's velocities.
+        lines = [(float((v - s * rise).max()), -rise)]
+        if limits.return_ is not None:
+            back = math.tan(limits.return_)
+            lines.append((-float((-v - s * back).max()), back))
+        # The cam centre, the central place, that at the offset, and the apex: the lines are drawn down to the lowest.
+        down = [prime_radius or 0.0, *((place - at) / slope for at, slope in lines for place in (0.0, offset))]
+        if len(lines) == 2:
+            (at, slope), (other, steep) = lines
+            down.append((at - other) / (steep - slope))
+        if limits.rest:
+            lines.append((0.0, rise))
+            down.append(offset / rise)
+        beside = [offset, *v.tolist(), *(at + slope * max(down) for at, slope in lines)]
+        return complex(max(beside) - min(beside), float(s.max()) + max(down))
 
     def built(self, place: float | None, roller_radius: float) -> Translating:
         """The follower with these sizes; an open offset is 0 in it."""

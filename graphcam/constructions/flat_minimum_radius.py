@@ -6,13 +6,15 @@ meets the axis of s where the greatest of -(s + a) is read.  With unequal scales
 arctan(mu_a/mu_s) in place of 45 degrees.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.constructions.adoption import Adoption, nothing_adopted
 from graphcam.constructions.axes import OVERHANG, numbers, station_names
 from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
@@ -38,10 +40,14 @@ DOWN_LEFT = -RIGHT - UP
 
 @dataclass(frozen=True, eq=False)
 class FlatLeastRadiusGivens:
-    """The diagrams, and the least permitted radius of curvature of the profile [mm]."""
+    """The diagrams, and the least permitted radius of curvature of the profile [mm].
+
+    adopted : tells which prime radius is taken in the end, where one is: the axis of s is drawn as far as there
+    """
 
     integrated: Integrated
     least_curvature: float
+    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 FlatRegion = Construction[FlatLeastRadiusGivens]
@@ -165,8 +171,10 @@ def _laid_off(region: FlatRegion) -> Step:
     integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
     heights, after, near = (region.acts[name].first for name in names)
     stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
-    named, lowest = station_names(stations), min(region.acts[name].place.imag for name in ("A", "zero"))
-    axes = _axes(region.first("curve"), lowest - OVERHANG)
+    named, lowest = station_names(stations), [region.acts[name].place.imag for name in ("A", "zero")]
+    if adopted := region.givens.adopted():
+        lowest.append(-adopted.prime_radius / region.readings["prime_radius"].per_mm)
+    axes = _axes(region.first("curve"), min(lowest) - OVERHANG)
     marks = [after.from_(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
     if jumps:
         marks.append(near.from_(heights[jumps], Role.CONSTRUCTION))
@@ -309,7 +317,7 @@ def _found(region: FlatRegion) -> Step:
             "The profile may nowhere be sharper than ρ = {least:g} mm, and r₀ = {sum} would not be positive: any prime "
             "radius will do, and the cam centre A₀ is the crossing of the axes."
         ).where(least=least, sum=_sum(least, need))
-    radius = say("r₀ = {r0:.2f}", r0=r0)
+    radius = say("min r₀ = {r0:.2f}", r0=r0)
     marks = (
         *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
         Dimension(0j, centre.place, radius, -10.0, region.readings["prime_radius"].act),
@@ -353,7 +361,8 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
         )
     ).where(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
     named = say("ρ = {rho:.2f}", rho=value)
-    marks = (centre.dots(Role.RESULT), centre.label("A", -1 - 1j), Dimension(centre.place, zero, named, -14.0, rho.act))
+    label = centre.label(say("A (r₀ = {r0:g})", r0=r0), -1 - 1j)
+    marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, rho.act))
     return [
         Step(
             say("The least radius of curvature"),

@@ -6,7 +6,7 @@ scales follow as mu_v = mu_s/(mu_phi H2) and mu_a = mu_v/(mu_phi H1), and mu_s f
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -15,23 +15,29 @@ from graphcam.constructions.acceleration import AccelerationDiagram, Acceleratio
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
     as_high,
+    degrees_below,
     height_names,
     numbers,
+    ordinate,
     part_names,
+    phase_ends,
     phase_names,
     phase_title,
+    phases_below,
     phi_axes,
     pole_marks,
+    reach,
     station_names,
     together,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
+from graphcam.constructions.graduation import graduated
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
-from graphcam.drafting.marks import Dimension, Points, Role, Segments
+from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import NOTHING, unit
@@ -49,10 +55,14 @@ FLAT = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class IntegrationGivens(AccelerationGivens):
-    """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper]."""
+    """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper].
+
+    lowest : whether no diagram follows below that of s, so that the phases' angles stand there
+    """
 
     diagram: AccelerationDiagram
     poles: tuple[float, float]
+    lowest: bool = False
 
 
 Integrated = Construction[IntegrationGivens]
@@ -87,14 +97,17 @@ MEANING = Meaning(
 )
 
 
-def integration(diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil) -> Integrated:
+def integration(
+    diagram: AccelerationDiagram, poles: tuple[float, float], pencil: Pencil, *, lowest: bool = False
+) -> Integrated:
     """Integrate the acceleration diagram twice and fix its scale by the known lift.
 
     poles : H1 (acceleration to velocity) and H2 (velocity to displacement) [mm of paper]
+    lowest : whether no diagram follows below that of s
 
     Readings besides those of the meaning: ``a_before``, at the stations as ``a``, on the near side of a jump.
     """
-    givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles)
+    givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles, lowest=lowest)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
@@ -197,7 +210,7 @@ def _top(motion: Motion, stations: Stations) -> int:
 
 def _draw(c: Integrated) -> list[Step]:
     passes = [step for run in _PASSES for step in (_draw_rays(c, run), _draw_chords(c, run), _draw_curve(c, run))]
-    return [*passes, _draw_scales(c)]
+    return [*passes, *_draw_scales(c)]
 
 
 @dataclass(frozen=True)
@@ -289,10 +302,14 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     stations, (source, target) = c.givens.stations, run.symbols
     polygon, curve = c.acts[f"{target}_chords"], c.acts[f"{target}_curve"]
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
-    axes, far = phi_axes(c.givens.motion, c.givens.mu_phi, curve.shown.imag, target), np.abs(y) >= 0
+    motion, mu_phi, heights, far = c.givens.motion, c.givens.mu_phi, curve.shown.imag, np.abs(y) >= 0
+    axes = phi_axes(motion, mu_phi, heights, ordinate(target, c.givens.unit))
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
+        axes += phases_below(motion, mu_phi, reach(heights)[0]) if c.givens.lowest else ()
+    numbered = run.index == 2 and c.givens.lowest
+    under = () if numbered else degrees_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0])
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -318,7 +335,7 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     ).where(source=source)
     parts = (*(part for k in range(len(stations.phases)) for part in _chord_parts(c, run, k)), *_ordinates(c, run))
     title = say("Chords parallel to the rays: {target}", target=target)
-    return Step(title, said, run.target, (*axes, *marks), given=axes, why=why, parts=parts)
+    return Step(title, said, run.target, (*axes, *marks), given=axes, why=why, parts=parts, under=under)
 
 
 def _outward(y: Floats, stations: Stations) -> Points:
@@ -387,37 +404,59 @@ def _draw_curve(c: Integrated, run: _Integrating) -> Step:
     return Step(say("Curve of {target}", target=target), said, run.target, lines, why=run.joined, parts=parts)
 
 
-def _draw_scales(c: Integrated) -> Step:
-    motion, stations, curve = c.givens.motion, c.givens.stations, c.acts["s_curve"]
-    at, (h1, h2), mu_phi, lift_unit = _top(motion, stations), c.givens.poles, c.givens.mu_phi.per_mm, c.givens.unit
-    top = curve.first[[at]]
-    mu_s, mu_v, mu_a = (c.readings[name].per_mm for name in ("s", "v", "a"))
-    values = {"unit": unit(lift_unit), "paper": top.place.imag, "lift": motion.lift, "mu_phi": mu_phi}
-    values |= {"mu_s": mu_s, "mu_v": mu_v, "mu_a": mu_a, "h1": h1, "h2": h2}
-    said = say(
-        "The maximum of s measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
-        "{mu_s:.5g} {unit}/mm. Through the poles follow μᵥ = μₛ/(μᵩ·H₂) = {mu_v:.5g} ({unit}/rad)/mm and μₐ = "
-        "μᵥ/(μᵩ·H₁) = {mu_a:.5g} ({unit}/rad²)/mm."
-    ).where(**values)
-    divided = (
-        say("Divide the lift by its length: μₛ = {lift:.6g} {unit}/{paper:.2f} mm = {mu_s:.5g} {unit}/mm."),
-        say("Divide by μᵩ·H₂: μᵥ = {mu_s:.5g}/({mu_phi:.5g}·{h2:.6g}) = {mu_v:.5g} ({unit}/rad)/mm."),
-        say("Divide by μᵩ·H₁: μₐ = {mu_v:.5g}/({mu_phi:.5g}·{h1:.6g}) = {mu_a:.5g} ({unit}/rad²)/mm."),
-    )
-    parts = tuple(Part(each.where(**values), (top,) if k == 0 else ()) for k, each in enumerate(divided))
-    k = int(stations.left[min(3, stations.left.size - 1)]) + 1
-    read = {name: (c.first(name)[k], c.readings[name].per_mm, c.value(name)[k]) for name in ("s", "v", "a")}
-    told = say("{y:.2f} mm × {mu:.5g} = {value:.5g} {unit}")
-    each = {
-        name: told.where(y=y, mu=mu, value=value, unit=unit(c.readings[name].unit))
-        for name, (y, mu, value) in read.items()
-    }
-    last = say("Station {name}: s = {s}, v = {v}, a = {a}; repeat for the others.", name=station_names(stations)[k])
+def _draw_scales(c: Integrated) -> Iterator[Step]:
+    """The scale of s from the known lift, and those of v and a through the poles."""
+    at, (h1, h2), lift = _top(c.givens.motion, c.givens.stations), c.givens.poles, c.givens.motion.lift
+    top, mu = c.acts["s_curve"].first[[at]], {name: c.readings[name].per_mm for name in "sva"}
+    values = {"unit": unit(c.givens.unit), "paper": top.place.imag, "lift": lift, "mu_phi": c.givens.mu_phi.per_mm}
+    values |= {"mu_s": mu["s"], "mu_v": mu["v"], "mu_a": mu["a"], "h1": h1, "h2": h2}
     height = Dimension(top.place.real + 0j, top.place, say("{y:.1f}", y=top.place.imag), -6.0, top.act, top.index)
-    reads = ("max_v", "max_a", "s", "v", "a", "closing_v", "closing_s")
-    why = say(
-        "Because the lift is known it fixes μₛ, and as a chord climbs by y·Δx/H, each integration divides the scale by "
-        "μᵩ·H once."
+    known = say(
+        "The maximum of s measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
+        "{lift:.6g} {unit}/{paper:.2f} mm = {mu_s:.5g} {unit}/mm."
     )
-    step = Step(say("The scales"), said, DISPLACEMENT, (height,), reads, why=why)
-    return replace(step, parts=(*parts, Part(last.where(**each), ())))
+    through = {
+        "v": say("Divide by μᵩ·H₂: μᵥ = {mu_s:.5g}/({mu_phi:.5g}·{h2:.6g}) = {mu_v:.5g} ({unit}/rad)/mm."),
+        "a": say("Divide by μᵩ·H₁: μₐ = {mu_v:.5g}/({mu_phi:.5g}·{h1:.6g}) = {mu_a:.5g} ({unit}/rad²)/mm."),
+    }
+    yield _scale(c, "s", known.where(**values), top, (height,))
+    for name, said in through.items():
+        yield _scale(c, name, said.where(**values))
+
+
+def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, marks: tuple[Mark, ...] = ()) -> Step:
+    """How the scale of a diagram is found, what is read with it at a station, and the divisions of its ordinates."""
+    view, title, why, reads = _SCALES[name]
+    stations, mu, turn = c.givens.stations, c.readings[name].per_mm, phase_ends(c.givens.motion, c.givens.mu_phi)[-1]
+    k = int(stations.left[min(3, stations.left.size - 1)]) + 1
+    read = {"y": c.first(name)[k], "value": c.value(name)[k], "unit": unit(c.readings[name].unit)}
+    told = say("Station {name}: {symbol} = {y:.2f} mm × {mu:.5g} = {value:.5g} {unit}; repeat for the others.")
+    told = told.where(name=station_names(stations)[k], symbol=name, mu=mu, **read)
+    # From the pole rays run to the axis on the left.
+    heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
+    divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act)
+    parts = Part(found, () if of is None else (of,)), Part(told, ())
+    said = sequence([found, told], " ")
+    return Step(title, said, view, (*marks, *divided), reads, why=why, parts=parts)
+
+
+_SCALES = {
+    "s": (
+        DISPLACEMENT,
+        say("The scale of s"),
+        say("Because the lift is known, its length on paper fixes the scale."),
+        ("s", "closing_s"),
+    ),
+    "v": (
+        VELOCITY,
+        say("The scale of v"),
+        say("Because a chord of s climbs by y·Δx/H₂, the second integration has divided the scale by μᵩ·H₂."),
+        ("v", "max_v", "closing_v"),
+    ),
+    "a": (
+        ACCELERATION,
+        say("The scale of a"),
+        say("Because a chord of v climbs by y·Δx/H₁, the first integration has divided the scale by μᵩ·H₁."),
+        ("a", "max_a"),
+    ),
+}

@@ -5,11 +5,13 @@ motion is the pressure angle; so the tangents to the curve of the D_i at the per
 A may lie.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, pieces_of, station_names
+from graphcam.constructions.adoption import Adoption, nothing_adopted
+from graphcam.constructions.axes import degrees, pieces_of
 from graphcam.constructions.combined_diagram import (
     aside,
     joined_up,
@@ -27,8 +29,9 @@ from graphcam.constructions.region import (
     boundary,
     highest_on,
     nearest,
-    permitted_part,
 )
+from graphcam.constructions.region_picture import RegionPicture, picture_of
+from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -40,18 +43,21 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
-from graphcam.plane import dot
 from graphcam.words import joined, say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
 class LeastRadiusGivens:
-    """What lies on the board; see :func:`least_radius`."""
+    """What lies on the board; see :func:`least_radius`.
+
+    adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
+    """
 
     integrated: Integrated
     rotation: Rotation
     limits: Limits
     offset: float | None
+    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 LeastRadius = Construction[LeastRadiusGivens]
@@ -131,12 +137,10 @@ def _shown(region: LeastRadius) -> list[Boundary]:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-REGION_DEPTH = 14.0
-"""How far below the lowest of the marked cam centres the region is shaded [mm]."""
 ANGLE_RADIUS = 22.0
 """Radius of the arcs that show the permitted angles [mm]."""
-ON_A_STATION = 0.05
-"""A tangent that touches this near to a station, in parts of the way to the next one, touches at it."""
+HIGH, LOW = 0.12, 0.85
+"""So far down the lines of the region their angles are shown."""
 LINES = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "rest")}
 """The lines that bound the region, by what they limit."""
 NAMED = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the rest line")}
@@ -152,29 +156,40 @@ SLIDES = {
     1: say("leaning to the right going up, and slide it in from the lower right"),
     -1: say("leaning to the left going up, and slide it in from the lower left"),
 }
-PLACES = {"foot": say("foot"), "apex": say("apex"), "central": say("central")}
+PLACES = {"foot": say("foot from B₀"), "apex": say("apex"), "central": say("central (e = 0)")}
 """The places that textbooks take besides the nearest one."""
 FOUND = {
-    "foot": say("Foot: drop the perpendicular from B₀ to the rise line with two set squares, {distance:.1f} mm long."),
+    "foot": say(
+        "Foot of the perpendicular: drop it from B₀ to the rise line with two set squares, {distance:.1f} mm long."
+    ),
     "apex": say("Apex: mark where the rise line and the return line cross, {distance:.1f} mm from B₀."),
-    "central": say("Central: mark where the line of motion enters the region, {distance:.1f} mm from B₀."),
+    "central": say("Central (e = 0): mark where the line of motion enters the region, {distance:.1f} mm from B₀."),
 }
 """How they are found."""
 
 
 def _draw(region: LeastRadius) -> list[Step]:
-    centre = region.acts["centre"].first
-    marked = [place.place for place in (centre, *_alternatives(region).values()) if not np.isnan(place.place)]
-    bottom = min(0.0, *(place.imag for place in marked)) - REGION_DEPTH
+    centre, lines = region.acts["centre"].first, _shown(region)
+    others = (place.place for place in _alternatives(region).values())
+    picture = picture_of((0j, centre.place, *others, *_adopted(region)), lines)
     found = _unreadable() if np.isnan(centre.place) else _result(region)
-    return [laid_off(region, bottom), joined_up(region), _touching(region, bottom), _shaded(region, bottom), found]
+    steps = laid_off(region, picture.bottom), joined_up(region), _touching(region, picture), _shaded(region, picture)
+    return [*steps, found]
 
 
-def _touching(region: LeastRadius, bottom: float) -> Step:
+def _adopted(region: LeastRadius) -> list[complex]:
+    """The cam centre that is taken in the end, where one is."""
+    adopted, mu = region.givens.adopted(), region.readings["prime_radius"].per_mm
+    if adopted is None:
+        return []
+    r0, e = adopted.prime_radius, adopted.place
+    return [complex(-e, -np.sqrt((r0 - e) * (r0 + e))) / mu]
+
+
+def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
     """The lines that bound the region, each at its permitted angle."""
     hand, limits = showing(region), region.givens.limits
-    floor = hand.given("lower edge", UP * bottom, RIGHT)
-    lines = [_limit_line(region, hand, line, floor) for line in _shown(region)]
+    lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
     parts = tuple(part for part, _ in lines)
     further = [_at_zero_lift(region)]
     if not limits.return_:
@@ -188,21 +203,28 @@ def _touching(region: LeastRadius, bottom: float) -> Step:
     return Step(say("Tangents at the permitted angles"), said, COMBINED, marks, why=why, parts=parts)
 
 
-def _limit_line(region: LeastRadius, hand: Hand, line: Boundary, floor: Drawn) -> tuple[Part, tuple[Mark, ...]]:
-    """The boundary from a little above its touch down to the bottom, with its angle to the vertical."""
+def _limit_line(
+    region: LeastRadius, hand: Hand, line: Boundary, picture: RegionPicture
+) -> tuple[Part, tuple[Mark, ...]]:
+    """The boundary from a little above its touch down to the edge of the picture, with its angle to the vertical."""
     drawn = region.acts[line.name].first
     direction = region.acts.get(f"direction of {line.name}")
     limit = drawn if direction is None else direction.first
     above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
-    below = hand.cross(f"{line.name} at the edge", drawn, floor, flat=True)
-    # The angle is shown where the line has run a third of its way down.
-    level = hand.given(f"level of {line.name}", UP * (2 * drawn.place.imag + below.place.imag) / 3, RIGHT)
-    at = hand.cross(f"{line.name} on its way", drawn, level, flat=True)
+    below = picture.end(line, [other for other in _shown(region) if other.name != line.name])
+    # The angles stand apart, and beside the region: a tangent's not far below its touch, the rest line's low.
+    share, way = (LOW, UP) if line.name == "rest" else (HIGH, -UP)
+    at = hand.cross(
+        f"{line.name} on its way",
+        drawn,
+        hand.given(f"level of {line.name}", UP * (drawn.place + share * (below - drawn.place)).imag, RIGHT),
+        flat=True,
+    )
     upright, angle = hand.erect(f"upright at {line.name}", at), _limit(line, region.givens.limits)
-    first, last = sorted((-np.pi / 2, float(np.angle(line.along))))
+    first, last = sorted((float(np.angle(way)), float(np.angle(-line.along if way == UP else line.along))))
     marks = (
-        Line(np.array([above, below.place]), Role.LIMIT, of=drawn.act, index=drawn.index.repeat(2)),
-        Segments(at.shown, at.shown - UP * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act, index=upright.index),
+        Line(np.array([above, below]), Role.LIMIT, of=drawn.act, index=drawn.index.repeat(2)),
+        Segments(at.shown, at.shown + way * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act, index=upright.index),
         AngleMark(at.place, ANGLE_RADIUS, first, last, angle, of=limit.act, index=limit.index),
     )
     lean = float(line.along.real)
@@ -220,24 +242,18 @@ def _limit_line(region: LeastRadius, hand: Hand, line: Boundary, floor: Drawn) -
             angle=angle,
             slide=SLIDES[-1 if lean > 0 else 1],
             curve=CURVES[line.name],
-            where=_touch(region, drawn.place),
+            where=_touch(region, line.name, drawn.place),
         )
     return Part(said, (drawn, upright) if limit is drawn else (limit, drawn, upright)), marks
 
 
-def _touch(region: LeastRadius, touch: complex) -> Caption:
+def _touch(region: LeastRadius, name: str, touch: complex) -> Caption:
     """Which station a tangent touches at, or between which."""
-    integrated, ends = region.givens.integrated, region.acts["ends"].shown
-    stations, names = integrated.givens.stations, station_names(integrated.givens.stations)
-    ways = ends[stations.left + 1] - ends[stations.left]
-    # A part that has no length, where v and s both stay, is touched nowhere.
-    along = dot(ways, touch - ends[stations.left]) / np.maximum(np.abs(ways) ** 2, NOTHING)
-    along = np.clip(along, 0.0, 1.0)
-    part = int(np.argmin(np.abs(ends[stations.left] + along * ways - touch)))
-    first, share = int(stations.left[part]), float(along[part])
-    if min(share, 1 - share) < ON_A_STATION:
-        return say_in("a touch", "at {name}", name=names[first + (share > 0.5)])
-    return say_in("a touch", "between {first} and {last}", first=names[first], last=names[first + 1])
+    direction = 1 if name == "rise" else -1
+    first, *last = touched(region.givens.integrated, region.acts["ends"].shown, touch, direction)
+    if not last:
+        return say_in("a touch", "at {name}", name=first)
+    return say_in("a touch", "between {first} and {last}", first=first, last=last[0])
 
 
 def _at_zero_lift(region: LeastRadius) -> Caption:
@@ -249,12 +265,10 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
     return said.where(distance=abs(place.real), side=aside(place.real))
 
 
-def _shaded(region: LeastRadius, bottom: float) -> Step:
+def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     """The region, and the places that textbooks take."""
-    hand, lines, ends, others = showing(region), _shown(region), region.acts["ends"].shown, _alternatives(region)
-    left, right = float(ends.real.min()), float(ends.real.max())
-    paper = [complex(left, bottom), complex(right, bottom), complex(right, 0), complex(left, 0)]
-    permitted = hand.given("permitted places", permitted_part(lines, paper))
+    hand, lines, others = showing(region), _shown(region), _alternatives(region)
+    permitted = hand.given("permitted places", picture.permitted(lines))
     hatch = say("Hatch below the lines what none of them cuts off.")
     sides = [
         say(
@@ -274,12 +288,17 @@ def _shaded(region: LeastRadius, bottom: float) -> Step:
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION, of=strokes.act, index=strokes.index))
-        marks.append(place.first.label(PLACES[name], towards=1 - 1j, small=True))
+        marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
         found = FOUND[name].where(distance=abs(place.place))
         parts.append(Part(found, (place.first, strokes)))
     why = say("Because the cam centre must keep every limit at once.")
     title = say("The region of the cam centre")
     return Step(title, sequence(said, " "), COMBINED, tuple(marks), why=why, parts=tuple(parts))
+
+
+def _outside(lines: list[Boundary], place: complex) -> complex:
+    """The direction out of the region at a place on its lines."""
+    return -sum((complex(line.inward) for line in binding(lines, place)), 0j) or 1 - 1j
 
 
 def _unreadable() -> Step:
@@ -313,7 +332,7 @@ def _result(region: LeastRadius) -> Step:
             "{height}."
         ).where(aside=abs(paper["offset"]), mu=mu, e=values["offset"], height=_height(paper["s0"], mu, values["s0"]))
         parts.append(Part(carried, (level,)))
-    shown, read = say("r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
+    shown, read = say("min r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
     marks = (
         joined.way(Role.LIMIT),
         centre.dots(Role.RESULT),
@@ -367,9 +386,11 @@ def _centre_lines(region: LeastRadius, level: Drawn) -> tuple[Mark, ...]:
     line, e, s0 = region.acts.get("line of the offset"), region.readings["offset"].act, region.readings["s0"].act
     of, index = (line.act, line.first.index.repeat(2)) if offset and line is not None else (None, None)
     shown = say("s₀ = {s0:.2f}", s0=float(region.value("s0")))
+    found = say("e = {e:.2f}", e=float(region.value("offset")))
+    shown_offset = found if offset is None else say("e = {e:g}", e=offset)
     return (
         Line(np.array([centre - 6 * UP, centre.real + 6 * UP]), Role.AXIS, of=of, index=index),
         level.line_from(centre, Role.CONSTRUCTION),
-        Dimension(level.place, centre, "e" if offset is None else say("e = {e:g}", e=offset), aside=-8.0, of=e),
-        Dimension(0j, level.place, shown, aside=8.0 * np.sign(-centre.real), of=s0),
+        Dimension(level.place, centre, shown_offset, aside=-8.0, of=e),
+        Dimension(0j, level.place, shown, aside=14.0 * np.sign(-centre.real), of=s0),
     )

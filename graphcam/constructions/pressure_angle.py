@@ -17,15 +17,16 @@ from graphcam.constructions.adoption import Adoption, adoption_step
 from graphcam.constructions.axes import station_names, turning
 from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities, worked_station
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.views import COMBINED, PLAN, at_scale
+from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
+from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Act, Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
-from graphcam.drafting.marks import AngleMark, Arc, Arrow, Label, Line, Mark, Role
+from graphcam.drafting.marks import AngleMark, Arc, Line, Mark, Role
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import ratio_text, standard_scale
+from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.words import sequence
@@ -36,12 +37,16 @@ class MeasuredGivens:
     """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs.
 
     adopted : tells how the prime radius came about, where it was adopted rather than tried
+    paper : for the velocity plan
+    omega : of the cam [rad/s], where the task gives a speed
     """
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
     adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
+    paper: Paper = field(default=UNLIMITED, kw_only=True)
+    omega: float | None = field(default=None, kw_only=True)
 
 
 MeasuredAngles = Construction[MeasuredGivens]
@@ -109,6 +114,8 @@ def _complement(alpha: Floats) -> Floats:
 
 PLAN_HEIGHT = 70.0
 """The velocity plan is drawn at the largest standard scale at which the mechanism's triangle is not taller [mm]."""
+PLAN_BESIDE = complex(50.0, 45.0)
+"""What stands beside the triangle and the plan, and between them: letters, the ends of lines, the title [mm]."""
 ARC = 7.0
 """The compass draws so much of the prime circle to either side of the cam centre [mm]."""
 SLOW = 0.25
@@ -132,8 +139,9 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     k, mu, decided = shown_station(measured), measured.readings["s0"].per_mm, measured.givens.adopted
     end, centre = measured.acts["ends"].first[k], measured.acts["centre"].first
-    scale = standard_scale((end.place - centre.place).imag * mu, PLAN_HEIGHT)
-    shown = _Shown(measured, k, scale.per_mm, at_scale(PLAN, scale), _plan(measured, k, mu / scale.per_mm))
+    scale = _plan_scale(measured, k, (end.place - centre.place) * mu)
+    scales = VelocityScale(scale, measured.givens.omega)
+    shown = _Shown(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
     rounding = [adoption_step(decided(), "e", mu, COMBINED)] if decided else []
     return [
         *(*rounding, _cam_centre(measured)),
@@ -142,15 +150,36 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     ]
 
 
+def _plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) -> Scale:
+    """The largest standard scale at which the triangle is no taller than usual, and the paper takes the plan beside it.
+
+    d : the end of v, from the cam centre [mm]
+    """
+    paper, v = measured.givens.paper, sense(measured.givens.rotation) * float(measured.givens.integrated.value("v")[k])
+    # v₁ lies across the radius: it is as wide as B lies high.
+    triangle = np.ptp([0.0, d.real, v, d.real + v])
+    size = complex(float(triangle) + d.imag, max(d.imag, abs(v)))
+    return coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_BESIDE))
+
+
 @dataclass(frozen=True, eq=False)
 class _Shown:
-    """The station at which the plan is drawn, at ``mu`` mm, or mm/rad, to a millimetre of paper."""
+    """The station at which the plan is drawn, and its scales."""
 
     measured: Construction[PressureAngleGivens]
     station: int
-    mu: float
-    view: View
+    scales: VelocityScale
     hand: Hand
+
+    @property
+    def mu(self) -> float:
+        """So many mm, or mm/rad, go to a millimetre of paper."""
+        return self.scales.mu_l.per_mm
+
+    @property
+    def view(self) -> View:
+        """The mechanism, and the plan beside it."""
+        return self.scales.view(self.name)
 
     @property
     def acts(self) -> Mapping[str, Drawn]:
@@ -218,7 +247,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
         Arc(prime.place, radius, *span, Role.CONSTRUCTION, of=prime.act, index=prime.index),
         *(laid_off.dots(Role.CONSTRUCTION) for laid_off in (displacements, ends)),
         centre.dots(Role.RESULT),
-        centre.label("A", -1j - np.sign(centre.place.real)),
+        centre.label(say("A (r₀ = {r0:g}, e = {e:g})", r0=r0, e=offset + 0.0), -1j - np.sign(centre.place.real)),
     ]
     cut = say(
         "Compass {paper:.2f} mm, {r0:g}/{mu:.5g}, about B₀: below it the arc cuts {upright} in A. Measured upright, A "
@@ -283,13 +312,14 @@ def _velocities(shown: _Shown) -> Step:
         paper=abs(two),
     )
     closing = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.2f} mm.", closing=abs(two - one))
+    closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
     why = say(
         "Because B of the follower moves as the point of the cam under it and slides along the profile besides: "
         "v₂ = v₁ + v₂₁."
     )
     title = say("Velocity plan at station {name}", name=shown.name)
-    return _told(title, why, shown.view, parts, velocity_plan(pole, v1, v2, v21))
+    return _told(title, why, shown.view, parts, velocity_plan(pole, v1, v2, v21, shown.scales))
 
 
 def _normal(shown: _Shown) -> Step:
@@ -372,19 +402,6 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
     why = say("Because the ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
     return Step(title, said, COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why, parts=tuple(parts))
-
-
-def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn) -> tuple[Mark, ...]:
-    """The plan from its pole: v₁ across the radius, v₂ along the motion, and the line v₂₁ that closes it."""
-    start, one, other = pole.place, v1.place, v2.place
-    side = np.sign((one - start).real)
-    return (
-        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE, v21.act, v21.index)),
-        Label((start + one) / 2, "v₁", -UP * side, of=v1.act, index=v1.index),
-        Label((start + other) / 2, "v₂", -side, of=v2.act, index=v2.index),
-        Label((one + other) / 2, "v₂₁", UP + side, of=v21.act, index=v21.index),
-        pole.label("p", -1 - 1j),
-    )
 
 
 def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Act | None) -> AngleMark:

@@ -17,7 +17,7 @@ from graphcam.drafting.hand import Direction, Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
@@ -29,6 +29,7 @@ class InvertedGivens:
     """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm].
 
     adopted : tells how the prime radius came about, where it was adopted rather than tried
+    paper : for a detail of it
     """
 
     integrated: Integrated
@@ -36,6 +37,7 @@ class InvertedGivens:
     prime_radius: float
     mu_l: Scale
     adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
+    paper: Paper = field(default=UNLIMITED, kw_only=True)
 
 
 Inverted = Construction[InvertedGivens]

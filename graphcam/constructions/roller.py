@@ -144,7 +144,9 @@ def laid_off_on_ob(
         if not 0 < paper <= BESIDE * abs(hub.place):  # nor where there is none
             continue
         end = detail.hand.lay_off("roller beside OB", b, ob, paper)
-        marks += [end.dots(Role.CONSTRUCTION), end.label(name, -UP * hub.place, small=True)]
+        label = say("{name} = {radius:.4g}", name=name, radius=radius)
+        # What is taken stands on the other side of OB than what the terms of the rule propose.
+        marks += [end.dots(Role.CONSTRUCTION), end.label(label, (UP if name == "r" else -UP) * hub.place)]
         said = say("Lay off {name} = {radius:.2f} mm from B towards O: {paper:.1f} mm.")
         parts.append(Part(said.where(name=name, radius=radius, paper=paper), (end,)))
     return detail.view, tuple(marks), tuple(parts)

@@ -24,11 +24,13 @@ COMBINED = View(
 )
 PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")
 PROFILE = View(
-    "profile", say("Cam profile by inversion"), across="cam x", up="cam y", scale=say("Cam profile, {ratio}")
+    "profile", say("Cam profile by inversion"), across="cam x", up="cam y", scale=say("Cam profile, {ratio}"), main=True
 )
 CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
 SCHEME = View("scheme", say("Kinematic diagram"), across="scheme x", up="scheme y")
 REGION = View("region", say("Arm positions: the least radius"), across="region x", up="region y")
+ARM_ANGLES = View("arm angles", say("Pressure angles of the arm"), across="angles x", up="angles y")
+CAM_CENTRE = View("cam centre", say("Cam centre"), across="cam centre x", up="cam centre y")
 FORCES = View("forces", say("Force plan"), across="forces", up="forces")
 
 
@@ -39,4 +41,5 @@ def at_scale(view: View, scale: Scale) -> View:
     >>> str(at_scale(PLAN, gc.Scale(2.0, "mm")).title)
     'Velocity plan, 1:2'
     """
-    return replace(view, title=say("{title}, {ratio}", title=view.title, ratio=ratio_text(scale.per_mm)))
+    title = say("{title}, {ratio}", title=view.title, ratio=ratio_text(scale.per_mm))
+    return replace(view, title=title, mu_l=scale.per_mm)

@@ -34,6 +34,8 @@ class View:
     answer : what the title says that is only found by drawing, if anything: a sheet is blank there until the
         construction ``found_by`` is drawn
     scale : its title with its scale, as {mu} and {unit}, {degrees} or {ratio}, if it says that
+    mu_l : its drawing scale [mm/mm], where it has one: diagrams have several, and sketches none
+    main : whether the title block bears its scale, whatever else stands on the sheet
     """
 
     name: str
@@ -43,6 +45,8 @@ class View:
     answer: Caption | None = None
     found_by: str = ""
     scale: Caption | None = None
+    mu_l: float | None = None
+    main: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +70,7 @@ class Step(Shown):
     parts : the step part by part, in the order of the drawing; none where it is done at one stroke
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
+    under : further marks of a diagram under which no other stands on its page: the numbers of their common axis
     """
 
     _drawn_in = "construction_drawing"
@@ -78,6 +83,7 @@ class Step(Shown):
     given: tuple[Mark, ...] = ()
     why: Caption = field(kw_only=True, default_factory=lambda: Caption(""))
     parts: tuple[Part, ...] = field(kw_only=True, default=())
+    under: tuple[Mark, ...] = field(kw_only=True, default=())
 
     def __repr__(self) -> str:
         said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
@@ -99,14 +105,16 @@ class Step(Shown):
         # What is given stands among the marks too, and is the same object there.
         told = {
             id(mark): replace(mark, text=tell(mark.text)) if isinstance(mark, Label | Dimension | AngleMark) else mark
-            for mark in (*self.marks, *self.given)
+            for mark in (*self.marks, *self.given, *self.under)
         }
-        marks, given = (tuple(told[id(mark)] for mark in part) for part in (self.marks, self.given))
+        groups = self.marks, self.given, self.under
+        marks, given, under = (tuple(told[id(mark)] for mark in group) for group in groups)
         title, caption, why = (_plain(said, tell) for said in (self.title, self.caption, self.why))
         parts = tuple(replace(part, caption=_plain(part.caption, tell)) for part in self.parts)
         answer = None if self.view.answer is None else _plain(self.view.answer, tell)
         view = replace(self.view, title=_plain(self.view.title, tell), answer=answer)
-        return replace(self, title=title, caption=caption, why=why, parts=parts, view=view, marks=marks, given=given)
+        said = replace(self, title=title, caption=caption, why=why, parts=parts, view=view)
+        return replace(said, marks=marks, given=given, under=under)
 
 
 def _plain(caption: Caption, tell: Tell) -> Caption:

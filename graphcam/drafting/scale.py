@@ -6,11 +6,20 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.words import Caption, say
 
-STANDARD_RATIOS = (
+Ratios = tuple[float, ...]
+"""Drawing scales, paper over machine, the largest first."""
+GOST_2_302: Ratios = (
     *(100.0, 50.0, 40.0, 20.0, 10.0, 5.0, 4.0, 2.5, 2.0, 1.0),
-    *(1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40, 1 / 50, 1 / 75, 1 / 100),
+    *(1 / 2, 1 / 2.5, 1 / 4, 1 / 5, 1 / 10, 1 / 15, 1 / 20, 1 / 25, 1 / 40, 1 / 50, 1 / 75),
+    *(1 / 100, 1 / 200, 1 / 400, 1 / 500, 1 / 800, 1 / 1000),
 )
-"""Drawing scales of ISO 5455 and GOST 2.302, paper over machine, the largest first."""
+ISO_5455: Ratios = (
+    *(100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0),
+    *(1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100, 1 / 200, 1 / 500, 1 / 1000),
+)
+"""With 100:1, by which the standard's series goes on."""
+STANDARD_RATIOS = {"gost": GOST_2_302, "iso": ISO_5455}
+"""By the frame of the sheet."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +47,49 @@ class Scale:
         return value / self.per_mm
 
 
-def standard_scale(size: float, room: float) -> Scale:
+def standard_scale(size: float, room: float, ratios: Ratios = GOST_2_302) -> Scale:
     """The largest standard drawing scale at which ``size`` mm of machine fit into ``room`` mm of paper.
 
     >>> standard_scale(150, 310).per_mm
     0.5
+    >>> standard_scale(100, 250).per_mm, standard_scale(100, 250, ISO_5455).per_mm
+    (0.4, 0.5)
     """
-    for ratio in STANDARD_RATIOS:
+    for ratio in ratios:
         if size * ratio <= room:
             return Scale(1 / ratio, "mm")
     # Beyond the standard series: powers of ten go on for ever.
     return Scale(10.0 ** math.ceil(math.log10(size / room)), "mm")
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What a view of its own finds on the sheet: its room [mm of paper], and the drawing scales of the standard.
+
+    >>> Paper(200, 100, ISO_5455).scale(complex(30, 20)).per_mm
+    0.2
+    """
+
+    width: float = math.inf
+    height: float = math.inf
+    ratios: Ratios = GOST_2_302
+
+    def scale(self, size: complex, beside: complex = 0j) -> Scale:
+        """The largest standard scale for a view ``size`` mm of machine wide + i high.
+
+        beside : what stands around it and does not grow with it [mm of paper], wide + i high
+        """
+        across = standard_scale(size.real, self.width - beside.real, self.ratios)
+        return coarsest(across, standard_scale(size.imag, self.height - beside.imag, self.ratios))
+
+
+UNLIMITED = Paper()
+"""As much paper as one likes."""
+
+
+def coarsest(*scales: Scale) -> Scale:
+    """The scale at which things are drawn smallest."""
+    return max(scales, key=lambda scale: scale.per_mm)
 
 
 def ratio_text(per_mm: float) -> Caption:

@@ -56,7 +56,8 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     splines = [first] * half + [second] * (u.size - 1 - half)
     places = np.where(np.arange(u.size - 1) < half, (u[:-1] + u[1:]) / 2, 1.0 - (u[:-1] + u[1:]) / 2)
     fourths = [_fourth(spline, float(place)) for spline, place in zip(splines, places, strict=True)]
-    formulas = [partial(_spline, spline=spline) for spline in splines]
+    # One formula for all pieces of a half, so that many places in it are computed together.
+    formulas = [partial(_spline, spline=first)] * half + [partial(_spline, spline=second)] * (u.size - 1 - half)
     edges, middle_edge = u[1:-1].tolist(), float(u[half])
     return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=_peaks(first), trusted=True, fourths=fourths)
 

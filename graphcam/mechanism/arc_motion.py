@@ -243,6 +243,7 @@ class ArcMotion(Shown):
         """The value of greatest magnitude on the rise: at an end of an arc, or where its slope vanishes."""
 
         def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
+            """The slope at places [rad] of arcs."""
             return slope(self._radius(arc, psi))
 
         arc = np.arange(3)

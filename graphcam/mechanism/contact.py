@@ -154,6 +154,7 @@ class Contact:
         from scipy.optimize import brentq
 
         def xi(u: float) -> float:
+            """The force at a part u of the phase, from 0 to 1."""
             # From inside: beyond the end of the stretch the force may have jumped.
             return float(self._force(np.array([phase]), np.array([u]), "left" if u == high else "right")[0])
 

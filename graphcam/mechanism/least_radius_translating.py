@@ -123,6 +123,7 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
         return closed_form(k)
 
     def slope(u: Floats) -> Floats:
+        """The slope of k f' - f, a pure number; it vanishes where that is greatest."""
         _, f1, f2 = law(u, derivatives=2)
         return k * f2 - f1
 

@@ -1,41 +1,51 @@
-"""The profile as one clamped cubic B-spline, for programs that know no cams; of an undercut cam what can be cut.
+"""The profile as one clamped B-spline, for programs that know no cams; of an undercut cam what can be cut.
 
-Over its own arc length the profile is as smooth as its curvature is.  So the spline is
+Over its own arc length the profile is as smooth as its curvature is.  So the spline, a cubic one if nothing else is
+asked for, is
 
-- C2, curvature included, wherever the exact curvature is continuous: its knots are simple there, and of a cam without
-  jumps the two ends meet so too;
+- C2, curvature included, wherever the exact curvature is continuous, and of a cam without jumps the two ends meet so
+  too.  Where the slope of the curvature jumps, one of degree 4 or 5 has knots so often repeated that it is no smoother
+  than the cam; elsewhere its knots are simple;
 - C1 over the arc length, with the exact tangent, where the acceleration jumps and the exact curvature with it: double
-  knots.  A spline that were smoother than the cam would swing about it there;
+  knots in a cubic one.  A spline that were smoother than the cam would swing about it there;
 - C0 with both exact tangents at the corners that an undercut leaves, and at a cusp: triple knots.
 
-It passes through the exact points at its knots and is clamped there by the exact tangents, stretch by stretch.  Its
-error goes by the fourth derivative and the fourth power of the knots' distance, so the knots are set for equal errors;
-the deviation is then measured between them, and where it is missed there come more.
+Between those places it is the nearest one in the sense of least squares.  Of the degree p its error goes by the
+derivative p + 1 and that power of the knots' distance, so the knots are set for equal errors; the deviation is then
+measured, and where it is missed there come more.
 """
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
+from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.complete_spline import closed_spline_through, spline_through
-from graphcam.mechanism.envelope import GAUSS_NODES, GAUSS_WEIGHTS, Envelope, Indices
+from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.mechanism.undercut import Lost, kept_arcs, lost_parts
+from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted
+from graphcam.mechanism.stretches import Span, stretches
+from graphcam.mechanism.undercut import lost_parts
 
-DEVIATION = 0.001
+Degree = Literal[2, 3, 4, 5]
+DEVIATION = 0.0005
 """How far the spline may lie from the exact profile [mm]."""
 LEAST_DEVIATION = 1e-9
 """Nearer than this [mm] rounding would be approximated ..."""
-LEAST_PART = 1e-12
+LEAST_PART = 2.5e-13
 """... or than this part of the cam."""
+MOST_CONTROL_POINTS = 2000
+"""That may be asked for."""
+RESERVE = 0.97
+"""The part of the deviation that may be seen where it is measured: between these places it may be a little more."""
 ROUNDS = 40
-"""Of taking more knots where the deviation was missed."""
+"""Of taking more knots where the deviation was missed ..."""
+TRIES = 8
+"""... or of moving them there, where their number is given."""
 LEAST_GROWTH = 1.02
 """How many times as many they are then at least."""
 NEED_SAMPLES = 129
@@ -43,55 +53,78 @@ NEED_SAMPLES = 129
 GRADE = 1.0
 """By how many mm the distance of two knots may grow over a mm of the profile."""
 TINY = 1e-30
-"""In place of a fourth derivative of zero [1/mm^3]."""
-PROBES = (np.arange(16) + 0.5) / 16
-"""Where between two knots the spline is measured."""
-SAME_CURVATURE = 1e-9
-"""A curvature that changes at a break by more than this part of 1/r0 jumps there."""
+"""In place of a derivative of zero."""
+PROBES = np.arange(16) / 16
+"""Where from one knot to the next the spline is fitted and measured: at the knots and in the middles it errs most."""
+NODES, WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(4))
+"""Of Gauss, for the arc length from one probe to the next."""
+NEAREST = {2: 124.0, 3: 720.0, 4: 4900.0, 5: 30240.0}
+"""By degree p, of least squares with even knots: the error is d h^(p+1) over this, d the derivative p + 1.
+
+Its reciprocal is the greatest value of Bernoulli's polynomial over (p + 1)!.
+"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ProfileSpline:
-    """A closed profile as a clamped cubic B-spline; the parameter is the arc length [mm] from its start.
+    """A closed profile as a clamped B-spline; the parameter is the arc length [mm] from its start.
 
-    knots : (m + 4,) the first four equal, and the last four;  control : (m, 2) control points [mm]
+    degree : p
+    knots : (m + p + 1,), the first p + 1 equal, and the last p + 1;  control : (m, 2) control points [mm]
     deviation : greatest distance from the exact profile along its normal [mm], measured
     """
 
+    degree: Degree
     knots: Floats
     control: Floats
     deviation: float
 
     def __repr__(self) -> str:
         size = f"{len(self.control)} control points, length {self.knots[-1]:.6g} mm, deviation {self.deviation:.2g} mm"
-        return f"ProfileSpline of {size}; .knots, .control"
+        return f"ProfileSpline of degree {self.degree}, {size}; .knots, .control"
 
     def __call__(self, at: ArrayLike, derivative: int = 0) -> Floats:
         """(..., 2) the points, or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""
         from scipy.interpolate import BSpline
 
-        return BSpline(self.knots, self.control, 3)(np.asarray(at, dtype=np.float64), nu=derivative)
+        return BSpline(self.knots, self.control, self.degree)(np.asarray(at, dtype=np.float64), nu=derivative)
 
 
-def profile_spline(cam: Cam, deviation: float = DEVIATION, *, trimmed: bool = False) -> ProfileSpline:
-    """The profile, no farther than ``deviation`` mm from the exact one.
+def profile_spline(
+    cam: Cam,
+    deviation: float = DEVIATION,
+    *,
+    degree: Degree = 3,
+    control_points: int | None = None,
+    trimmed: bool = False,
+) -> ProfileSpline:
+    """The profile, no farther than ``deviation`` mm from the exact one, or with a given number of control points.
 
+    degree : 2 to 5
+    control_points : how many there shall be, set as well as may be; what they reach is told by the spline's own
+        ``deviation``, and none is demanded.  None takes as many as the demanded deviation needs
     trimmed : of an undercut cam what can be cut is wanted, without what is lost, as :meth:`Cam.trimmed_profile` tells
         it in points
 
     Raises
     ------
     DesignError : the cam is undercut, and ``trimmed`` is not given; the deviation is smaller than can be told from
-        rounding; or as for :meth:`Cam.undercuts`
+        rounding; the degree or the number of control points cannot be; or as for :meth:`Cam.undercuts`
 
     >>> from math import radians
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, radians(120)), gc.Dwell(radians(60)), gc.Return(30, radians(120)),
     ...     gc.Dwell(radians(60))])
-    >>> spline = gc.profile_spline(gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50))
-    >>> len(spline.control), spline.deviation < 0.001, spline(0).round(4).tolist()
-    (43, True, [7.6, 37.2322])
+    >>> cam = gc.Cam(motion, gc.Translating(offset=10, roller_radius=12), prime_radius=50)
+    >>> gc.profile_spline(cam)
+    ProfileSpline of degree 3, 45 control points, length 340.836 mm, deviation 0.00046 mm; .knots, .control
+    >>> gc.profile_spline(cam, degree=5, control_points=60)
+    ProfileSpline of degree 5, 60 control points, length 340.836 mm, deviation 5.6e-06 mm; .knots, .control
+    >>> gc.profile_spline(cam)(0).round(3).tolist() == cam.profile(0).round(3).tolist()
+    True
     """
+    if degree not in get_args(Degree):
+        raise DesignError("degree", degree, "2, 3, 4 or 5")
     least = max(LEAST_DEVIATION, LEAST_PART * (cam.prime_radius + cam.motion.lift))
     if not deviation >= least:
         raise DesignError("deviation", deviation, f"{least:g} mm or more")
@@ -101,93 +134,108 @@ def profile_spline(cam: Cam, deviation: float = DEVIATION, *, trimmed: bool = Fa
         where = " and ".join(f"from {math.degrees(part.begin):.2f} to {math.degrees(part.end):.2f}" for part in lost)
         remedy = "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
         raise DesignError("profile", f"undercut {where} degrees", "without undercut", remedy)
-    stretches, joints = _stretches(envelope, lost)
+    spans, joints = stretches(envelope, lost)
     closed = not joints
-    splines = [_fitted(envelope, stretch, deviation, periodic=closed) for stretch in stretches]
-    return _joined(splines, [True] if closed else joints)
-
-
-# --- where the profile is as smooth as the spline --------------------------------------------------------------------
-
-Span = tuple[float, float, int]
-"""Cam angles between which the profile has all derivatives, and its piece."""
-
-
-def _stretches(envelope: Envelope, lost: list[Lost]) -> tuple[list[list[Span]], list[bool]]:
-    """Stretches of continuous curvature, in order, and whether the tangent is continuous at the end of each.
-
-    No joints and one stretch if the curvature is continuous all around.
-    """
-    spans, joints = _spans(envelope, lost)
-    ends = [k for k, joint in enumerate(joints) if joint is not None]
-    if not ends:
-        return [spans], []
-    # Begun behind a joint, so that the curve has its ends at one.
-    first = ends[-1] + 1
-    spans, joints = spans[first:] + spans[:first], joints[first:] + joints[:first]
-    stretches: list[list[Span]] = [[]]
-    for span, joint in zip(spans, joints, strict=True):
-        stretches[-1].append(span)
-        if joint is not None:
-            stretches.append([])
-    return stretches[:-1], [joint for joint in joints if joint is not None]
-
-
-def _spans(envelope: Envelope, lost: list[Lost]) -> tuple[list[Span], list[bool | None]]:
-    """The spans in order; at the end of each True for a jump of the curvature, False for a corner, else None."""
-    corners = envelope.touching
-    spans: list[Span] = []
-    joints: list[bool | None] = []
-    for begin, end in kept_arcs(envelope, lost):
-        cuts = sorted({begin, end, *(x for x in (*envelope.edges.tolist(), *corners) if begin < x < end)})
-        spans += [(low, high, int(envelope.piece((low + high) / 2))) for low, high in pairwise(cuts)]
-        joints += [False if cut in corners else None for cut in cuts[1:-1]] + [False]
-    joints[-1] = None  # the turn is closed without a corner, in the lowest place
-    following = [*spans[1:], spans[0]]
-    for k, (here, there) in enumerate(zip(spans, following, strict=True)):
-        if joints[k] is None and _jumps(envelope, here, there):
-            joints[k] = True
-    return spans, joints
-
-
-def _jumps(envelope: Envelope, here: Span, there: Span) -> bool:
-    before, after = (float(envelope.curvature(phi, piece)) for phi, piece in ((here[1], here[2]), (there[0], there[2])))
-    return abs(after - before) > SAME_CURVATURE / envelope.prime_radius
+    curves = [_Stretch(envelope, stretch, degree, closed) for stretch in spans]
+    smooth = [True] if closed else joints
+    if control_points is None:
+        fits = [_near(curve, deviation) for curve in curves]
+    else:
+        fits = _with(curves, control_points, smooth, deviation)
+    return _joined(fits, smooth, degree)
 
 
 # --- the spline of one stretch ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
-class _Fit:
-    """A spline through exact points: its knots and control points as complex numbers, and the error in each part.
+class _Stretch:
+    """A stretch of continuous curvature and the degree of its spline; ``closed`` if it is the whole turn."""
 
-    cuts : the cam angles of the knots, for each span
-    errors : (parts,) greatest distance along the exact normal [mm]
+    envelope: Envelope
+    spans: list[Span]
+    degree: Degree
+    closed: bool
+
+    @property
+    def repeated(self) -> int:
+        """How often the knot between two spans stands there: the spline is C2 there, one of degree 2 C1."""
+        return max(1, self.degree - 2)
+
+    @property
+    def fewest(self) -> int:
+        """Parts of a span: the ends alone take four control points."""
+        return 2 if self.degree == 2 else 1
+
+    def size(self, parts: int) -> int:
+        """Control points that so many parts have."""
+        return parts + self.degree + (len(self.spans) - 1) * (self.repeated - 1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """The nearest spline: its knots and control points as complex numbers, and the greatest error in each span.
+
+    errors : (spans,) greatest distance along the exact normal [mm]
     """
 
-    cuts: list[Floats]
     knots: Floats
     control: Complexes
     errors: Floats
 
 
-def _fitted(envelope: Envelope, stretch: list[Span], deviation: float, *, periodic: bool) -> _Fit:
+def _near(stretch: _Stretch, deviation: float) -> _Fit:
     """A spline with about the fewest parts that keep the deviation."""
-    needs = _needs(envelope, stretch, deviation, periodic=periodic)
+    aim = RESERVE * deviation
+    needs = _needs(stretch, aim)
     counts = np.array([need.parts[-1] for need in needs])
     for _ in range(ROUNDS):
-        cuts = [need.cuts(max(1, math.ceil(count))) for need, count in zip(needs, counts, strict=True)]
-        fit = _through(envelope, stretch, cuts, periodic=periodic)
-        if fit.errors.max() <= deviation:
+        fit = _fit(stretch, needs, np.ceil(counts))
+        if fit.errors.max() <= aim:
             return fit
-        starts = np.cumsum([0, *(cut.size - 1 for cut in cuts[:-1])])
-        missed = np.maximum.reduceat(fit.errors, starts) / deviation
+        missed = fit.errors / aim
         # A poor span spoils its neighbours too, so the worst are mended first.
         poor = missed > max(1.0, missed.max() / 2)
-        counts = np.where(poor, np.ceil(counts) * np.maximum(missed**0.25, LEAST_GROWTH), counts)
+        more = np.maximum(missed ** (1 / (stretch.degree + 1)), LEAST_GROWTH)
+        counts = np.where(poor, np.ceil(counts) * more, counts)
     remedy = "state a larger one, or take a smaller roller"
     raise DesignError("deviation", f"{deviation:g} mm", "larger for this profile", remedy)
+
+
+def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], deviation: float) -> list[_Fit]:
+    """The best of some splines that have so many control points together."""
+    spans = [len(stretch.spans) for stretch in stretches]
+    fewest = np.repeat([stretch.fewest for stretch in stretches], spans)
+    least = _fewest_points(stretches, smooth)
+    if not least <= control_points <= MOST_CONTROL_POINTS:
+        limit = f"{least} to {MOST_CONTROL_POINTS} for this profile with degree {stretches[0].degree}"
+        raise DesignError("control_points", control_points, limit)
+    needs = [_needs(stretch, deviation) for stretch in stretches]
+    wants = np.array([need.parts[-1] for parts in needs for need in parts])
+    best: list[_Fit] = []
+    for _ in range(TRIES):
+        counts = np.split(_shared(wants, fewest, control_points - least), np.cumsum(spans)[:-1])
+        fits = [_fit(*part) for part in zip(stretches, needs, counts, strict=True)]
+        errors = np.concatenate([fit.errors for fit in fits])
+        if not best or errors.max() < max(fit.errors.max() for fit in best):
+            best = fits
+        wants = wants * np.maximum(errors / errors.max(), TINY) ** (1 / (stretches[0].degree + 1))
+    return best
+
+
+def _fewest_points(stretches: list[_Stretch], smooth: list[bool]) -> int:
+    """The control points of the splines with the fewest parts."""
+    least = sum(stretch.size(stretch.fewest * len(stretch.spans)) for stretch in stretches)
+    # Where two stretches meet smoothly the ends of both are given away, at a corner one.
+    return least - sum(2 if joint else 1 for joint in smooth[:-1])
+
+
+def _shared(wants: Floats, fewest: NDArray[np.int64], more: int) -> NDArray[np.int64]:
+    """So many parts more than the fewest, each where it is wanted most."""
+    counts = fewest.copy()
+    for _ in range(more):
+        counts[np.argmax(wants / counts)] += 1
+    return counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,28 +252,30 @@ class _Need:
         return cuts
 
 
-def _needs(envelope: Envelope, stretch: list[Span], deviation: float, *, periodic: bool) -> list[_Need]:
+def _needs(stretch: _Stretch, deviation: float) -> list[_Need]:
     # Densely at the ends, where a cusp may be near.
+    envelope, degree = stretch.envelope, stretch.degree
     share = np.sin(np.linspace(0, np.pi / 2, NEED_SAMPLES)) ** 2
-    low, high, piece = (np.array(column)[:, None] for column in zip(*stretch, strict=True))
+    low, high, piece = (np.array(column)[:, None] for column in zip(*stretch.spans, strict=True))
     ends = low + (high - low) * share
-    lengths = _length(envelope, ends[:, :-1], ends[:, 1:], np.repeat(piece, NEED_SAMPLES - 1, axis=1))
+    lengths = _lengths(envelope, ends, piece)
     middles = np.cumsum(lengths).reshape(lengths.shape) - lengths / 2
-    fourth = np.stack([_fourth(envelope, *row) for row in zip(ends, middles, piece[:, 0], strict=True)])
-    # Of a function with the fourth derivative d, a cubic spline with the step h misses d h^4/384.
-    steps = (384 * deviation / np.maximum(fourth, TINY)) ** 0.25
-    parts = np.cumsum(lengths / _graded(steps.ravel(), middles.ravel(), periodic).reshape(steps.shape), axis=1)
+    highest = np.stack([_highest(envelope, degree, *row) for row in zip(ends, middles, piece[:, 0], strict=True)])
+    steps = (NEAREST[degree] * deviation / np.maximum(highest, TINY)) ** (1 / (degree + 1))
+    parts = np.cumsum(lengths / _graded(steps.ravel(), middles.ravel(), stretch.closed).reshape(steps.shape), axis=1)
     return [_Need(phi, np.append(0.0, row)) for phi, row in zip(ends, parts, strict=True)]
 
 
-def _fourth(envelope: Envelope, ends: Floats, at: Floats, piece: int) -> Floats:
-    """|c''''| by the arc length, at the arc lengths ``at`` in the middles between the cam angles ``ends``."""
+def _highest(envelope: Envelope, degree: int, ends: Floats, at: Floats, piece: int) -> Floats:
+    """The size of the derivative p + 1 by the arc length, at the lengths ``at`` in the middles between cam angles."""
     middles = (ends[:-1] + ends[1:]) / 2
     kappa = envelope.curvature(middles, np.full(middles.size, piece))
     kappa = kappa / (1 - envelope.roller_radius * kappa)
-    slope = np.gradient(kappa, at)
-    # c'' = kappa n, of which the derivatives along the normal and along the tangent.
-    return np.hypot(np.gradient(slope, at) - kappa**3, 3 * kappa * slope)
+    # Seen from the tangent, which turns by kappa itself.
+    derivative = np.ones(at.size, dtype=complex)
+    for _ in range(degree):
+        derivative = np.gradient(derivative, at) + 1j * kappa * derivative
+    return np.abs(derivative)
 
 
 def _graded(steps: Floats, at: Floats, periodic: bool) -> Floats:
@@ -238,44 +288,71 @@ def _graded(steps: Floats, at: Floats, periodic: bool) -> Floats:
     return np.minimum(ahead, back)
 
 
-def _through(envelope: Envelope, stretch: list[Span], cuts: list[Floats], *, periodic: bool) -> _Fit:
+def _fit(stretch: _Stretch, needs: list[_Need], counts: ArrayLike) -> _Fit:
+    """The nearest spline with so many parts in each span, but for the fewest."""
+    envelope, degree = stretch.envelope, stretch.degree
+    parts = np.maximum(np.asarray(counts, dtype=int), stretch.fewest)
+    cuts = [need.cuts(count) for need, count in zip(needs, parts.tolist(), strict=True)]
     begin, end = (np.concatenate([cut[part] for cut in cuts]) for part in (slice(None, -1), slice(1, None)))
-    piece = np.repeat([piece for *_, piece in stretch], [cut.size - 1 for cut in cuts])
-    at = np.concatenate([[0.0], np.cumsum(_length(envelope, begin, end, piece))])
-    points = np.append(envelope.point(begin, piece), envelope.point(end[-1], piece[-1]))
-    if periodic:
-        points[-1] = points[0]
-        spline = closed_spline_through(at, points)
-    else:
-        first, last = envelope.tangent(begin[0], piece[0]), envelope.tangent(end[-1], piece[-1])
-        spline = spline_through(at, points, complex(first), complex(last))
+    piece = np.repeat([piece for *_, piece in stretch.spans], parts)[:, None]
     probes = begin[:, None] + (end - begin)[:, None] * PROBES
-    pieces = np.repeat(piece[:, None], PROBES.size, axis=1)
-    near = spline.beyond(_length(envelope, np.repeat(begin[:, None], PROBES.size, axis=1), probes, pieces))
-    off = (near - envelope.point(probes, pieces)) / envelope.tangent(probes, pieces)
-    return _Fit(cuts, spline.knots, spline.control, np.abs(off.imag).max(axis=1))
+    lengths = _lengths(envelope, np.column_stack([probes, end]), piece)
+    ends = np.append(0.0, np.cumsum(lengths)[PROBES.size - 1 :: PROBES.size])
+    knots = _knots(ends, np.cumsum(parts)[:-1], degree, stretch.repeated)
+    at = (ends[:-1, None] + np.cumsum(lengths, axis=1) - lengths).ravel()
+    pieces = np.broadcast_to(piece, probes.shape)
+    points, splines = envelope.point(probes, pieces), basis(knots, degree, at)
+    control = fitted(splines, points.ravel(), _conditions(stretch, knots))
+    off = (splines.at(control).reshape(points.shape) - points) / envelope.tangent(probes, pieces)
+    first = np.cumsum(parts) - parts
+    return _Fit(knots, control, np.maximum.reduceat(np.abs(off.imag).max(axis=1), first))
 
 
-def _length(envelope: Envelope, begin: Floats, end: Floats, piece: Indices) -> Floats:
-    """The arc length [mm] between cam angles of a piece."""
-    width = (end - begin)[..., None]
-    phi = (begin + end)[..., None] / 2 + width * GAUSS_NODES
-    return np.sum(envelope.speed(phi, piece[..., None]) * GAUSS_WEIGHTS * width, axis=-1)
+def _knots(ends: Floats, breaks: Indices, degree: int, repeated: int) -> Floats:
+    times = np.ones(ends.size, dtype=int)
+    times[breaks] = repeated
+    times[[0, -1]] = degree + 1
+    return np.repeat(ends, times)
 
 
-def _joined(fits: list[_Fit], smooth: list[bool]) -> ProfileSpline:
+def _conditions(stretch: _Stretch, knots: Floats) -> Conditions:
+    """A closed curve is as smooth at its seam as between spans; another one has exact ends, and tangents there."""
+    orders = stretch.degree - stretch.repeated + 1 if stretch.closed else 2
+    rows = [at_ends(knots, stretch.degree, derivative) for derivative in range(orders)]
+    if stretch.closed:
+        return Conditions(np.stack([last - first for first, last in rows]), np.zeros(orders, dtype=complex))
+    (begin, _, first), (_, end, last) = stretch.spans[0], stretch.spans[-1]
+    envelope = stretch.envelope
+    places = ((begin, first), (end, last))
+    values = [f(phi, piece) for f in (envelope.point, envelope.tangent) for phi, piece in places]
+    return Conditions(np.stack([row for pair in rows for row in pair]), np.array(values))
+
+
+def _lengths(envelope: Envelope, phi: Floats, piece: Indices) -> Floats:
+    """The arc lengths [mm] from each of the cam angles (..., n) to the next; a row has one piece (..., 1)."""
+    width = np.diff(phi)[..., None]
+    nodes = (phi[..., :-1] + phi[..., 1:])[..., None] / 2 + width * NODES
+    speed = envelope.speed(nodes, np.broadcast_to(piece[..., None], nodes.shape))
+    return np.sum(speed * WEIGHTS * width, axis=-1)
+
+
+def _joined(fits: list[_Fit], smooth: list[bool], degree: Degree) -> ProfileSpline:
     """One spline of several, each joined to the next smoothly or with a corner."""
-    knots, control = [fits[0].knots[:4]], [fits[0].control[:1]]
+    p = degree
+    knots, control = [fits[0].knots[: p + 1]], [fits[0].control[:1]]
     length = 0.0
     for k, (fit, joined) in enumerate(zip(fits, smooth, strict=True)):
         length_here = length + fit.knots
         last = k == len(fits) - 1
         # With one tangent on both sides the common end lies between its neighbours and is no control point.
         control.append(fit.control[1 : (-1 if joined and not last else None)])
-        knots += [length_here[4:-4], length_here[-4:] if last else length_here[-4 : (-2 if joined else -1)]]
+        common = length_here[-p - 1 :] if last else length_here[-p - 1 : (-2 if joined else -1)]
+        knots += [length_here[p + 1 : -p - 1], common]
         length = float(length_here[-1])
     points = np.concatenate(control)
+    points[-1] = points[0]  # to the last digit, by which some programs tell a closed curve
     return ProfileSpline(
+        degree,
         np.concatenate(knots),
         np.stack([points.real, points.imag], axis=-1),
         float(max(fit.errors.max() for fit in fits)),

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
+from graphcam.indices import in_html
 from graphcam.notebooks.picture import Picture
 from graphcam.plots.step_board import board_of
 from graphcam.report.documents import contents_of, drawing_of
@@ -70,9 +71,11 @@ class Stage:
     @property
     def html(self) -> str:
         """Title, caption and reason; some parts side by side, and all of them in words; the whole step; readings."""
-        title, caption, why = (escape(self.tell(said)) for said in (self.step.title, self.step.caption, self.step.why))
+        title, caption, why = (
+            in_html(escape(self.tell(said))) for said in (self.step.title, self.step.caption, self.step.why)
+        )
         words = f"<h4>{self.number} {title}</h4><p>{caption}</p>" + (f'<p class="why">{why}</p>' if why else "")
-        parts = "".join(f"<li>{escape(self.tell(part.caption))}</li>" for part in self.step.parts)
+        parts = "".join(f"<li>{in_html(escape(self.tell(part.caption)))}</li>" for part in self.step.parts)
         if len(self.step.parts) > 1:
             strip = "".join(picture.html for picture in self.pictures)
             summary = escape(self.tell(say("All parts in words")))
@@ -92,9 +95,9 @@ class Stage:
 def _reading(row: ReadingRow, tell: Tell) -> str:
     """A reading as mm x mu = value; of several values the extremes, and all of them to be unfolded."""
     if not row.paper.ndim:
-        return escape(tell(say("{title} = {said}", title=row.title, said=row.said())))
+        return in_html(escape(tell(say("{title} = {said}", title=row.title, said=row.said()))))
     lines = "".join(
-        f"<li>{escape(tell(place))}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places)
+        f"<li>{in_html(escape(tell(place)))}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places)
     )
     extremes = [say("{at} = {said}", at=row.at(what, k), said=row.said(k)) for what, k in row.extremes]
     first = say("{title}: {extremes}", title=row.title, extremes=sequence(extremes, "; "))

@@ -66,8 +66,7 @@ class StepBoard:
 
     @cached_property
     def _full_size(self) -> list[Panel]:
-        shown = panels((step for step in (*self.former, *self.steps) if step.marks), LETTERS)
-        return [replace(panel, noted=False) for panel in shown]
+        return panels((step for step in (*self.former, *self.steps) if step.marks), LETTERS)
 
     @cached_property
     def _placed(self) -> dict[str, tuple[Panel, complex]]:

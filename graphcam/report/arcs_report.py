@@ -38,6 +38,7 @@ IMPACT = say(
     "the impact is soft."
 )
 DRAWN = say("drawn")
+OF_ARCS, OF_MOTION = say("Sizes of the arcs: drawn and exact"), say("Motion: drawn and exact")
 
 
 def arcs_contents(solution: ArcsSolution) -> Contents:
@@ -47,8 +48,8 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared}
     of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
     of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
-    results = comparison(of_arcs), comparison(of_motion)
-    title = title_block(solution.task.title, solution.chain.board.mu_l, solution.tell)
+    results = comparison(of_arcs, OF_ARCS), comparison(of_motion, OF_MOTION)
+    title = title_block(solution.task.title, solution.tell)
     return Contents(solution, title, solution.drawn, scaled_steps(solution.drawn), (_data(solution),), results)
 
 

@@ -7,7 +7,10 @@ from graphcam.report.sheet_contents import Contents, motion_contents
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import compose_parts
 from graphcam.sheets.model import Drawing
+from graphcam.sheets.runs import TooLargeError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import check_given_sizes
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
@@ -20,7 +23,7 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
 
     Raises
     ------
-    DesignError : there is no such step or construction
+    DesignError : there is no such step or construction, or a view fits no page of the format at the scale that is given
 
     >>> import graphcam as gc
     >>> blank, finished = sheet_of(gc.solve(gc.builtin_task()), 0), sheet_of(gc.solve(gc.builtin_task()))
@@ -35,7 +38,14 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
     paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
     drawn = contents.parts if per_construction else [contents.whole]
-    return compose_parts(drawn, contents.title, Format(paper.format, paper.frame, paper.orientation), last, paper.tell)
+    sheet = Format(paper.format, paper.frame, paper.orientation)
+    try:
+        return compose_parts(drawn, contents.title, sheet, last, paper.tell)
+    except TooLargeError:
+        # What the task gives may be to blame: then it is named.
+        if isinstance(contents.solution, Solution):
+            check_given_sizes(contents.solution.task)
+        raise
 
 
 def contents_of(solution: AnySolution) -> Contents:

@@ -4,6 +4,8 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 
+from graphcam.indices import in_html
+from graphcam.language import MINUS
 from graphcam.words import Caption, Tell, Words, say, sequence
 
 
@@ -36,13 +38,22 @@ def text(plain: str) -> str:
     return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", plain)
 
 
-def in_formulas(note: str) -> str:
-    """A note whose decimal commas stand in braces within formulas: TeX would else set a gap after them.
+FORMULA = re.compile(r"((?<!\\)\$\$?[^$]+\$\$?)")
 
-    >>> in_formulas("1,5 mm, $r = 1,5$ mm, \\\\$2,5")
-    '1,5 mm, $r = 1{,}5$ mm, \\\\$2,5'
+
+def printed(note: str) -> str:
+    """A note as Markdown has it: indices as elements of HTML, and within formulas what TeX knows.
+
+    There a decimal comma would be followed by a gap but for its braces.
+
+    >>> printed("φ_у = 1,5, $r = −1,5$ mm, \\\\$2,5")
+    'φ<sub>у</sub> = 1,5, $r = -1{,}5$ mm, \\\\$2,5'
     """
-    return re.sub(r"(?<!\\)\$\$?[^$]+\$\$?", lambda formula: re.sub(r"(?<=\d),(?=\d)", "{,}", formula[0]), note)
+    return "".join(_in_tex(part) if k % 2 else in_html(part) for k, part in enumerate(FORMULA.split(note)))
+
+
+def _in_tex(tex: str) -> str:
+    return re.sub(r"(?<=\d),(?=\d)", "{,}", tex).replace(MINUS, "-")
 
 
 def formula(tex: str, **values: Words) -> Caption:

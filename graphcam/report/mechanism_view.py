@@ -1,6 +1,7 @@
 """What the step player shows of a turning mechanism, as plain data: the page looks it up and turns the cam."""
 
 import math
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from graphcam.drafting.ink import Points, say
 from graphcam.drafting.units import unit as unit_of
 from graphcam.given.laws import Floats
+from graphcam.indices import in_html
 from graphcam.report.mechanism_scene import MechanismScene, TurnPhase
 from graphcam.solving.shown_solution import plain_number
 from graphcam.words import Tell
@@ -65,7 +67,8 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
 
 def _phase(phase: TurnPhase, tell: Tell) -> dict[str, Any]:
     start, extent = (round(math.degrees(angle), DECIMALS) for angle in (phase.start, phase.end - phase.start))
-    return {"name": tell(phase.name), "symbol": tell(phase.symbol), "start": start, "extent": extent}
+    name, symbol = tell(phase.name), tell(phase.symbol)
+    return {"name": name, "heading": in_html(escape(name)), "symbol": symbol, "start": start, "extent": extent}
 
 
 def _guide(scene: MechanismScene, unit: float) -> tuple[list[dict[str, Any]], float]:

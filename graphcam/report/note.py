@@ -13,7 +13,7 @@ from graphcam.drafting.units import unit
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.budget_table import budget_table
-from graphcam.report.markdown import blocks, formula, in_formulas, number, table, text
+from graphcam.report.markdown import blocks, formula, number, printed, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of, title_name
@@ -54,7 +54,7 @@ def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: Any
     tell = solution.tell
     numbered = [f"## {k}. {tell(title)}\n\n{said}" for k, (title, said) in enumerate(chapters, 1)]
     drawn = [tell(say("## Appendix: how it was drawn")), *_steps(solution)]
-    return in_formulas(blocks(head, *numbered, *drawn) + "\n")
+    return printed(blocks(head, *numbered, *drawn) + "\n")
 
 
 def _steps(solution: AnySolution) -> Iterator[str]:
@@ -71,7 +71,7 @@ def _steps(solution: AnySolution) -> Iterator[str]:
 def comparison_file(solution: AnySolution) -> str:
     """The table of drawn against exact values as a Markdown file of its own."""
     title = say("{name}: drawn against exact", name=text(title_name(solution.task.title, solution.tell)))
-    return in_formulas(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
+    return printed(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
 
 
 def constructions(solution: AnySolution) -> list[tuple[Caption, str]]:

@@ -1,90 +1,62 @@
-"""The files of a solution, and those of its exact profile, which CAD and CAM programs import.
-
-``profile.csv`` is a table, ``profile.xyz`` a curve through points (x, y, z = 0 on each line, closed), ``profile.dxf``
-one B-spline, all in mm with the cam centre at the origin.  All three hold the profile that can be cut: what a roller
-too large would lose is left out.
-"""
+"""The files of a solution: all of them in one folder, or none."""
 
 import csv
 import json
 import math
+import warnings
 from collections.abc import Callable, Collection, Mapping
-from contextlib import suppress
 from io import StringIO
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from graphcam.errors import DesignError, nearest
-from graphcam.files import whole_folder
-from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import profile_spline
-from graphcam.mechanism.undercut import CutProfile, trimmed_profile
+from graphcam.errors import DesignError, LetteringWarning, nearest
+from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
-from graphcam.sheets.model import Drawing
+from graphcam.sheets.model import Drawing, Text
+from graphcam.sheets.typefaces import unknown
 from graphcam.solving.arcs_solution import AnySolution
-from graphcam.solving.shown_solution import FILES
+from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.workshop.profile_files import NAMES, write_profile
 
-POINTS = 720
-"""On the profile: one for every half degree of the cam angle."""
-NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 DXF = "plain", "cad"
 """Kinds of DXF."""
+REMEDY = "fonts-noto-cjk"
+"""A package of fonts with more letters than any other."""
 SHEETS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
-
-
-def write_profile(cam: Cam, folder: Path, kinds: Collection[str] = tuple(NAMES)) -> dict[str, str]:
-    """Write those of the three files into a folder that are wanted; returns their names by kind.
-
-    Raises
-    ------
-    DesignError : no profile can be told that could be cut
-    """
-    from graphcam.sheets.dxf_renderer import write_spline
-
-    wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
-    if not wanted:
-        return {}
-    cut, spline = trimmed_profile(cam.envelope, POINTS), profile_spline(cam, trimmed=True)
-    if "profile_dxf" in wanted:
-        write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile")
-    if "profile_csv" in wanted:
-        _write_csv(cut, folder / wanted["profile_csv"])
-    if "profile_xyz" in wanted:
-        _write_xyz(cut, folder / wanted["profile_xyz"])
-    return wanted
-
-
-def _write_csv(cut: CutProfile, path: Path) -> None:
-    x, y = cut.points.T
-    columns = np.degrees(cut.phi), x, y, np.hypot(x, y), np.degrees(np.arctan2(y, x)) % 360
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["phi_deg", "x", "y", "radius", "angle_deg"])
-        table.writerows([f"{value:.9f}" for value in row] for row in zip(*columns, strict=True))
-
-
-def _write_xyz(cut: CutProfile, path: Path) -> None:
-    closed = np.append(cut.points, cut.points[:1], axis=0)
-    lines = (f"{x:.9f}\t{y:.9f}\t{0:.9f}\n" for x, y in closed.tolist())
-    path.write_text("".join(lines), encoding="ascii", newline="\n")
+SOLUTION = "solution.json"
+"""The file that names all others."""
+PART = "pdf", "svg", "dxf"
+"""Those that show the working drawing of the cam."""
 
 
 def check_choices(
-    solution: AnySolution, upto: int | str | None = None, *, dxf: str = "plain", files: Collection[str] | None = None
+    solution: AnySolution,
+    upto: int | str | None = None,
+    *,
+    dxf: str = "plain",
+    files: Collection[str] | None = None,
+    working_drawing: bool = False,
 ) -> None:
     """Refuse what :func:`write` would refuse of its choices, without drawing anything.
 
     Raises
     ------
-    DesignError : there is no such step, construction, kind of DXF or kind of file
+    DesignError : there is no such step, construction, kind of DXF or kind of file, a working drawing is asked for with
+        an unfinished sheet, or there can be no such part
     """
     one_of("dxf", dxf, DXF)
+    if working_drawing:
+        if upto is not None:
+            unfinished = "left out where the sheet is drawn up to a step", "it would give the answers away"
+            raise DesignError("working_drawing", "asked for", *unfinished)
+        from graphcam.workshop.part_contents import part_contents
+
+        part_contents(solution)
     if upto is not None:
         contents_of(solution).last_step(upto)
     # A text is a collection of letters, none of which is meant.
@@ -103,41 +75,117 @@ def write(
     upto: int | str | None = None,
     per_construction: bool = False,
     dxf: str = "plain",
+    working_drawing: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> dict[str, str | None]:
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
-    check_choices(solution, upto, dxf=dxf, files=files)
-    wanted, report = FILES if files is None else files, progress or unheard
+    check_choices(solution, upto, dxf=dxf, files=files, working_drawing=working_drawing)
+    finished, report = upto is None, progress or unheard
+    wanted = _wanted(files, finished=finished, working_drawing=working_drawing)
     written: dict[str, str | None] = dict.fromkeys(FILES)
     contents = contents_of(solution)
-    with whole_folder(directory) as folder:
+    with whole_folder(directory, _written_before(Path(directory))) as folder:
         sheets = [kind for kind in SHEETS if kind in wanted]
         drawing = None
         if sheets:
             report("laying out the sheet")
             drawing = drawing_of(contents, upto, per_construction=per_construction)
-            written |= _write_sheet(drawing, folder, "sheet" if upto is None else "worksheet", sheets, dxf, report)
-        if "player" in wanted and upto is None:
+            _warn_of_boxes(drawing)
+            written |= _write_sheet(drawing, folder, "sheet" if finished else "worksheet", sheets, dxf, report)
+        if "player" in wanted:
             report("writing the step player")
             whole = drawing_of(contents) if drawing is None or per_construction else drawing
             (folder / "player.html").write_text(player_of(contents, whole), encoding="utf-8")
             written["player"] = "player.html"
-        report("writing tables and note")
-        for kind, (name, text) in TABLES.items():
-            if kind in wanted:
-                (folder / name).write_text(text(solution), encoding="utf-8", newline="")
-                written[kind] = name
-        if isinstance(solution, Solution):
-            # Where none can be cut the solution warns of it.
-            with suppress(DesignError):
-                written |= write_profile(solution.cam, folder, wanted)
-        text = json.dumps(solution.to_dict() | {"files": written}, indent=2, ensure_ascii=False, allow_nan=False)
-        (folder / "solution.json").write_text(text + "\n", encoding="utf-8")
+        if finished:
+            report("writing tables and note")
+        written |= _write_texts(solution, folder, wanted)
+        if working_drawing:
+            written |= _write_part(solution, folder, report)
+        names, facts = _write_profiles(solution, folder, wanted)
+        written |= names
+        _write_list(solution, folder, written, facts, finished=finished)
     return written
+
+
+def _wanted(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
+    """The kinds of files that are written: those that are asked for, or the usual ones."""
+    usual = (*USUAL, *CUTTING) if working_drawing else USUAL
+    # What is not a sheet holds answers.
+    return [kind for kind in (usual if files is None else files) if finished or kind in SHEETS]
+
+
+def _write_texts(solution: AnySolution, folder: Path, wanted: Collection[str]) -> dict[str, str]:
+    """Tables and note, as far as they are wanted; returns their names by kind."""
+    written: dict[str, str] = {}
+    for kind, (name, text) in TABLES.items():
+        if kind in wanted:
+            (folder / name).write_text(text(solution), encoding="utf-8", newline="")
+            written[kind] = name
+    return written
+
+
+def _write_list(
+    solution: AnySolution,
+    folder: Path,
+    files: Mapping[str, str | None],
+    facts: Mapping[str, Any],
+    *,
+    finished: bool,
+) -> None:
+    """``solution.json`` with ``facts`` about its files, and the digest of every file that the folder holds besides."""
+    document = {**solution.to_dict(), "files": files, **facts}
+    digests = {path.name: digest(path) for path in sorted(folder.iterdir())}
+    document = (document if finished else without_answers(document)) | {"written": digests}
+    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+    (folder / SOLUTION).write_text(text + "\n", encoding="utf-8")
+
+
+def _written_before(folder: Path) -> dict[str, str]:
+    """The files that the run before wrote into a folder, with their digests; none where no run has said so."""
+    try:
+        document = json.loads((folder / SOLUTION).read_bytes())
+        return {str(name): str(known) for name, known in document["written"].items()}
+    except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
+        return {}
+
+
+def _warn_of_boxes(drawing: Drawing) -> None:
+    """Say which characters of a drawing are shown as boxes, because nothing on the machine has them."""
+    entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)
+    if missing := unknown(entity.text for entity in entities if isinstance(entity, Text)):
+        said = (
+            f"no font on this machine has {' '.join(missing)}, shown as boxes; install one that has, such as {REMEDY}"
+        )
+        warnings.warn(said, LetteringWarning, stacklevel=3)
 
 
 def unheard(_: str) -> None:
     """What hears of the progress where nobody asks for it."""
+
+
+def _write_profiles(
+    solution: AnySolution, folder: Path, wanted: Collection[str]
+) -> tuple[dict[str, str], dict[str, Any]]:
+    """The files of the exact profile that are wanted: their names by kind, and what ``solution.json`` says of them."""
+    names: dict[str, str] = {}
+    facts: dict[str, Any] = {}
+    if isinstance(solution, Solution) and any(kind in NAMES for kind in wanted):
+        try:
+            spline = solution.profile_spline
+            names |= write_profile(solution.cam, spline, folder, wanted)
+            told = {"degree": spline.degree, "control_points": len(spline.control), "deviation": spline.deviation}
+            facts = {"profile_spline": told}
+        except DesignError:
+            # Where none can be cut the solution warns of it; what was asked for is refused.
+            if solution.task.part and solution.task.part.spline_control_points is not None:
+                raise
+    if any(kind in CUTTING for kind in wanted):
+        # What makes the part is loaded only when it is asked for.
+        from graphcam.workshop.cutting_files import write_cutting
+
+        names |= write_cutting(solution, folder, wanted)
+    return names, facts
 
 
 def _write_sheet(
@@ -163,6 +211,15 @@ def _write_sheet(
         report("writing DXF")
         (write_cad if dxf == "cad" else write_dxf)(drawing, folder / f"{stem}.dxf")
     return {kind: f"{stem}.{kind}" for kind in kinds}
+
+
+def _write_part(solution: AnySolution, folder: Path, report: Callable[[str], None]) -> dict[str, str]:
+    """The working drawing of the cam; its DXF has true dimensions and attributes."""
+    from graphcam.workshop.working_drawing import working_drawing_of
+
+    report("laying out the working drawing")
+    written = _write_sheet(working_drawing_of(solution), folder, "working-drawing", PART, "cad", report)
+    return {f"working_drawing_{kind}": name for kind, name in written.items()}
 
 
 def _csv(solution: AnySolution) -> str:

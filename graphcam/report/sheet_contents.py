@@ -10,7 +10,7 @@ from itertools import count
 import numpy as np
 
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
@@ -124,7 +124,7 @@ def motion_contents(solution: Solution) -> Contents:
     results = [comparison(solution.comparison.quantities)]
     if solution.spring:
         results.append(solution.spring.table())
-    title = title_block(solution.task.title, solution.chain.profile_scale, solution.tell)
+    title = title_block(solution.task.title, solution.tell)
     return Contents(
         solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)
     )
@@ -145,8 +145,8 @@ def title_name(title: TitleTable, tell: Tell) -> str:
     return tell(UNNAMED) if title.name == str(UNNAMED) else title.name
 
 
-def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock:
-    """What the title block says: the task's table, and the scale of the profile where the task names none."""
+def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:
+    """What the title block says: the task's table."""
     return TitleBlock(
         name=title_name(title, tell),
         number=title.document,
@@ -155,7 +155,7 @@ def title_block(title: TitleTable, scale: Scale, tell: Tell = str) -> TitleBlock
         author=title.author,
         checked=title.checked,
         mass=title.mass,
-        scale=tell(ratio_text(scale.per_mm)) if title.scale is None else title.scale,
+        scale=title.scale,
     )
 
 
@@ -180,7 +180,8 @@ def _scaled(step: Step, by: Construction | None) -> Step:
     mu = read.per_mm
     if view.scale is not None:
         values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
-        view = replace(view, title=view.scale.where(mu=mu, **values))
+        mu_l = mu if view.main else None
+        view = replace(view, title=view.scale.where(mu=mu, **values), mu_l=mu_l)
     if found_by := by.meaning.scales_found_by:
         view = replace(view, answer=say("{mu:.4g}", mu=view.title.values["mu"]), found_by=found_by)
     return replace(step, view=view)

@@ -15,6 +15,7 @@ from graphcam.words import Caption, Words, say, sequence
 
 Row = tuple[Words, Words, Words]
 """What something is called, its value, and where it comes from."""
+DRAWN_AND_EXACT = say("Drawn and exact")
 GIVEN, ADOPTED, LIMIT = say("given"), say("adopted"), say("limit")
 AT_SPEED: Mapping[str, tuple[Caption, ...]] = {
     "mm": (say("t, s"), say("v, m/s"), say("a, m/s²")),
@@ -130,7 +131,7 @@ def on_paper(q: Quantity) -> tuple[Caption, Caption]:
     return number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3)
 
 
-def comparison(quantities: Mapping[str, Quantity]) -> Table:
+def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT) -> Table:
     """Every quantity, drawn and exact, with its error and the bound in mm of paper."""
     rows = tuple(
         (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *on_paper(q))
@@ -139,4 +140,4 @@ def comparison(quantities: Mapping[str, Quantity]) -> Table:
     )
     header = (say("quantity"), say("drawn"), say("exact"), say("error, mm of paper"), say("bound"))
     found = frozenset(product(range(len(rows)), range(1, len(header))))
-    return Table(say("Drawn and exact"), header, rows, found)
+    return Table(title, header, rows, found)

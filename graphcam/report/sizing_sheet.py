@@ -22,7 +22,7 @@ from graphcam.words import Caption, sequence
 
 REGION = View("sizing", say("Permitted cams, prime radius r₀ over offset e"), across="sizing e", up="sizing r0")
 TITLE = say("The smallest cam")
-SIZES = {"A1": 600 + 480j, "A2": 360 + 290j, "A3": 230 + 180j, "A4": 130 + 100j}
+SIZES = {"A1": 600 + 480j, "A2": 340 + 275j, "A3": 195 + 150j, "A4": 115 + 90j}
 """Width and height of the region by format [mm of paper]; its axes have scales of their own."""
 TICKS = 6
 """Parts of an axis with numbers, at most."""

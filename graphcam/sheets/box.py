@@ -30,6 +30,11 @@ class Box:
         return self.top - self.bottom
 
     @property
+    def area(self) -> float:
+        """mm²"""
+        return self.width * self.height
+
+    @property
     def corner(self) -> complex:
         """The lower left corner."""
         return complex(self.left, self.bottom)
@@ -56,6 +61,16 @@ class Box:
         """
         across = self.left < other.right and other.left < self.right
         return across and self.bottom < other.top and other.bottom < self.top
+
+    def common(self, other: Box) -> float:
+        """The area that two boxes share, mm².
+
+        >>> Box(0, 0, 2, 2).common(Box(1, 1, 3, 3)), Box(0, 0, 2, 2).common(Box(2, 0, 3, 2))
+        (1, 0)
+        """
+        across = min(self.right, other.right) - max(self.left, other.left)
+        up = min(self.top, other.top) - max(self.bottom, other.bottom)
+        return max(0, across) * max(0, up)
 
     def holds(self, other: Box) -> bool:
         """Whether the other lies inside, edges included."""

@@ -13,6 +13,7 @@ from typing import Any
 from ezdxf.document import Drawing as Document
 from ezdxf.layouts import Modelspace
 
+from graphcam.indices import parts
 from graphcam.sheets import dxf_renderer as dxf
 from graphcam.sheets.dxf_renderer import LETTERS, draw, layer, set_text, xy
 from graphcam.sheets.expand import GAP, OVERRUN
@@ -32,7 +33,7 @@ def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
         document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
         dxf.draw_pages(document, drawing, _draw_group)
         _add_layouts(document, drawing)
-        document.saveas(path)
+        dxf.save(document, path)
 
 
 def _add_layouts(document: Document, drawing: Drawing) -> None:
@@ -107,5 +108,6 @@ def _add_angle(space: Modelspace, text: Text, measured: Angle, on: str, left: fl
 def _lettering(text: Text, on: str, left: float) -> dict[str, Any]:
     """What a dimension says and where, in the middle of the letters of a centred text; its style and its layer."""
     middle = xy(text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2) + left)
-    said = {"text": text.text, "location": middle, "text_rotation": math.degrees(text.angle)}
+    letters = "".join(f"\\S^ {part};" if index else part for part, index in parts(text.text))
+    said = {"text": letters, "location": middle, "text_rotation": math.degrees(text.angle)}
     return said | {"dimstyle": STYLE, "override": {"dimtxt": text.height}, "dxfattribs": {"layer": on}}

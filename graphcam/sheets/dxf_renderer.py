@@ -4,6 +4,7 @@ The profile of entities is narrow on purpose, because every program reads it: LI
 and one clamped non-rational SPLINE for the cam; a layer for every step and role.
 """
 
+import cmath
 import math
 import os
 import re
@@ -21,6 +22,7 @@ from ezdxf.layouts import BaseLayout
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
+from graphcam.sheets.fonts import pieces, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
@@ -55,7 +57,7 @@ def write_dxf(
         for name in layers:
             document.layers.add(name)
         _mark_origins(document, drawing, origins or {})
-        document.saveas(path)
+        save(document, path)
 
 
 def _mark_origins(document: Document, drawing: Drawing, origins: Mapping[str, str]) -> None:
@@ -68,21 +70,28 @@ def _mark_origins(document: Document, drawing: Drawing, origins: Mapping[str, st
 
 
 def write_spline(
-    control: NDArray[np.floating[Any]], knots: NDArray[np.floating[Any]], path: str | os.PathLike[str], layer: str
+    control: NDArray[np.floating[Any]],
+    knots: NDArray[np.floating[Any]],
+    path: str | os.PathLike[str],
+    layer: str,
+    told: Mapping[str, str],
 ) -> None:
-    """One clamped cubic B-spline in a file of its own, 1 unit = 1 mm.
+    """One clamped B-spline in a file of its own, 1 unit = 1 mm.
 
-    control : (m, 2) [mm];  knots : (m + 4,)
+    control : (m, 2) [mm];  knots : (m + p + 1,) of one of the degree p
+    told : properties of the drawing, which CAD programs show beside it
     """
     with repeatable():
         document = _empty()
         low, high = control.min(axis=0).tolist(), control.max(axis=0).tolist()
         _set_extents(document, (*low, 0.0), (*high, 0.0))
+        for name, value in told.items():
+            document.header.custom_vars.append(name, value)
         document.layers.add(layer)
         _add_spline(document.modelspace(), control.tolist(), knots.tolist(), {"layer": layer})
         middle = (low[0] + high[0]) / 2, (low[1] + high[1]) / 2
         document.set_modelspace_vport(height=1.1 * (high[1] - low[1]), center=middle)
-        document.saveas(path)
+        save(document, path)
 
 
 @contextmanager
@@ -94,6 +103,13 @@ def repeatable() -> Generator[None]:
         yield
     finally:
         options.write_fixed_meta_data_for_testing = former
+
+
+def save(document: Document, path: str | os.PathLike[str]) -> None:
+    """Write a document, its classes in one order: ezdxf itself takes them from a set, in the order of their hashes."""
+    for name in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(name)
+    document.saveas(path)
 
 
 def _empty() -> Document:
@@ -120,7 +136,7 @@ def sheet_document(drawing: Drawing) -> Document:
     for pattern, (name, description) in LINETYPES.items():
         signed = [mm if k % 2 == 0 else -mm for k, mm in enumerate(pattern)]
         document.linetypes.add(name, [sum(pattern), *signed], description=description)
-    document.styles.add(LETTERS, font="DejaVuSans.ttf")
+    document.styles.add(LETTERS, font="osifont.ttf")
     document.set_modelspace_vport(height=first.height, center=(total / 2, first.height / 2))
     return document
 
@@ -185,19 +201,42 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> No
             for triangle in corners:
                 space.add_solid(_xy(triangle, left), dxfattribs=on)
         case Text():
-            set_text(space.add_text(entity.text), entity, layer, left)
+            _add_text(space, entity, layer, left)
+
+
+def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
+    """A text in its pieces, each fitted between the places where it begins and ends by our face.
+
+    In a program that has another its letters would else run into what stands behind.  A single letter is not fitted.
+    """
+    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
+    turn = cmath.rect(1.0, text.angle)
+    for piece in pieces(text.text, text.height):
+        letters, *ends = piece.ink
+        made = space.add_text(letters)
+        _set_style(made, layer, piece.height, text.angle)
+        start, end = (text.at + (end - shift) * turn + left for end in ends)
+        if len(letters) > 1:
+            made.set_placement(xy(start), xy(end), align=TextEntityAlignment.FIT)
+        else:
+            # A letter that is but an upright line cannot be widened: LibreCAD would not draw it.
+            made.set_placement(xy((start + end) / 2), align=TextEntityAlignment.CENTER)
 
 
 def set_text(made: DXFText, text: Text, layer: str, left: float = 0.0) -> None:
     """Give a text of the document its layer, letters and place."""
-    made.dxf.update({"layer": layer, "style": LETTERS, "height": text.height, "rotation": math.degrees(text.angle)})
+    _set_style(made, layer, text.height, text.angle)
     made.set_placement(xy(text.at + left), align=TextEntityAlignment[text.align.upper()])
+
+
+def _set_style(made: DXFText, layer: str, height: float, angle: float) -> None:
+    made.dxf.update({"layer": layer, "style": LETTERS, "height": height, "rotation": math.degrees(angle)})
 
 
 def _add_spline(
     space: BaseLayout, control: Sequence[Sequence[float]], knots: Sequence[float], on: dict[str, str]
 ) -> None:
-    spline = space.add_spline(degree=3, dxfattribs=on)
+    spline = space.add_spline(degree=len(knots) - len(control) - 1, dxfattribs=on)
     spline.control_points, spline.knots = control, knots
     # Neither closed nor rational nor planar: flags that some programs misread.
     spline.dxf.flags = 0

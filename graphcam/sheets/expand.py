@@ -90,7 +90,9 @@ def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
         case marks.Arc():
             return _arc(mark, place), []
         case marks.Dots():
-            return [Circles(np.atleast_1d(place(mark.points)), DOT, mark.role, opaque=True)], []
+            # A curve runs on through the points that it is drawn through, and ends at pivots and centres.
+            opaque = mark.role is not Role.CONSTRUCTION
+            return [Circles(np.atleast_1d(place(mark.points)), DOT, mark.role, opaque=opaque)], []
         case marks.Arrow():
             return arrow(place.point(mark.start), place.point(mark.end), mark.role), []
         case marks.Label():

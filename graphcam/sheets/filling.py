@@ -1,20 +1,20 @@
-"""Filling pages: which views and tables stand on which page, and where."""
+"""Filling pages: which views and tables stand on which page, and where.
+
+Many ways are tried, and the best is taken: on few pages, all but the last well used, in the order of the work.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
-from itertools import chain, count, product
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import combinations, product
 
-from graphcam.drafting.scale import STANDARD_RATIOS
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import taken
+from graphcam.sheets.leaves import Leaf, Run, blank, fits, kept
 from graphcam.sheets.packing import (
     Preference,
-    Room,
     bottom_left,
     bottom_right,
     high,
@@ -24,343 +24,245 @@ from graphcam.sheets.packing import (
     top_left,
     top_right,
 )
-from graphcam.sheets.panels import Panel, apart, clusters, shares, stand
+from graphcam.sheets.panels import Panel, clusters, stand
+from graphcam.sheets.runs import GAPS, ONE_PAGE, Runs, numbered, partings
 from graphcam.sheets.tables import Block
 
-BORDER = 4.0
-"""Free margin along the frame, mm."""
-BETWEEN = 6.0
-"""Between things that do not belong together, mm."""
-GAPS = (24.0, 12.0, 6.0, 2.0, -2.0)
-"""Between diagrams that stand together, mm: the widest is taken that needs no further page."""
-WITHIN = (0, 1, 3)
-"""How many small views may stand in the empty parts of diagrams where that saves a page."""
-ONE_PAGE = ("A1",)
-"""Formats on which diagrams one under the other are never parted, and those side by side only to keep full size."""
+FULL = 0.57
+"""Of every page but the last at least so much is to be used, and of the last if it can be."""
+PAIRS = 12
+"""So many pairs of views in another order than that of the work are as bad as one more page."""
+CHOICES = 8
+"""So many ways to part views that share axes are tried at most."""
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
-    """Views that stand together on a page, at their origins."""
-
-    views: Sequence[Panel]
-    origins: Sequence[complex]
-
-    @cached_property
-    def footprint(self) -> list[Box]:
-        """The boxes that together cover the views."""
-        standing = zip(self.views, self.origins, strict=True)
-        return [box.moved(origin) for panel, origin in standing for box in panel.footprint]
-
-
-@dataclass(eq=False)
-class EmptyPart:
-    """The empty parts of a diagram, which are found when something is to stand in them.
-
-    seen : how many of the boxes on the page it knows, at first those that were there before it
-    """
-
-    panel: Panel
-    origin: complex
-    seen: int
-    found: Room | None = None
-
-    def room(self, taken: Sequence[Box]) -> Room:
-        """What the boxes on the page leave of it."""
-        if self.found is None:
-            self.found = self.panel.empty(self.origin)
-        for box in taken[self.seen :]:
-            self.found.take(box)
-        self.seen = len(taken)
-        return self.found
-
-
-@dataclass(eq=False)
-class Leaf:
-    """A page while it is being filled: its free room, and the empty parts of diagrams, where tables may stand."""
-
-    room: Room
-    parts: list[EmptyPart] = field(default_factory=list[EmptyPart])
-    taken: list[Box] = field(default_factory=list[Box])
-    views: dict[str, tuple[Panel, complex]] = field(default_factory=dict[str, tuple[Panel, complex]])
-    blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
-
-    def copy(self) -> Leaf:
-        """The same page, to be filled in another way."""
-        parts = [replace(part, found=part.room(self.taken).copy()) for part in self.parts]
-        return Leaf(self.room.copy(), parts, list(self.taken), dict(self.views), list(self.blocks))
-
-    def put_views(self, run: Run, by: complex) -> None:
-        """Put views that stand together, moved ``by`` x + iy."""
-        for box in run.footprint:
-            self.take(box.moved(by))
-        for panel, origin in zip(run.views, run.origins, strict=True):
-            self.views[panel.view.name] = panel, origin + by
-            if len(run.views) > 1:
-                self.parts.append(EmptyPart(panel, origin + by, len(self.taken)))
-
-    def put_block(self, block: Block, by: complex) -> None:
-        """Put a table or notes."""
-        self.take(block.box.moved(by))
-        self.blocks.append((block, by))
-
-    def shares(self, views: Iterable[Panel]) -> bool:
-        """Whether one of the views shares an axis with one on the page."""
-        return any(shares(view, (panel for panel, _ in self.views.values())) for view in views)
-
-    def inside(self, boxes: Sequence[Box]) -> complex | None:
-        """By how much to move boxes into an empty part of a diagram; None if there is none."""
-        found = (part.room(self.taken).find(boxes, high) for part in self.parts)
-        return next((by for by in found if by is not None), None)
-
-    def take(self, box: Box) -> None:
-        """Take a box and a margin about it."""
-        self.taken.append(box.grown(BETWEEN))
-        self.room.take(self.taken[-1])
-
-    @property
-    def empty(self) -> float:
-        """The free part of the page."""
-        return 1.0 - float(self.room.full.mean())
-
-
-@dataclass(frozen=True)
 class Way:
     """One way to fill pages.
 
-    gaps : between the views of each run [mm]
-    pages : so many pages are filled evenly; of 0 the first is filled before the next is begun
-    within : how many small views stand in the empty parts of diagrams, as tables do; a lone view stands in the middle,
-        unless it is more than 0
+    runs : the views that stand together, in the order in which they are put on pages
+    preference : where they would rather stand; None for each where a draughtsman would have it
+    onward : whether a page that has been left is not returned to
+    closely : whether views may stand in the corners of one another's boxes, beyond their outlines
+    pages : the way is of use with so many pages at most
+    bare : what belongs under the lowest view of a column is left out, which is of use if that saves a page
     """
 
-    gaps: tuple[float, ...]
-    pages: int = 0
-    within: int = 0
+    runs: Runs
+    preference: Preference | None = None
+    onward: bool = False
+    closely: bool = False
+    pages: float = math.inf
+    bare: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class BlockSetting:
+    """One way to set tables and notes: in which letters and order, and whether each on the emptiest page."""
+
+    blocks: Sequence[Block]
+    emptiest: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Filled:
+    """Pages that are filled in a way.
+
+    merit : how well, the most important first, the least is the best: how many pages but the last are not well used,
+        the number of pages, to which pairs of views in another order than that of the work add, and what all pages lack
+    """
+
+    leaves: list[Leaf]
+    way: Way
+    setting: BlockSetting
+    merit: tuple[float, ...]
 
 
 def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
     """Put all views and blocks on as few pages as they need, in the middle of what is free of each.
 
+    views : in the order of the work, which the pages follow
     ways_of_blocks : the same tables and notes in letters of different heights and in different orders, the best first
     """
-    return [_centred(sheet, leaf) for leaf in _fewest(sheet, views, ways_of_blocks)]
+    settings = [BlockSetting(blocks, emptiest) for blocks, emptiest in product(ways_of_blocks, (False, True))]
+    best = _best(sheet, views, settings)
+    # The widest gaps at which the pages are as good.
+    for gap in GAPS[:-1]:
+        most = len(best.leaves)
+        viewed = _with_views(sheet, views, best.way, gap, most)
+        wider = viewed and _with_blocks(sheet, views, viewed, best.way, best.setting, most)
+        if isinstance(wider, Filled) and wider.merit <= best.merit:
+            best = wider
+            break
+    return [leaf.centred() for leaf in best.leaves]
 
 
-def _centred(sheet: Format, leaf: Leaf) -> Leaf:
-    """The page with all that stands on it moved together, so that what is left empty lies around it."""
-    views = [Run([panel], [origin]) for panel, origin in leaf.views.values()]
-    boxes = [box for view in views for box in view.footprint] + [block.box.moved(at) for block, at in leaf.blocks]
-    centred = _blank(sheet)
-    by = centred.room.find(boxes, middle) if boxes else None
-    if by is None:
-        return leaf
-    for view in views:
-        centred.put_views(view, by)
-    for block, at in leaf.blocks:
-        centred.put_block(block, at + by)
-    return centred
-
-
-def _fewest(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[Leaf]:
-    """All views and blocks on as few pages as they need, the emptiest of them as full as it can be."""
-    # The largest first; the small ones find room between.
-    groups = sorted(clusters(views), key=lambda group: -sum(map(_area, group)))
-    runs = [run for group in groups for run in _runs(sheet, group)]
-    spreads = _spreads(sheet, runs)
-
-    @cache
-    def standing(k: int, gap: float) -> Run:
-        return Run(runs[k], stand(runs[k], gap))
-
-    @cache
-    def viewed(way: Way, most: float) -> list[Leaf] | None:
-        return _with_views(sheet, [standing(k, gap) for k, gap in enumerate(way.gaps)], way, most)
-
-    def tried(blocks: Sequence[Block], way: Way, most: float) -> list[Leaf] | None:
-        leaves = viewed(way, most)
-        return None if leaves is None else _with_blocks(sheet, leaves, blocks, way, most)
-
-    best: list[Leaf] = []
-    for within, blocks, gaps in product(WITHIN, ways_of_blocks, spreads):
-        best = tried(blocks, Way(gaps, 0, within), len(best) - 1 if best else math.inf) or best
-        if len(best) == 1:
-            return best
-    for blocks, gaps in product(ways_of_blocks, spreads):
-        leaves = tried(blocks, Way(gaps, len(best)), len(best))
-        if leaves and _emptiest(leaves) < _emptiest(best) - 1e-9:
-            best = leaves
+def _best(sheet: Format, views: Sequence[Panel], settings: Sequence[BlockSetting]) -> Filled:
+    """The best of all ways, with the narrowest gaps."""
+    best: Filled | None = None
+    goal = 0, _fewest(sheet, views), 0
+    for way in _ways(sheet, views):
+        most = _most(way, best)
+        viewed = _with_views(sheet, views, way, GAPS[-1], most)
+        # Tables bring neither fewer pages nor more order.
+        if viewed is None or (best and (0, len(viewed) + _disorder(viewed, views)) >= best.merit):
+            continue
+        # On one page all settings of the same tables come to the same.
+        for setting in settings if len(viewed) > 1 else settings[::2]:
+            filled = _with_blocks(sheet, views, viewed, way, setting, most)
+            if filled and (best is None or filled.merit < best.merit):
+                best = filled
+                if best.merit <= goal:
+                    return best
+    if best is None:
+        raise AssertionError("without a limit pages take everything")
     return best
 
 
-def _spreads(sheet: Format, runs: Sequence[Sequence[Panel]]) -> list[tuple[float, ...]]:
-    """The gaps of all runs, from wide to narrow; a run without room for a gap has the widest that it has room for."""
-    fitting = [[gap for gap in GAPS if _fits(sheet, run, gap)] for run in runs]
-    # Tries that come to the same are made once.
-    return list(dict.fromkeys(tuple(next(g for g in fits if g <= gap) for fits in fitting) for gap in GAPS))
+def _most(way: Way, best: Filled | None) -> float:
+    """The number of pages with which a way could be better than the best."""
+    most = way.pages
+    if best and not best.merit[0]:
+        # Where pages are well used already, more of them are no better.
+        most = min(most, math.floor(best.merit[1]))
+    if best and way.bare > best.way.bare:
+        most = min(most, len(best.leaves) - 1)
+    return most
 
 
-def _area(panel: Panel) -> float:
-    return panel.box.width * panel.box.height
+def _fewest(sheet: Format, views: Sequence[Panel]) -> int:
+    """As many pages as the boxes of views take if they fill them; fewer are not looked for."""
+    room = sheet.content.area - kept(sheet)
+    return max(1, math.ceil(sum(panel.box.area for panel in views) / room))
 
 
-def _emptiest(leaves: Sequence[Leaf]) -> float:
-    return max(leaf.empty for leaf in leaves)
+def _ways(sheet: Format, views: Sequence[Panel]) -> Iterator[Way]:
+    """Ways to put views on pages, those first that look best or find room most often."""
+    choices = product(*(partings(sheet, group) for group in clusters(views)))
+    parted = sorted(([run for runs in choice for run in runs] for choice in choices), key=len)[:CHOICES]
+    yield from _ways_of(sheet, views, [[numbered(sheet, run) for run in runs] for runs in parted])
+    if any(panel.under for panel in views):
+        yield from (replace(way, bare=True) for way in _ways_of(sheet, views, parted))
 
 
-def _with_views(sheet: Format, runs: Sequence[Run], way: Way, most: float) -> list[Leaf] | None:
-    """Put runs of views on as many pages as it takes; None if these are more than ``most``."""
-    leaves = [_blank(sheet) for _ in range(way.pages)]
-    largest = max((run.views[0] for run in runs if len(run.views) == 1), key=_area, default=None)
-    within = way.within
-    for run in runs:
-        views = run.views
+def _ways_of(sheet: Format, views: Sequence[Panel], parted: Sequence[Runs]) -> Iterator[Way]:
+    """Ways to put views on pages that are parted in one of several ways."""
+    rank = {panel.view.name: k for k, panel in enumerate(views)}
+    by_work = [sorted(runs, key=lambda run: min(rank[panel.view.name] for panel in run)) for runs in parted]
+    # The small ones find room between the large ones.
+    by_size = [sorted(runs, key=lambda run: -sum(panel.box.area for panel in run)) for runs in parted]
+    if sheet.name in ONE_PAGE and _fewest(sheet, views) == 1:
+        # Before views leave the axis on which one is carried over to the other, they stand closely.
+        for large_first, closely, preference in product(by_size, (False, True), (None, top_left, high)):
+            yield Way(large_first, preference, closely=closely, pages=1)
+    for large_first, onward in zip(by_size, by_work, strict=True):
+        yield Way(large_first)
+        for preference in (top_left, high):
+            yield Way(onward, preference)
+            yield Way(onward, preference, onward=True)
+            yield Way(large_first, preference)
+
+
+def _in_order(leaves: Sequence[Leaf], views: Sequence[Panel]) -> list[Leaf]:
+    """The pages in the order of the work: that with the first view, then as their views follow in the mean."""
+    rank = {panel.view.name: k for k, panel in enumerate(views)}
+
+    def place(leaf: Leaf) -> float:
+        ranks = [rank[name] for name in leaf.views]
+        if not ranks:
+            return math.inf
+        return sum(ranks) / len(ranks) if min(ranks) else 0.0
+
+    return sorted(leaves, key=place)
+
+
+def _disorder(leaves: Sequence[Leaf], views: Sequence[Panel]) -> float:
+    """Pairs of views on pages in another order than that of the work, in pages which they are as bad as."""
+    rank = {panel.view.name: k for k, panel in enumerate(views)}
+    pages = [[rank[name] for name in leaf.views] for leaf in leaves]
+    return sum(a > b for one, other in combinations(pages, 2) for a, b in product(one, other)) / PAIRS
+
+
+def _with_views(sheet: Format, views: Sequence[Panel], way: Way, gap: float, most: float) -> list[Leaf] | None:
+    """Put views on as many pages as it takes, in the order of the work; None if these are more than ``most``."""
+    leaves: list[Leaf] = []
+    alone = (run[0] for run in way.runs if len(run) == 1)
+    largest = max(alone, key=lambda panel: panel.box.area, default=None)
+    for panels in way.runs:
+        run = _standing(sheet, panels, gap, way)
         # Views that share an axis stand on it or on different pages; what was parted on a large page finds room there.
-        allowed = [leaf for leaf in leaves if sheet.name in ONE_PAGE or not leaf.shares(views)]
-        found = _inside(allowed, run.footprint) if within and len(views) == 1 and views[0] is not largest else None
-        if found:
-            within -= 1
-        else:
-            # Aside it leaves more room for tables.
-            lone = len(runs) == 1 and not way.within
-            preference = middle if lone else _preferred(sheet, views, largest)
-            found = _find(sheet, _views_turn(sheet, allowed, way), run.footprint, preference, more=len(leaves) < most)
-        if found is None:
+        allowed = [
+            leaf for leaf in leaves[-1 if way.onward else 0 :] if sheet.name in ONE_PAGE or not leaf.shares(panels)
+        ]
+        preference = middle if len(way.runs) == 1 else way.preference or _preferred(sheet, panels, largest)
+        place = _place(sheet, allowed, partial(Leaf.find, boxes=run.boxes, preference=preference), len(leaves) < most)
+        if place is None:
             return None
-        _taken(leaves, found[0]).put_views(run, found[1])
-    return leaves
+        place.leaf.put_views(run, place.by)
+        leaves += [place.leaf] * place.begun
+    return _in_order(leaves, views)
 
 
 def _with_blocks(
-    sheet: Format, viewed: Sequence[Leaf], blocks: Sequence[Block], way: Way, most: float
-) -> list[Leaf] | None:
+    sheet: Format, views: Sequence[Panel], viewed: Sequence[Leaf], way: Way, setting: BlockSetting, most: float
+) -> Filled | None:
     """Put blocks on the same pages, and on further ones if it takes them; None if these are more than ``most``."""
     leaves = [leaf.copy() for leaf in viewed]
-    for block in blocks:
-        found = _place_block(sheet, _in_turn(leaves, way), block, way, more=len(leaves) < most)
-        if found is None:
+    for block in setting.blocks:
+        allowed = sorted(leaves, key=lambda leaf: leaf.used) if setting.emptiest else leaves
+        find = partial(Leaf.find_for, block=block, preference=bottom_right)
+        place = _place(sheet, allowed, find, len(leaves) < most)
+        if place is None:
             return None
-        _taken(leaves, found[0]).put_block(block, found[1])
-    return [leaf for leaf in leaves if leaf.views or leaf.blocks] or [_blank(sheet)]
+        place.leaf.put_block(block, place.by)
+        leaves += [place.leaf] * place.begun
+    leaves = leaves or [blank(sheet)]
+    return Filled(leaves, way, setting, _merit(leaves, views))
 
 
-def _views_turn(sheet: Format, leaves: Sequence[Leaf], way: Way) -> Sequence[Leaf]:
-    """The same for views: the first sheet of a large format is the cam's, only tables go where there is more room."""
-    return leaves if sheet.name in ONE_PAGE else _in_turn(leaves, way)
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A place on a page, which may have been begun for it: by how much to move there what it was found for."""
+
+    leaf: Leaf
+    by: complex
+    begun: bool
 
 
-def _taken(leaves: list[Leaf], leaf: Leaf) -> Leaf:
-    """A page, which is now one of the pages."""
-    if leaf not in leaves:
-        leaves.append(leaf)
-    return leaf
-
-
-def _in_turn(leaves: Sequence[Leaf], way: Way) -> list[Leaf]:
-    """The pages in the order in which they are tried."""
-    return sorted(leaves, key=lambda leaf: -leaf.empty) if way.pages else list(leaves)
-
-
-def _place_block(
-    sheet: Format, leaves: Sequence[Leaf], block: Block, way: Way, *, more: bool
-) -> tuple[Leaf, complex] | None:
-    # Where pages are filled evenly, the emptiest is taken before an empty part of another.
-    for some in ([leaf] for leaf in leaves) if way.pages else (leaves,):
-        if found := _inside(some, [block.box]):
-            return found
-        if way.pages and (by := some[0].room.find([block.box], bottom_right)) is not None:
-            return some[0], by
-    return _find(sheet, leaves, [block.box], bottom_right, more=more)
-
-
-def _inside(leaves: Sequence[Leaf], boxes: Sequence[Box]) -> tuple[Leaf, complex] | None:
-    """The first page with an empty part of a diagram for boxes which stand together, and by how much to move them."""
-    found = ((leaf, leaf.inside(boxes)) for leaf in leaves)
-    return next(((leaf, by) for leaf, by in found if by is not None), None)
-
-
-def _find(
-    sheet: Format, leaves: Sequence[Leaf], boxes: Sequence[Box], preference: Preference, *, more: bool
-) -> tuple[Leaf, complex] | None:
-    """The first page that has room for boxes which stand together, and by how much to move them.
-
-    more : whether a new page may be begun; None where it may not and there is no room
-    """
+def _place(sheet: Format, leaves: Sequence[Leaf], find: Callable[[Leaf], complex | None], more: bool) -> Place | None:
+    """A place on the first page that has one, else on a new page; None if no ``more`` may be begun."""
     for leaf in leaves:
-        if (by := leaf.room.find(boxes, preference)) is not None:
-            return leaf, by
+        if (by := find(leaf)) is not None:
+            return Place(leaf, by, begun=False)
     if not more:
         return None
-    blank = _blank(sheet)
-    by = blank.room.find(boxes, preference)
-    # What is larger than a page has been reduced before.
+    leaf = blank(sheet)
+    by = find(leaf)
+    # What is larger than a page has been refused before.
     assert by is not None
-    return blank, by
+    return Place(leaf, by, begun=True)
 
 
-def _blank(sheet: Format) -> Leaf:
-    return Leaf(_blank_room(sheet).copy())
+def _merit(leaves: Sequence[Leaf], views: Sequence[Panel]) -> tuple[float, ...]:
+    """How well pages are filled, as :class:`Filled` says."""
+    used = [leaf.used for leaf in leaves]
+    sparse = sum(share < FULL for share in used[:-1])
+    lack = sum(max(0.0, FULL - share) for share in used) if len(leaves) > 1 else 0.0
+    return sparse, len(leaves) + _disorder(leaves, views), lack
 
 
-@cache
-def _blank_room(sheet: Format) -> Room:
-    """The room of an empty sheet; it is looked into, and copied to be taken."""
-    return Room(sheet.content.grown(-BORDER), taken(sheet, BORDER))
+def _standing(sheet: Format, panels: Sequence[Panel], gap: float, way: Way) -> Run:
+    """Views together with a gap between them; with the widest that they have room for, if that is less."""
+    gap = next(narrow for narrow in GAPS if narrow <= gap and (narrow == GAPS[-1] or fits(sheet, panels, narrow)))
+    return Run(panels, stand(panels, gap), gap, way.closely)
 
 
-def _preferred(sheet: Format, run: Sequence[Panel], largest: Panel | None) -> Preference:
+def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) -> Preference:
     """Where views would rather stand: diagrams at the upper left, the largest drawing where it leaves most room."""
-    if len(run) > 1:
+    if len(panels) > 1:
         return top_left
-    if run[0] is not largest:
+    if panels[0] is not largest:
         return bottom_right
     if sheet.name in ONE_PAGE:
         return bottom_left if sheet.upright else top_right
     return top if sheet.upright else left
-
-
-# --- what stands together --------------------------------------------------------------------------------------------
-
-
-def _runs(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
-    """The views of each page: with others that they share an axis with, if these fit together, and little reduced."""
-    # Beyond the standard series: powers of ten go on for ever.
-    for factor in chain((ratio for ratio in STANDARD_RATIOS if ratio <= 1), (10.0**-k for k in count(3))):
-        reduced = [replace(panel, factor=factor) for panel in group]
-        ways = [[reduced], _columns(reduced)] if sheet.name in ONE_PAGE else [_joined(sheet, reduced)]
-        for runs in ways:
-            if all(_fits(sheet, run, GAPS[-1]) for run in runs):
-                return runs
-    raise AssertionError("the reductions never end")
-
-
-def _columns(group: Sequence[Panel]) -> list[list[Panel]]:
-    """The views that stand one under the other, together."""
-    columns: dict[str, list[Panel]] = {}
-    for panel in group:
-        columns.setdefault(panel.view.across, []).append(panel)
-    return list(columns.values())
-
-
-def _joined(sheet: Format, group: Sequence[Panel]) -> list[list[Panel]]:
-    """As many views together as fit a page, each with one that it shares an axis with."""
-    runs: list[list[Panel]] = []
-    for panel in group:
-        # The last run first, so that neighbours stay neighbours.
-        joined = (run for run in reversed(runs) if shares(panel, run))
-        if (run := next((run for run in joined if _fits(sheet, [*run, panel], GAPS[-1])), None)) is not None:
-            run.append(panel)
-        else:
-            runs.append([panel])
-    return runs
-
-
-def _fits(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
-    run = Run(views, stand(views, gap))
-    # The margins of neighbours may overlap where room is scarce.
-    boxes = [panel.box.moved(origin).grown(min(gap, 0.0)) for panel, origin in zip(views, run.origins, strict=True)]
-    if not apart(boxes):
-        return False
-    # Where there is room for a box about the views there is room for them.
-    room, footprint = _blank_room(sheet), run.footprint
-    return any(room.find(tried, top_left) is not None for tried in ([around_all(footprint)], footprint))

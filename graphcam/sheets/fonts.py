@@ -1,42 +1,93 @@
-"""Widths and heights of texts in DejaVu Sans, the typeface that ships with matplotlib (Latin, Greek, Cyrillic, primes).
+"""Widths and heights of texts, piece by piece as they are drawn: each in one face, its indices smaller and lowered.
 
 A text is measured by the height of its capital letters, as on the drawing board.
 """
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import groupby, pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from matplotlib.ft2font import FT2Font
+from graphcam.indices import parts
+from graphcam.sheets.typefaces import BOX, capital, face_of, glyph, lettering_file
 
-FAMILY = "DejaVu Sans"
-
-
-def font_file() -> Path:
-    """The file of the typeface."""
-    from matplotlib import get_data_path
-
-    return Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
+HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0)
+"""Of capital letters by ISO 3098 and GOST 2.304, mm."""
+DROP = 0.5
+"""An index stands so much lower than its letter, in heights of the index."""
 
 
-@cache
-def _font() -> FT2Font:
-    from matplotlib.ft2font import FT2Font
+@dataclass(frozen=True)
+class Letters:
+    """What of a text has one face and one height.
 
-    return FT2Font(str(font_file()))
+    height : of capital letters, mm
+    start : where its base line begins, from the text's [mm]
+    width : mm
+    index : whether it is set lower
+    """
+
+    text: str
+    face: Path
+    height: float
+    start: complex
+    width: float
+    index: bool
+
+    @property
+    def ink(self) -> tuple[str, complex, complex]:
+        """Its letters without blanks around them, and the ends of the part of the base line that they stand on."""
+        bare = self.text.strip() or self.text
+        before = self.text[: self.text.index(bare)]
+        wide = [self.height * sum(glyph(letter).advance for letter in part) for part in (before, bare)]
+        left, right = self.height * glyph(bare[0]).left, self.height * glyph(bare[-1]).right
+        return bare, self.start + wide[0] + left, self.start + sum(wide) - right
 
 
-@cache
-def _glyph(character: str) -> tuple[float, float, float]:
-    """Advance, depth below and height above the base line, in units of the font."""
-    from matplotlib.ft2font import LoadFlags
+def points_size(height: float) -> float:
+    """The size in points at which capitals are ``height`` mm high.
 
-    # What the typeface lacks, such as a name in Chinese, has the width of the box that stands for it: glyph 0.
-    glyph = _font().load_glyph(_font().get_char_index(ord(character)), flags=LoadFlags.NO_SCALE)
-    return glyph.horiAdvance, -glyph.bbox[1], glyph.bbox[3]
+    >>> round(points_size(3.5), 3)
+    13.456
+    """
+    return height / capital() * 72 / 25.4
+
+
+def index_height(height: float) -> float:
+    """The height of an index [mm]: one size of the series smaller than its letter.
+
+    >>> index_height(3.5), index_height(2.5)
+    (2.5, 1.8)
+    """
+    return next((low for low, high in pairwise(HEIGHTS) if height == high), height / 2**0.5)
+
+
+@lru_cache(maxsize=4096)
+def pieces(text: str, height: float) -> tuple[Letters, ...]:
+    """The pieces of a text with capitals of ``height`` mm, from left to right.
+
+    >>> [(piece.text, piece.height, piece.index) for piece in pieces("μₐ = 2", 3.5)]
+    [('μ', 3.5, False), ('a', 2.5, True), (' = 2', 3.5, False)]
+    """
+    return tuple(_pieces(text, height))
+
+
+def _pieces(text: str, height: float) -> Iterator[Letters]:
+    x = 0.0
+    for said, index in parts(text):
+        high = index_height(height) if index else height
+        for face, run in groupby(said, face_of):
+            letters = "".join(letter if face else BOX for letter in run)
+            wide = high * sum(glyph(letter).advance for letter in letters)
+            yield Letters(letters, face or _box_face(), high, complex(x, -DROP * high * index), wide, index)
+            x += wide
+
+
+def _box_face() -> Path:
+    return face_of(BOX) or lettering_file()
 
 
 @lru_cache(maxsize=4096)
@@ -45,33 +96,27 @@ def extent(text: str, height: float) -> tuple[float, float, float]:
 
     >>> width, below, above = extent("H", 3.5)
     >>> round(width, 3), below, above
-    (3.61, 0.0, 3.5)
+    (3.389, 0.0, 3.5)
     >>> extent("漢", 3.5)[0] > 0
     True
     """
-    if not text:
-        return 0.0, 0.0, 0.0
-    mm = height / _glyph("H")[2]
-    glyphs = [_glyph(character) for character in text]
-    return mm * sum(g[0] for g in glyphs), mm * max(0, *(g[1] for g in glyphs)), mm * max(g[2] for g in glyphs)
+    wide, low, high = 0.0, 0.0, float("-inf")
+    for piece in pieces(text, height):
+        size, y = piece.height, piece.start.imag
+        letters = [glyph(letter) for letter in piece.text]
+        wide += piece.width
+        low = max(low, size * max(letter.below for letter in letters) - y)
+        high = max(high, size * max(letter.above for letter in letters) + y)
+    return wide, low, high if wide else 0.0
 
 
 def width(text: str, height: float) -> float:
     """Width [mm] of a text with capitals of ``height`` mm.
 
-    >>> width("10", 2.0) == 2 * width("1", 2.0)
-    True
+    >>> width("11", 2.0) == 2 * width("1", 2.0), width("−", 2.0) == width("+", 2.0)
+    (True, True)
     """
     return extent(text, height)[0]
-
-
-def points_size(height: float) -> float:
-    """The size in points at which capitals are ``height`` mm high.
-
-    >>> round(points_size(3.5), 3)
-    13.609
-    """
-    return height * 72 / 25.4 * _font().units_per_EM / _glyph("H")[2]
 
 
 def wrap(text: str, height: float, room: float) -> list[str]:
@@ -87,3 +132,47 @@ def wrap(text: str, height: float, room: float) -> list[str]:
         else:
             lines.append(word)
     return lines
+
+
+def broken(text: str, height: float, room: float) -> list[str]:
+    """The text in lines no wider than ``room`` mm; a word that is wider alone is broken, but no letter.
+
+    >>> broken("a counterbalanced cam", 3.5, 25.0)
+    ['a counter-', 'balanced', 'cam']
+    """
+    lines: list[str] = []
+    for word in text.split():
+        begun = f"{lines.pop()} " if lines else ""
+        if width(begun + word, height) <= room:
+            lines.append(begun + word)
+        elif width(word, height) <= room:
+            lines += [begun.rstrip(), word]
+        else:
+            lines += _parts(begun, word, height, room)
+    return lines
+
+
+def _parts(begun: str, word: str, height: float, room: float) -> Iterator[str]:
+    """A long word in lines, the first of them behind what is ``begun`` if more than a letter has room there."""
+    if begun and _cut(word, height, room - width(begun, height)) == 1:
+        yield begun.rstrip()
+        begun = ""
+    while width(begun + word, height) > room and len(word) > 1:
+        cut = _cut(word, height, room - width(begun, height))
+        yield begun + word[:cut] + "-" * _hyphenated(word, cut)
+        begun, word = "", word[cut:]
+    yield begun + word
+
+
+def _cut(word: str, height: float, room: float) -> int:
+    """After how many letters a word is broken: behind a sign such as a hyphen if one stands late enough."""
+    last = 1
+    while last < len(word) and width(word[: last + 1] + "-" * _hyphenated(word, last + 1), height) <= room:
+        last += 1
+    signs = [k for k in range(1, last + 1) if not word[k - 1].isalnum() and 2 * k >= last]
+    return max(signs, default=last)
+
+
+def _hyphenated(word: str, cut: int) -> bool:
+    """Whether a hyphen is written where a word is broken; none in Chinese or Japanese, and none behind a sign."""
+    return cut < len(word) and word[cut - 1 : cut + 1].isalpha() and word[cut - 1].lower() != word[cut - 1].upper()

@@ -8,6 +8,8 @@ from graphcam.sheets.box import Box
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
 """Width and height of the sheets, mm, lying."""
 ORIENTATIONS = ("landscape", "portrait")
+UPRIGHT_ONLY = ("A4", "gost")
+"""Format and frame of GOST 2.301, which uses sheets A4 upright only, the title block along the short side."""
 MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
 """Between the edge of the paper and the frame, mm: left, bottom, right, top."""
 
@@ -25,27 +27,32 @@ class Lettering:
 class Format:
     """A sheet of paper with its frame.
 
-    name : "A1" to "A4";  frame : "gost" or "iso";  orientation : "landscape" or "portrait"
+    name : "A1" to "A4";  frame : "gost" or "iso"
+    orientation : "landscape" or "portrait"; None lies, but A4 of GOST stands
 
     Raises
     ------
-    DesignError : there is no such format, frame or orientation
+    DesignError : there is no such format, frame or orientation, or the frame is not used so
 
     >>> Format("A3", "iso").content
     Box(left=20.0, bottom=10.0, right=410.0, top=287.0)
-    >>> Format("A3", "iso", "portrait").size
-    (297.0, 420.0)
+    >>> Format("A3", "iso", "portrait").size, Format("A4", "gost").size
+    ((297.0, 420.0), (210.0, 297.0))
     """
 
     name: str
     frame: str
-    orientation: str = "landscape"
+    orientation: str | None = None
 
     def __post_init__(self) -> None:
         known = {"format": SIZES, "frame": MARGINS, "orientation": ORIENTATIONS}
         for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
-            if given not in names:
+            if given is not None and given not in names:
                 raise DesignError(quantity, given, f"one of {', '.join(names)}", nearest(given, names))
+        if self.orientation == "landscape" and self._upright_only:
+            limit = "portrait: GOST 2.301 uses A4 upright only"
+            remedy = 'leave orientation out, or choose another format or frame = "iso"'
+            raise DesignError("orientation", self.orientation, limit, remedy)
 
     @property
     def size(self) -> tuple[float, float]:
@@ -56,7 +63,20 @@ class Format:
     @property
     def upright(self) -> bool:
         """Whether the sheet stands on its short side."""
-        return self.orientation == "portrait"
+        return self.orientation == "portrait" or self._upright_only
+
+    @property
+    def said(self) -> str:
+        """What a message calls the sheet.
+
+        >>> Format("A3", "iso").said, Format("A4", "gost").said
+        ('A3 landscape', 'A4 portrait')
+        """
+        return f"{self.name} {ORIENTATIONS[self.upright]}"
+
+    @property
+    def _upright_only(self) -> bool:
+        return (self.name, self.frame) == UPRIGHT_ONLY
 
     @property
     def content(self) -> Box:

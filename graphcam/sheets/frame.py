@@ -27,7 +27,7 @@ def gauge(at: complex, tell: Tell = str) -> list[Entity]:
         Strokes(np.array([at]), np.array([at + LENGTH]), "gauge"),
         Strokes(marks, marks + 1j * ticks, "ruling"),
         *(Text(at + x + 4j, f"{x:g}", 2.5, "center") for x in (0.0, 50.0, LENGTH)),
-        Text(at + 75 + 4j, tell(say("mm, true to scale")), 2.0, "center"),
+        Text(at + 75 + 4j, tell(say("mm, true to scale")), 2.5, "center"),
     ]
 
 

@@ -5,7 +5,7 @@ cells, and what the place itself costs, is least.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn
+from graphcam.sheets.gaps import parted
 from graphcam.sheets.model import Entity, Strokes, Text
 from graphcam.sheets.sampling import around, box_of, corners, linework, sampled, within
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES
@@ -24,13 +25,15 @@ CELL = 0.5
 """Side of a cell of the raster, mm."""
 AIR = 0.45
 """Free margin around a text, mm."""
-FORBIDDEN, ON_MEDIUM, ON_THIN, ON_HATCH = 200.0, 6.0, 1.5, 0.4
-"""Cost of a cell with another text or a bold line in it, or with a lighter line."""
+ON_TEXT, FORBIDDEN, ON_MEASURE, ON_MEDIUM, ON_THIN, ON_HATCH = 2000.0, 200.0, 80.0, 80.0, 2.0, 0.4
+"""Cost of a cell with another text in it, a bold line, a dimension, leader or axis, or a lighter line."""
+COSTS: Mapping[str, float] = {Role.HATCH: ON_HATCH, Role.DIMENSION: ON_MEASURE, Role.SCALE: ON_MEASURE}
+"""Of roles that cost more or less than the width of their lines says."""
 AROUND_TEXT = 0.8
 """Free margin in the hatching around a text, mm."""
 NEAR = 24
 """So many places of a text are looked at before the further ones."""
-LEADER_SHARES = np.linspace(0.1, 0.95, 24)
+LEADER_SHARES = np.linspace(0.1, 0.95, 60)
 """Where along a leader it is looked at what it crosses."""
 
 
@@ -78,7 +81,7 @@ class Occupancy:
         for entity in entities:
             if isinstance(entity, Text):
                 a, b, _, d = corners(entity).tolist()
-                self.take(_grid(a, b - a, d - a), FORBIDDEN)
+                self.take(_grid(a, b - a, d - a), ON_TEXT)
             else:
                 lines.setdefault(_line_cost(entity.role), []).append(entity)
         for cost, alike in lines.items():
@@ -91,8 +94,8 @@ def _within(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
 
 
 def _line_cost(role: str) -> float:
-    if role == Role.HATCH:
-        return ON_HATCH
+    if role in COSTS:
+        return COSTS[role]
     width = STYLES[role].width
     return FORBIDDEN if width >= BOLD else ON_MEDIUM if width >= MEDIUM else ON_THIN
 
@@ -152,7 +155,7 @@ def _leader_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) -> 
     if led.any():
         ends = _leader_end(writing, centres[led], anchors[led])
         # A leader may cross lines, at a small cost, but no text.
-        cost[led] = 0.1 * paper.cost(anchors[led][:, None] + LEADER_SHARES * (ends - anchors[led])[:, None])
+        cost[led] = 0.04 * paper.cost(anchors[led][:, None] + LEADER_SHARES * (ends - anchors[led])[:, None])
     return cost
 
 
@@ -173,12 +176,14 @@ def _set(writing: Writing, k: int) -> list[Entity]:
 def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[list[Entity]]:
     """The entities of every step with its texts, which keep off all steps and what else stands ``beside`` them.
 
+    A thin line is parted where a text found no place off it.
+
     steps : from :func:`graphcam.sheets.expand.expand`, in the order in which they are drawn
     inside : the box that no text leaves
     """
     lines = [*beside, *(entity for entities, _ in steps for entity in entities)]
     placed = iter(place([writing for _, writings in steps for writing in writings], lines, inside))
-    return [[*entities, *(e for _ in writings for e in next(placed))] for entities, writings in steps]
+    return parted([[*entities, *(e for _ in writings for e in next(placed))] for entities, writings in steps])
 
 
 def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]]:

@@ -1,9 +1,9 @@
 """The sheet: every view, table and note finds its place on a page, and every label in its view.
 
 Diagrams that share an axis stand exactly one under the other or side by side.  A1 takes everything on one page; on the
-smaller formats, and where there is too much, further pages follow.  On A1 what stands side by side is parted before
-anything is shown reduced.  What does not fit even on a page of its own is shown reduced, together with all that shares
-an axis with it.
+smaller formats, and where there is too much, further pages follow.  Everything is drawn at the scale that it says: what
+does not fit on a page of its own is refused, so scales are chosen beforehand, by :func:`profile_room` and by what
+:func:`~graphcam.sheets.leaves.free_rooms` a page has.
 
 An unfinished sheet is laid out and lettered as the finished one and then drawn in part, so that one laid over the other
 agrees line for line.
@@ -16,15 +16,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphcam.drafting.ink import Step
+from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.expand import Drawn, Placement, expand
-from graphcam.sheets.filling import BORDER, ONE_PAGE, Leaf, fill
+from graphcam.sheets.filling import fill
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import frame as empty_sheet, title_box
 from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.leaves import BORDER, Leaf
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
 from graphcam.sheets.panels import panels
-from graphcam.sheets.tables import Block, Table, notes_block, table_block
+from graphcam.sheets.runs import ONE_PAGE
+from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Tell
 
@@ -32,6 +35,10 @@ NOTES_WIDTH = 180.0
 """Of the notes, mm, at most."""
 HEADING = 12.0
 """Of the title of a view, mm."""
+BESIDE_FRAME = 2.0
+"""Between a label and the frame, mm."""
+FURNITURE = 30.0
+"""What gauge, marks and margins take of a sheet's height above its title block, mm."""
 
 
 Numbered = tuple[tuple[int, str, Step], ...]
@@ -70,13 +77,14 @@ def compose(
     paper: str = "A1",
     frame: str = "gost",
     notes: Sequence[str] = (),
-    orientation: str = "landscape",
+    orientation: str | None = None,
     tell: Tell = str,
 ) -> Drawing:
     """Lay the steps of constructions, tables and notes out on sheets.
 
     steps : (name of the construction, step), in order
-    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
+    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"; None as the frame's standard
+        has it
     tell : says all texts in the language of the sheets
 
     Each page has a group "frame", perhaps "tables" and "titles", and one for every step drawn on it, "step-03 name".
@@ -100,14 +108,24 @@ def compose_parts(
     tell : says all texts in the language of the sheets
     """
     parts = [part.told(tell) for part in parts]
-    laid_out = [(part, leaf) for part in parts for leaf in _in_order(part, _leaves(sheet, part, tell))]
-    sheets = [empty_sheet(sheet, title, k, len(laid_out), tell) for k in range(1, len(laid_out) + 1)]
+    laid_out = [(part, leaf) for part in parts for leaf in _leaves(sheet, part)]
+    titles = [_with_scale(title, leaf, tell) for _, leaf in laid_out]
+    sheets = [empty_sheet(sheet, each, k, len(laid_out), tell) for k, each in enumerate(titles, 1)]
     shown = math.inf if upto is None else upto
     pages = [_page(sheet, leaf, part, empty, shown) for (part, leaf), empty in zip(laid_out, sheets, strict=True)]
     return Drawing(title.name, tuple(pages))
 
 
-def profile_room(paper: str, frame: str, orientation: str = "landscape") -> tuple[float, float]:
+def _with_scale(title: TitleBlock, leaf: Leaf, tell: Tell) -> TitleBlock:
+    """The title block of a page: where the task names no scale, with that of its main view, else with the only one."""
+    drawn = [panel.view for panel, _ in leaf.views.values() if panel.view.mu_l is not None]
+    scales = {view.mu_l for view in drawn if view.main} or {view.mu_l for view in drawn}
+    if title.scale is not None or len(scales) != 1:
+        return replace(title, scale=title.scale or "")
+    return replace(title, scale=tell(ratio_text(scales.pop() or 1.0)))
+
+
+def profile_room(paper: str, frame: str, orientation: str | None = None) -> tuple[float, float]:
     """Width and height [mm] for the cam's profile, rollers included, labels and title not."""
     sheet = Format(paper, frame, orientation)
     inside, block = sheet.content.grown(-BORDER), title_box(sheet)
@@ -122,9 +140,9 @@ def profile_room(paper: str, frame: str, orientation: str = "landscape") -> tupl
     return max(above, beside, key=min)
 
 
-def _leaves(sheet: Format, part: SheetPart, tell: Tell) -> list[Leaf]:
+def _leaves(sheet: Format, part: SheetPart) -> list[Leaf]:
     """The pages of a part."""
-    views = panels((step for _, _, step in part.steps), sheet.lettering, tell)
+    views = panels((step for _, _, step in part.steps), sheet.lettering)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
     ways: list[list[Block]] = []
     for height in heights:
@@ -137,27 +155,11 @@ def _leaves(sheet: Format, part: SheetPart, tell: Tell) -> list[Leaf]:
 def _blocks(sheet: Format, part: SheetPart, height: float) -> list[Block]:
     # Room is found on a grid: a cell is lost at either edge.
     room = sheet.content.width - 2 * BORDER - 2 * MESH
-    blocks = [_fitted(table, height, room) for table in part.tables]
+    tall = sheet.content.height - title_box(sheet).height - FURNITURE
+    blocks = [block for table in part.tables for block in table_blocks(table, height, room, tall)]
     if part.notes:
         blocks.append(notes_block(part.notes, height, min(NOTES_WIDTH, room)))
     return blocks
-
-
-def _fitted(table: Table, height: float, room: float) -> Block:
-    """A table in letters of the height, or in smaller ones where it would be wider than the sheet."""
-    block = table_block(table, height)
-    return block if block.box.width <= room else table_block(table, height * room / block.box.width)
-
-
-def _in_order(part: SheetPart, leaves: Sequence[Leaf]) -> list[Leaf]:
-    """The pages in the order of the first step that is drawn on each; those without one come last."""
-    # What is given as a whole, as the kinematic diagram, stands where there is room.
-    drawn = [(number, step.view.name) for number, _, step in part.steps if step.own]
-
-    def first(leaf: Leaf) -> float:
-        return min((number for number, view in drawn if view in leaf.views), default=math.inf)
-
-    return sorted(leaves, key=first)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,16 +176,17 @@ def _pieces(part: SheetPart, leaf: Leaf) -> Iterator[StepPart]:
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
-            for marks, since in ((step.given, 0), (step.own, number)):
+            for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own, number)):
                 if marks or since:
-                    yield StepPart(number, since, expand(marks, Placement(origin, panel.factor), panel.letters))
+                    yield StepPart(number, since, expand(marks, Placement(origin), panel.letters))
 
 
 def _page(sheet: Format, leaf: Leaf, part: SheetPart, empty: Group, upto: float) -> Page:
     """Draw all that a page holds; the labels when every line of the finished page stands."""
     pieces = list(_pieces(part, leaf))
     finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
-    placed = zip(pieces, lettered([piece.drawn for piece in pieces], finished, sheet.content), strict=True)
+    inside = sheet.content.grown(-BESIDE_FRAME)
+    placed = zip(pieces, lettered([piece.drawn for piece in pieces], finished, inside), strict=True)
     shown = [(piece.step, entities) for piece, entities in placed if piece.since <= upto]
     steps: dict[int, list[Entity]] = {}
     for (number, _), entities in zip(shown, shading_parted([some for _, some in shown]), strict=True):
@@ -192,7 +195,7 @@ def _page(sheet: Format, leaf: Leaf, part: SheetPart, empty: Group, upto: float)
     groups = [empty, *([Group("tables", tables)] if tables else []), Group("titles", _titles(leaf, part, upto))]
     names = {number: part.group_name(number, name) for number, name, _ in part.steps}
     groups += [Group(names[number], tuple(entities)) for number, entities in steps.items()]
-    origins = {name: origin for name, (panel, origin) in leaf.views.items() if panel.factor == 1}
+    origins = {name: origin for name, (_, origin) in leaf.views.items()}
     return Page(*sheet.size, sheet.content, tuple(groups), origins)
 
 

@@ -8,7 +8,7 @@ import cmath
 import math
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from io import StringIO
 from pathlib import Path as File
@@ -25,14 +25,16 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
+from matplotlib.textpath import TextPath
 from matplotlib.transforms import Affine2D, Transform
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import FAMILY, points_size, width
+from graphcam.sheets.fonts import Letters, pieces, points_size, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.png import png_of
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
+from graphcam.sheets.typefaces import ELSEWHERE, FAMILY, cubic, font_faces
 
 INCH = 25.4
 POINT = 72 / INCH
@@ -43,7 +45,6 @@ _SETTINGS: dict[Any, Any] = {
     "svg.fonttype": "none",
     "svg.hashsalt": "graphcam",
     "path.simplify": False,
-    "font.family": FAMILY,
 }
 
 
@@ -52,7 +53,7 @@ def write_pdf(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     about = {"Title": drawing.title, "Creator": "graphcam", "CreationDate": None}
     with mpl.rc_context(_SETTINGS), PdfPages(path, metadata=about) as pdf:
         for page in drawing.pages:
-            pdf.savefig(_figure(page))
+            pdf.savefig(_figure(page, embeds_cubic=False))
 
 
 def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
@@ -61,13 +62,15 @@ def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
 
 
 def svg(page: Page) -> str:
-    """One page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts as texts."""
+    """One page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts as texts with their letters."""
     text = StringIO()
     with mpl.rc_context(_SETTINGS):
         _figure(page).savefig(text, format="svg", metadata={"Date": None, "Creator": "graphcam"})
     # matplotlib gives the size in points.
     size = f'width="{page.width:g}mm" height="{page.height:g}mm"'
-    return re.sub(r'width="[\d.]+pt" height="[\d.]+pt"', size, text.getvalue(), count=1)
+    sized = re.sub(r'width="[\d.]+pt" height="[\d.]+pt"', size, text.getvalue(), count=1)
+    drawn = (e.text for group in page.groups for e in group.entities if isinstance(e, Text))
+    return sized.replace("<defs>", f'<defs>\n  <style type="text/css">{font_faces(drawn)}</style>', 1)
 
 
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
@@ -97,19 +100,25 @@ def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
 
 
-def _figure(page: Page) -> Figure:
+def _figure(page: Page, *, embeds_cubic: bool = True) -> Figure:
+    """The page as a figure, for a kind of file that has a place for typefaces of every kind or not."""
     figure = Figure(figsize=(page.width / INCH, page.height / INCH))
     for group in page.groups:
-        figure.add_artist(_GroupArtist(group, Affine2D().scale(1 / INCH) + figure.dpi_scale_trans), clip=False)
+        to_device = Affine2D().scale(1 / INCH) + figure.dpi_scale_trans
+        figure.add_artist(_GroupArtist(group, to_device, embeds_cubic=embeds_cubic), clip=False)
     return figure
 
 
 class _GroupArtist(Artist):
-    """Draws the entities of one group, in their order; ``to_device`` is from mm of the page."""
+    """Draws the entities of one group, in their order.
 
-    def __init__(self, group: Group, to_device: Transform) -> None:
+    to_device : from mm of the page
+    embeds_cubic : whether letters of cubic outlines are drawn as text
+    """
+
+    def __init__(self, group: Group, to_device: Transform, *, embeds_cubic: bool = True) -> None:
         super().__init__()
-        self.group, self.to_device = group, to_device
+        self.group, self.to_device, self.embeds_cubic = group, to_device, embeds_cubic
         self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
@@ -154,25 +163,41 @@ class _GroupArtist(Artist):
 
     def _draw_texts(self, renderer: RendererBase, texts: Sequence[Text], role: str) -> None:
         context = self._context(renderer, STYLES[role].colour, STYLES[role].width)
-        places = self.to_device.transform(_xy(np.array([_start(text) for text in texts])))
+        set_pieces = [(piece, at, text.angle) for text in texts for piece, at in _set_pieces(text)]
+        places = self.to_device.transform(_xy(np.array([at for _, at, _ in set_pieces])))
         if renderer.flipy():
             places[:, 1] = renderer.get_canvas_width_height()[1] - places[:, 1]
         times = self._times
-        for text, (x, y) in zip(texts, places.tolist(), strict=True):
-            font = _font(times * text.height)
-            renderer.draw_text(context, x, y, text.text, font, math.degrees(text.angle), ismath=False)
+        for (piece, _, angle), (x, y) in zip(set_pieces, places.tolist(), strict=True):
+            font = _font(piece.face, times * piece.height)
+            if not self.embeds_cubic and cubic(piece.face):
+                _draw_outlines(renderer, context, piece, font, Affine2D().rotate(angle).translate(x, y))
+            else:
+                renderer.draw_text(context, x, y, piece.text, font, math.degrees(angle), ismath=False)
         context.restore()
 
 
-def _start(text: Text) -> complex:
-    """The left end of the base line, which the renderers place."""
+def _set_pieces(text: Text) -> Iterator[tuple[Letters, complex]]:
+    """The pieces of a text, each with the left end of its base line, which the renderers place."""
     shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-    return text.at - cmath.rect(shift, text.angle)
+    turn = cmath.rect(1.0, text.angle)
+    for piece in pieces(text.text, text.height):
+        yield piece, text.at + (piece.start - shift) * turn
+
+
+def _draw_outlines(
+    renderer: RendererBase, context: GraphicsContextBase, piece: Letters, font: FontProperties, place: Affine2D
+) -> None:
+    """Letters as filled outlines: matplotlib would embed them in a PDF as what they are not."""
+    context.set_linewidth(0.0)
+    letters = TextPath((0, 0), piece.text, prop=font)
+    renderer.draw_path(context, letters, place, context.get_rgb())
 
 
 @cache
-def _font(height: float) -> FontProperties:
-    return FontProperties(family=FAMILY, size=points_size(height))
+def _font(face: File, height: float) -> FontProperties:
+    # A drawing names the family; that it is drawn by the face itself asks for no search among the machine's.
+    return FontProperties(family=[FAMILY, ELSEWHERE], fname=str(face), size=points_size(height))
 
 
 # PDF, SVG and PNG of a page are drawn one after another from the same paths.

@@ -176,7 +176,7 @@ class Page:
     """A sheet of paper, ``width`` x ``height`` mm, and its groups, the later ones over the earlier.
 
     frame : the box that the drawing must not leave
-    origins : where the origins of its views lie, by the view's name; of those that are shown true to scale
+    origins : where the origins of its views lie, by the view's name
     """
 
     width: float

@@ -36,14 +36,15 @@ class Room:
     def __init__(self, inside: Box, taken: Iterable[Box] = ()) -> None:
         self.corner = inside.corner
         self.full = np.zeros((math.floor(inside.height / MESH), math.floor(inside.width / MESH)), dtype=bool)
-        self._sums: NDArray[np.int32] | None = None
+        rows, columns = self.full.shape
+        self._sums, self._summed = np.zeros((rows + 1, columns + 1), dtype=np.int32), 0
         for box in taken:
             self.take(box)
 
-    def copy(self) -> Self:
-        """The same room, to be taken in another way."""
+    def copy(self, by: complex = 0j) -> Self:
+        """The same room moved ``by`` x + iy, to be taken in another way."""
         other = copy(self)
-        other.full = self.full.copy()
+        other.full, other.corner = self.full.copy(), self.corner + by
         return other
 
     def _cells(self, box: Box) -> tuple[int, int, int, int]:
@@ -58,7 +59,7 @@ class Room:
         part = self.full[bottom:top, left:right]
         if not part.all():
             part[:] = True
-            self._sums = None
+            self._summed = min(self._summed, bottom)
 
     def take_points(self, points: Points, margin: float) -> None:
         """Occupy the cells of points, and all cells in the squares that reach ``margin`` mm beyond them."""
@@ -73,19 +74,22 @@ class Room:
             taken[:, 1:] |= taken[:, :-1].copy()
             taken[:, :-1] |= taken[:, 1:].copy()
         self.full |= taken
-        self._sums = None
+        self._summed = 0
 
     @property
     def _counts(self) -> NDArray[np.int32]:
         """How many cells are full to the left of and below each point of the grid: four of these tell if a box is free.
 
-        They are counted when they are asked for, and again when something has been taken.
+        They are counted when they are asked for, and again above the lowest row in which something has been taken.
         """
-        if self._sums is None:
-            rows, columns = self.full.shape
-            sums = np.zeros((rows + 1, columns + 1), dtype=np.int32)
-            np.cumsum(np.cumsum(self.full, axis=0, dtype=np.int32), axis=1, out=sums[1:, 1:])
-            self._sums = sums
+        rows = self._summed
+        if rows < len(self.full):
+            above = np.cumsum(self.full[rows:], axis=1, dtype=np.int32)
+            above[0] += self._sums[rows, 1:]
+            # Copies of the room share the former ones.
+            self._sums = self._sums.copy()
+            np.cumsum(above, axis=0, out=self._sums[rows + 1 :, 1:])
+            self._summed = len(self.full)
         return self._sums
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,13 +15,12 @@ from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.model import Entity, Text
 from graphcam.sheets.packing import Room
-from graphcam.sheets.sampling import around, box_of_lines, linework, sampled
-from graphcam.words import Tell, say
+from graphcam.sheets.sampling import around, box_of_lines, linework, outermost, sampled
 
 AIR = 3.0
 """Free margin around what is drawn in a view, where labels find room, mm."""
-STRIP, STRIPS = 6.0, 30
-"""The footprint of a view is taken in strips of at least this height [mm], and of at most about so many."""
+STRIPS = 12
+"""So many boxes cover the outline of a view."""
 TITLE_AIR = 1.5
 """Between a title and the lines below it, mm."""
 BLANK = "_____"
@@ -31,21 +31,28 @@ LEADING = 1.7
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A view with everything that is drawn in it, shown reduced by ``factor``; boxes are about the view's origin.
+    """A view with everything that is drawn in it; boxes are about the view's origin.
 
-    noted : whether the title says by how much it is shown reduced
+    factor : by which a screen shows it smaller than it is drawn; on paper it is 1
+    under : what it has besides where no view of the same column stands below
+    lowest : whether it stands so
     """
 
     view: View
     marks: tuple[Mark, ...]
     letters: Lettering
     factor: float = 1.0
-    tell: Tell = str
-    noted: bool = True
+    under: tuple[Mark, ...] = ()
+    lowest: bool = False
+
+    @property
+    def base(self) -> tuple[Mark, ...]:
+        """What it has because it is the lowest."""
+        return self.under if self.lowest else ()
 
     @cached_property
     def _drawn(self) -> list[Entity]:
-        entities, writings = expand(self.marks, Placement(0j, self.factor), self.letters)
+        entities, writings = expand(self.marks + self.base, Placement(0j, self.factor), self.letters)
         return [*entities, *(writing.set_at(0) for writing in writings)]
 
     @cached_property
@@ -66,15 +73,13 @@ class Panel:
     def heading(self) -> list[Text]:
         """The title about the lower left corner of its box: its first words large, what follows a comma as a note."""
         name, _, note = str(self.view.title).partition(", ")
-        if self.noted and self.factor != 1:
-            note += "; " * bool(note) + self.tell(say("shown reduced 1:{times:g}", times=1 / self.factor))
         large, small = self.letters.title, self.letters.label
         room = max(self.content.width, 17.0 * self.letters.title)
         lines = wrap(name, large, room)
         end = width(lines[-1], large) + large if lines else 0.0
         # The note follows on the same line if it fits there.
         behind = end + width(note, small) <= room
-        notes = [] if behind else wrap(note, small, room)
+        notes = [] if behind else _in_lines(note, small, room)
         texts: list[Text] = []
         base = LEADING * (small * len(notes) + large * len(lines)) + 0.2 * large
         for line, height in [*((line, large) for line in lines), *((line, small) for line in notes)]:
@@ -102,17 +107,22 @@ class Panel:
         return around_all([self.content, self.title_box])
 
     @cached_property
-    def footprint(self) -> list[Box]:
-        """Boxes that together cover the view more closely than one: other things may stand in its empty corners."""
-        points, strip = self.points, max(STRIP, self.content.height / STRIPS)
-        level = np.floor(points.imag / strip)
-        strips = [points[level == k] for k in np.unique(level)]
-        return [*(around(p).grown(AIR) for p in strips), self.title_box]
+    def outline(self) -> list[Box]:
+        """Boxes that together cover the convex outline of the view with its title, with room for labels."""
+        title = self.title_box.grown(-AIR)
+        hull = outermost(np.concatenate([self.points, title.corners]))
+        # Densely, so that every strip has a point on either side.
+        shares = np.linspace(0.0, 1.0, 10 * STRIPS)[:, None]
+        points = (hull + shares * (np.roll(hull, -1) - hull)).ravel()
+        levels = np.linspace(self.box.bottom + AIR, self.box.top - AIR, STRIPS + 1)
+        strips = [points[(points.imag >= low - 0.1) & (points.imag <= high + 0.1)] for low, high in pairwise(levels)]
+        return [around(p).grown(AIR) for p in strips]
 
-    def empty(self, origin: complex) -> Room:
-        """The empty parts of the drawing."""
-        room = Room(self.content.moved(origin), [self.title_box.moved(origin)])
-        room.take_points(self.points + origin, 2 * AIR)
+    @cached_property
+    def hollow(self) -> Room:
+        """The empty parts of the drawing, where something with air of its own may stand; it is looked into."""
+        room = Room(self.content, [self.title_box])
+        room.take_points(self.points, AIR)
         return room
 
     def title(self, origin: complex, *, answered: bool = True) -> list[Entity]:
@@ -124,14 +134,33 @@ class Panel:
         return [replace(text, text=text.text.replace(answer, BLANK)) for text in texts]
 
 
-def panels(steps: Iterable[Step], letters: Lettering, tell: Tell = str) -> list[Panel]:
+def _in_lines(note: str, height: float, room: float) -> list[str]:
+    """A note in lines no wider than ``room`` mm, broken at its commas where that does."""
+    lines: list[str] = []
+    for part in note.split(", "):
+        if lines and width(f"{lines[-1]}, {part}", height) <= room:
+            lines[-1] += f", {part}"
+        else:
+            lines = [*lines[:-1], *(f"{line}," for line in lines[-1:]), *wrap(part, height, room)]
+    return lines
+
+
+def panels(steps: Iterable[Step], letters: Lettering) -> list[Panel]:
     """The views of steps in the order of their first step; of several titles of one view the last counts."""
     views: dict[str, View] = {}
     marks: dict[str, list[Mark]] = {}
+    under: dict[str, tuple[Mark, ...]] = {}
     for step in steps:
         views[step.view.name] = step.view
         marks.setdefault(step.view.name, []).extend(step.marks)
-    return [Panel(view, tuple(marks[name]), letters, tell=tell) for name, view in views.items()]
+        under[step.view.name] = under.get(step.view.name, ()) + step.under
+    return [Panel(view, tuple(marks[name]), letters, under=under[name]) for name, view in views.items()]
+
+
+def with_lowest(group: Sequence[Panel]) -> list[Panel]:
+    """Views that stand together, the last of each column as the lowest."""
+    last = {panel.view.across: panel for panel in group}
+    return [replace(panel, lowest=panel is last[panel.view.across]) if panel.under else panel for panel in group]
 
 
 def clusters(views: Sequence[Panel]) -> list[list[Panel]]:

@@ -6,20 +6,18 @@ templates stand in ``data/player``.
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
-from io import BytesIO
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.written_acts import WrittenActs
+from graphcam.indices import in_html
 from graphcam.sheets.box import Box, around_all
-from graphcam.sheets.fonts import font_file
 from graphcam.sheets.model import (
     Drawing,
     Entity,
@@ -30,9 +28,11 @@ from graphcam.sheets.model import (
 )
 from graphcam.sheets.player_svg import group_svg, roles_css
 from graphcam.sheets.sampling import box_of
+from graphcam.sheets.typefaces import font_faces
 
 if TYPE_CHECKING:
     from jinja2 import Template
+    from markupsafe import Markup
 
 WORDS: Mapping[str, Caption] = {
     "construction": say("Construction"),
@@ -224,7 +224,7 @@ def player(
         style=whole("player.css") + Markup(roles_css()),
         scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js",) if mechanism else ()))],
         mechanism=mechanism,
-        font=_font([*said, *lettering]),
+        fonts=Markup(font_faces([*said, *lettering])),
         # No text of a drawing may end the script that holds it.
         data=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
     )
@@ -237,8 +237,16 @@ def _template() -> Template:
 
     loader = PackageLoader("graphcam", "data/player")
     environment = Environment(autoescape=True, loader=loader, undefined=StrictUndefined)
+    environment.filters["indexed"] = _indexed
     environment.trim_blocks = environment.lstrip_blocks = True
     return environment.get_template("page.html")
+
+
+def _indexed(text: str) -> Markup:
+    """A text with its indices set lower."""
+    from markupsafe import Markup, escape
+
+    return Markup(in_html(str(escape(text))))
 
 
 def _page(page: Page, acts: Acts) -> dict[str, Any]:
@@ -300,19 +308,3 @@ def _texts(slide: Slide) -> Iterable[str]:
         yield from (part.caption, *part.tools)
     for reading in slide.readings:
         yield from (reading.title, reading.taken, reading.value)
-
-
-def _font(texts: Iterable[str]) -> str:
-    """The typeface by which the sheet was lettered, with the characters of these texts alone: base64 of a WOFF."""
-    from fontTools import subset
-
-    # Widths were measured without kerning and ligatures.
-    options = subset.Options(flavor="woff", layout_features=[], recalc_timestamp=False, notdef_outline=True)
-    # The dates of the editor that it was drawn with.
-    options.drop_tables += ["FFTM"]
-    subsetter, written = subset.Subsetter(options), BytesIO()
-    subsetter.populate(text="".join(sorted(set("".join(texts)))))
-    with subset.load_font(str(font_file()), options) as font:
-        subsetter.subset(font)
-        subset.save_font(font, written, options)
-    return base64.b64encode(written.getvalue()).decode("ascii")

@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import points_size
+from graphcam.sheets.fonts import pieces, points_size
 from graphcam.sheets.model import (
     ArcEntity,
     Circles,
@@ -85,10 +85,27 @@ def _run(kind: str, role: str, where: str, run: Iterable[Entity], height: float)
 
 def _text(text: Text, where: str, height: float) -> str:
     x, y = _number(text.at.real), _number(height - text.at.imag)
-    size = f"{points_size(text.height) * MM_PER_POINT:.3f}"
+    size = _size(text.height)
     turn = f' transform="rotate({-math.degrees(text.angle):.2f} {x} {y})"' if text.angle else ""
     classes = f"text{ANCHORS[text.align]}" + (f" {text.role}" if text.role != "text" else "")
-    return f'<text class="{classes}"{where} x="{x}" y="{y}" font-size="{size}"{turn}>{escape(text.text)}</text>'
+    return f'<text class="{classes}"{where} x="{x}" y="{y}" font-size="{size}"{turn}>{_letters(text)}</text>'
+
+
+def _letters(text: Text) -> str:
+    """A text as it is, its indices smaller and set lower."""
+    written, lowered = "", 0.0
+    for piece in pieces(text.text, text.height):
+        drop = -piece.start.imag
+        size = f' font-size="{_size(piece.height)}"' if piece.index else ""
+        shift = f' dy="{_number(drop - lowered)}"' if drop != lowered else ""
+        letters = escape(piece.text)
+        written, lowered = written + (f"<tspan{size}{shift}>{letters}</tspan>" if size or shift else letters), drop
+    return written
+
+
+def _size(height: float) -> str:
+    """The size of letters, in mm of the page."""
+    return f"{points_size(height) * MM_PER_POINT:.3f}"
 
 
 def _path(entity: Entity, height: float) -> str:

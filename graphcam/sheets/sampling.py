@@ -16,6 +16,8 @@ from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Heads, Stro
 Floats = NDArray[np.float64]
 FLATNESS = 0.02
 """A curve is replaced by chords that stay so close to it, mm."""
+DIRECTIONS = 72
+"""In which the outermost points are looked for: of a circle they miss 0.1 % of its radius."""
 
 
 def pieces(entity: Entity) -> tuple[Points, Points]:
@@ -51,6 +53,17 @@ def linework(entities: Iterable[Entity]) -> tuple[Points, Points]:
     nothing: Points = np.empty(0, dtype=np.complex128)
     starts, ends = zip((nothing, nothing), *map(pieces, entities), strict=True)
     return np.concatenate(starts), np.concatenate(ends)
+
+
+def outermost(points: Points) -> Points:
+    """Corners of the convex hull of points, counter-clockwise: those farthest out in each of ``DIRECTIONS``.
+
+    >>> outermost(np.array([0j, 2, 1 + 0.5j, 2 + 1j, 1j])).tolist()
+    [(2+1j), 1j, 0j, (2+0j)]
+    """
+    angles = 2 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
+    farthest = np.argmax(np.stack([np.cos(angles), np.sin(angles)], axis=1) @ [points.real, points.imag], axis=1)
+    return points[farthest[np.diff(farthest, prepend=-1) != 0]]
 
 
 # Most circles are the dots of plotted points, all of one radius.

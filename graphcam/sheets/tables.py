@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from graphcam.sheets.box import Box
-from graphcam.sheets.fonts import width, wrap
+from graphcam.sheets.fonts import broken, width, wrap
 from graphcam.sheets.model import Entity, Text, moved
 from graphcam.sheets.title_block import Ruling, outline, rules, stacked
 from graphcam.words import Tell, Words
@@ -53,19 +54,100 @@ class Block:
         return [moved(entity, by) for entity in (self.entities + self.answers if answered else self.entities)]
 
 
-def table_block(table: Table, height: float) -> Block:
+def table_blocks(table: Table, height: float, room: float = math.inf, tall: float = math.inf) -> list[Block]:
+    """A table in letters of ``height`` mm, in a block no wider than ``room`` and no higher than ``tall`` mm.
+
+    Its cells are broken into lines where it takes that, then it is parted, first by its columns.
+    """
+    parts = [part for columns in _by_columns(table, height, room) for part in _by_rows(columns, height, room, tall)]
+    if len(parts) > 1:
+        parts = [replace(part, title=f"{part.title}, {k}/{len(parts)}") for k, part in enumerate(parts, 1)]
+    return [table_block(part, height, room) for part in parts]
+
+
+def _by_columns(table: Table, height: float, room: float) -> list[Table]:
+    """The table, or parts of it that all have its first column."""
+    least = [column.least for column in _columns(table, height)]
+    kept = 1
+    while kept < len(least) and sum(least[: kept + 1]) <= room:
+        kept += 1
+    if kept == len(least) or len(least) == 2:
+        return [table]
+    # One column beside the first, whatever its words take.
+    kept = max(2, kept)
+    first, rest = list(range(kept)), [0, *range(kept, len(least))]
+    return [_part(table, columns=first), *_by_columns(_part(table, columns=rest), height, room)]
+
+
+def _by_rows(table: Table, height: float, room: float, tall: float) -> list[Table]:
+    """The table, or parts of it that all have its header."""
+    count = len(table.rows)
+    if count < 2 or table_block(table, height, room).box.height <= tall:
+        return [table]
+    halves = range((count + 1) // 2), range((count + 1) // 2, count)
+    return [part for rows in halves for part in _by_rows(_part(table, rows=rows), height, room, tall)]
+
+
+def _part(table: Table, columns: Sequence[int] | None = None, rows: Sequence[int] | None = None) -> Table:
+    across = range(len(table.header)) if columns is None else columns
+    down = range(len(table.rows)) if rows is None else rows
+    cells = tuple(tuple(table.rows[j][k] for k in across) for j in down)
+    answers = {(y, x) for y, j in enumerate(down) for x, k in enumerate(across) if (j, k) in table.answers}
+    return Table(table.title, tuple(table.header[k] for k in across), cells, frozenset(answers))
+
+
+@dataclass(frozen=True)
+class _Column:
+    """A column's texts, the header's first; how wide it would be, and how wide it must be for its words [mm]."""
+
+    cells: tuple[str, ...]
+    wanted: float
+    least: float
+
+
+def _columns(table: Table, height: float) -> list[_Column]:
+    found: list[_Column] = []
+    for k, header in enumerate(table.header):
+        cells = (str(header), *(str(row[k]) for row in table.rows))
+        longest = math.inf if k else LONGEST * height
+        below = max((_widest(wrap(cell, height, longest), height) for cell in cells[1:]), default=0.0)
+        # A header is as wide as what stands below it, but in no more than two or three lines.
+        lines = wrap(cells[0], height, max(below, 0.6 * width(cells[0], height)))
+        wanted = max(below, _widest(lines, height))
+        least = max((width(word, height) for cell in cells for word in cell.split()), default=0.0)
+        found.append(_Column(cells, max(wanted, least) + MARGIN * height, least + MARGIN * height))
+    return found
+
+
+def _widths(columns: Sequence[_Column], room: float) -> list[float]:
+    """The columns' widths: as they would be, else narrower, so that together they take the room."""
+    wanted, least = sum(column.wanted for column in columns), sum(column.least for column in columns)
+    if wanted <= room:
+        return [column.wanted for column in columns]
+    if least <= room:
+        share = (room - least) / (wanted - least)
+        return [column.least + share * (column.wanted - column.least) for column in columns]
+    # Two columns, one of them with a word that is wider than the room.
+    narrow = min(min(column.least for column in columns), room / 2)
+    return [narrow if column.least <= narrow else room - narrow for column in columns]
+
+
+def table_block(table: Table, height: float, room: float = math.inf, *, row_height: float = ROW) -> Block:
     """A table in letters of ``height`` mm, its lower left corner at the origin: names to the left, the rest centred.
 
-    A header that is wider than what stands under it is broken into lines, and so is a long name.
+    row_height : in heights of its letters
     """
-    title, rows = str(table.title), [_broken(row, height) for row in table.rows]
-    headers = [_header(str(cell), [row[k] for row in rows], height) for k, cell in enumerate(table.header)]
-    headed = int(any(headers))
-    widths = [max(_widest(row[k], height) for row in (headers, *rows)) + MARGIN * height for k in range(len(headers))]
+    title, columns = str(table.title), _columns(table, height)
+    widths = _widths(columns, room)
+    titled = broken(title, height, room) or [""]
     # The title must not stand over the edge.
-    widths[-1] += max(0.0, width(title, height) - sum(widths))
+    widths[-1] += max(0.0, _widest(titled, height) - sum(widths))
+    slack = 1e-6 + height * -MARGIN
+    told = [[broken(c, height, w + slack) for c in column.cells] for column, w in zip(columns, widths, strict=True)]
+    headers, *rows = (list(row) for row in zip(*told, strict=True))
+    headed = int(any(headers))
     grid = [headers, *rows][1 - headed :]
-    heights = [(ROW + (max(map(len, row)) - 1) * LEADING) * height for row in grid]
+    heights = [(row_height + (max(1, *map(len, row)) - 1) * LEADING) * height for row in grid]
     # Columns end from the left edge on, rows from the upper edge down.
     ends = [sum(widths[:k]) for k in range(len(widths) + 1)]
     levels = [sum(heights[j:]) for j in range(len(grid) + 1)]
@@ -74,13 +156,14 @@ def table_block(table: Table, height: float) -> Block:
     thin = [*across[headed:-1], *((x, 0, x, high) for x in ends[1:-1])]
     entities: list[Entity] = [rules(0j, outline(wide, high) + across[:headed], "table")]
     entities += [rules(0j, thin, "ruling")] if thin else []
-    entities.append(Text(complex(0, high + 0.7 * height), title, height))
+    above = high + (len(titled) - 1) * LEADING * height
+    entities += stacked(titled, complex(0, above + 0.7 * height), LEADING, height, "left")
     answers: list[Entity] = []
     for j, (row, (upper, lower)) in enumerate(zip(grid, pairwise(levels), strict=True), -headed):
         for k, (lines, (left, right)) in enumerate(zip(row, pairwise(ends), strict=True)):
             texts = _cell(lines, Box(left, lower, right, upper), height)
             (answers if (j, k) in table.answers else entities).extend(texts)
-    return Block(tuple(entities), tuple(answers), Box(0, 0, wide, high + 2.0 * height))
+    return Block(tuple(entities), tuple(answers), Box(0, 0, wide, above + 2.0 * height))
 
 
 def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
@@ -88,19 +171,6 @@ def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
     y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
     x, align = ((box.left + box.right) / 2, "center") if box.left else (MARGIN / 2 * height, "left")
     return stacked(lines, complex(x, y), LEADING, height, align)
-
-
-def _broken(row: Iterable[Words], height: float) -> list[list[str]]:
-    """The cells of a row in lines; only a long name, at the left, has more than one."""
-    name, *others = map(str, row)
-    longest = LONGEST * height
-    return [wrap(name, height, longest) if width(name, height) > longest else [name], *([cell] for cell in others)]
-
-
-def _header(cell: str, below: Iterable[list[str]], height: float) -> list[str]:
-    """A header's cell in lines about as wide as what stands below it, but in no more than two or three."""
-    widest = max((_widest(lines, height) for lines in below), default=0.0)
-    return wrap(cell, height, max(widest, 0.6 * width(cell, height)))
 
 
 def _widest(lines: Iterable[str], height: float) -> float:

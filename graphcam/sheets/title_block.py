@@ -2,28 +2,29 @@
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NoReturn
 
 import numpy as np
 
-from graphcam.sheets.fonts import width, wrap
+from graphcam.errors import DesignError
+from graphcam.sheets.fonts import HEIGHTS, broken, width, wrap
 from graphcam.sheets.model import Entity, Strokes, Text
 from graphcam.words import Caption, Tell, say
 
-CAPTION, NARROW = 2.5, 2.0
-"""Heights of the captions of fields, and of narrow ones, mm."""
-LOWER = 0.95
-"""An entry that has to be broken into lines is lowered by this factor until they fit."""
-ONE_LINE = 0.7
-"""An entry is rather lowered by this factor than broken into lines."""
-LEADING = 1.6
-"""From base line to base line of an entry, in heights of its letters."""
+CAPTION, NARROW = 2.5, 1.8
+"""Heights of the captions of fields, and of narrow ones, mm: the least of them stands in no other place of a sheet."""
+LEADING, TIGHT = 1.5, 1.35
+"""From base line to base line of an entry, in heights of its letters; in the smallest letters."""
 SIZES = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}
 """Width and height of the block of each frame, mm."""
 
 
 @dataclass(frozen=True)
 class TitleBlock:
-    """What is written into the title block; what is empty stays empty."""
+    """What is written into the title block; what is empty stays empty.
+
+    scale : None is the scale of what is drawn on the sheet
+    """
 
     name: str = ""
     number: str = ""
@@ -34,7 +35,7 @@ class TitleBlock:
     approved: str = ""
     material: str = ""
     mass: str = ""
-    scale: str = ""
+    scale: str | None = ""
 
 
 Ruling = tuple[float, float, float, float]
@@ -59,33 +60,56 @@ def stacked(lines: list[str], first: complex, leading: float, height: float, ali
     return [Text(first - 1j * (k * leading * height), line, height, align) for k, line in enumerate(lines) if line]
 
 
-def fitted(text: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
-    """A text in the middle of a field x1, y1, x2, y2 in at most ``height`` mm capitals.
+def fitted(text: str, field: Ruling, height: float, align: str = "center", what: str = "caption") -> list[Text]:
+    """A text in the middle of a field x1, y1, x2, y2, in capitals of ``height`` mm or of a smaller standard height.
 
-    It is lowered a little to stay on one line, else broken into lines and lowered as far as it takes; nothing is cut.
+    It is rather broken into lines than made smaller, and rather made smaller than a word is broken; nothing is cut.
+
+    Raises
+    ------
+    DesignError : ``what`` it is is too long even in the smallest letters
     """
     left, bottom, right, top = field
-    room, tall = right - left - 2.0, top - bottom - 1.0
-    # Widths are in proportion to heights.
-    one_line = min(height, room / width(text, 1.0)) if text else height
-    lines = [text]
-    if one_line >= ONE_LINE * height:
-        height = one_line
-    else:
-        lines = wrap(text, height, room)
-        # The last line counts whole: its letters have tails.
-        while max(width(line, height) for line in lines) > room or LEADING * len(lines) * height > tall:
-            height *= LOWER
-            lines = wrap(text, height, room)
+    lines, height = _set(text, field, height) or _refused(text, field, height, what)
+    leading = _leading(height)
     x = (left + right) / 2 if align == "center" else left + 1.0
     # The first base line, so that the block of lines stands in the middle.
-    y = (bottom + top) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
-    return stacked(lines, complex(x, y), LEADING, height, align)
+    y = (bottom + top) / 2 + (len(lines) - 1) * leading / 2 * height - height / 2
+    return stacked(lines, complex(x, y), leading, height, align)
+
+
+def _set(text: str, field: Ruling, height: float) -> tuple[list[str], float] | None:
+    """The lines of a text that fit a field, and their height; None where none do."""
+    left, bottom, right, top = field
+    room = right - left - 2.0
+    lower = [size for size in reversed(HEIGHTS) if size <= height]
+    for sizes in (lower[:-1], lower[-1:]) if height > NARROW else (lower,):
+        for lines_of in (wrap, broken):
+            for size in sizes:
+                lines = lines_of(text, size, room)
+                # The last line counts with the tails of its letters.
+                high = (1.3 + (len(lines) - 1) * _leading(size)) * size
+                tall = top - bottom - (0.2 if size == NARROW else 1.0)
+                if high <= tall and all(width(line, size) <= room for line in lines):
+                    return lines, size
+    return None
+
+
+def _leading(height: float) -> float:
+    return TIGHT if height == NARROW else LEADING
+
+
+def _refused(text: str, field: Ruling, height: float, what: str) -> NoReturn:
+    fits = next(count for count in range(len(text) - 1, -1, -1) if _set(text[:count], field, height) is not None)
+    limit = f"at most {fits} letters, for which its field of the title block has room"
+    raise DesignError(f"length of {what}", len(text), limit, "shorten it")
 
 
 def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
     """What a title says under a name, in a field; the texts know the name."""
-    return [replace(text, field=name) for text in fitted(getattr(title, name), field, height, align)]
+    key = "document" if name == "number" else name
+    said = getattr(title, name) or ""
+    return [replace(text, field=name) for text in fitted(said, field, height, align, f"title.{key}")]
 
 
 def title_block(
@@ -110,7 +134,7 @@ def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
     columns = (say("Ch."), say("Sheet"), say("Document no."), say("Signed"), say("Date"))
     for (left, right), caption in zip(pairwise((0, 7, 17, 40, 55, 65)), columns, strict=True):
         texts += fitted(tell(caption), (left, 30, right, 35), NARROW)
-    captions = (say("Drawn"), say("Checked"), say("Tech."), "", say("Norms"), say("Approved"))
+    captions = (say("Drawn"), say("Checked"), say("Tech."), "", say("Norms"), say("Appr."))
     signers = ("author", "checked", "", "", "", "approved")
     for bottom, caption, name in zip(range(25, -1, -5), captions, signers, strict=True):
         texts += fitted(tell(caption), (0, bottom, 17, bottom + 5), CAPTION, align="left")
@@ -154,7 +178,7 @@ def _iso(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
         # The outer sides are bold already.
         thin += [(left, bottom, right, bottom)] if bottom else []
         thin += [(left, bottom, left, top)] if left else []
-        texts += fitted(tell(caption), (left, top - 3.6, right, top - 0.2), 1.8, align="left")
+        texts += fitted(tell(caption), (left, top - 3.6, right, top - 0.2), NARROW, align="left")
         height = 5.0 if name == "name" else 3.5
         texts += entry(title, name, (left, bottom, right, top - 3.2), height) if name else []
     texts += fitted(f"{sheet}/{sheets}", (164, 0, 180, 9 - 3.2), 3.5)

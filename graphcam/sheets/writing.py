@@ -19,6 +19,8 @@ GAPS = np.array([1.2, 1.8, 2.5, 3.4, 4.6, 6.5, 9.0, 12.0, 16.0, 21.0, 27.0, 35.0
 """Distances between a point and its label that are tried, mm."""
 LEADER = 6.0
 """From this distance on, a thin line leads from the label to its point, mm."""
+ABOVE = 1.0
+"""Between a dimension line and its text above it, mm."""
 CLEAR = 2.0
 """Between a dimension line and a text on a leader from it, mm."""
 SHARES = np.array([0.5, 0.42, 0.58, 0.3, 0.7, 0.18, 0.82])
@@ -147,7 +149,7 @@ def along(start: complex, end: complex, text: str, height: float) -> Writing:
         start, end, direction = end, start, -direction
     on_line, cost = start + SHARES * (end - start), 4 * np.abs(SHARES - 0.5)
     free = around(complex(on_line[0]), text, height, 1j * direction)
-    lift = free.size.imag / 2 + 0.8
+    lift = free.size.imag / 2 + ABOVE
     centres = np.concatenate([on_line + 1j * direction * lift, on_line - 1j * direction * lift])
     return free.on_line(centres, cmath.phase(direction), np.concatenate([cost, 3 + cost]), dearer=12)
 

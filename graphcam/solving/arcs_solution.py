@@ -1,7 +1,7 @@
 """Task to solution, of a cam of three circular arcs."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,19 +10,22 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.comparison.arc_quantities import ArcsComparison
-from graphcam.constructions.arc_chain import ArcBoard, ArcChain
+from graphcam.constructions.arc_chain import AROUND_CENTRES, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
+from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
+from graphcam.sheets.leaves import free_rooms
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import diagram_room
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.words import Tell
 
 POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
@@ -138,6 +141,7 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
         raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
     width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
     diagrams = diagram_room(drawing)
+    extent = _extent(roots, math.hypot(*given.D) + 2 * task.follower.roller_radius)
     board = ArcBoard(
         given=given,
         dwell=math.radians(task.arcs.dwell),
@@ -145,10 +149,29 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
         divisions=drawing.divisions,
         mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
         room=(SHARE * width, SHARE * height),
+        extent=extent,
+        page=_page(drawing, extent),
+        ratios=STANDARD_RATIOS[drawing.frame],
         heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
+        omega=None if task.speed_rpm is None else task.speed_rpm * math.tau / 60,
     )
     motion = roots[0].motion(board.roller_radius, board.dwell)
     return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
+
+
+def _extent(roots: Sequence[ThreeArcCam], outer: float) -> complex:
+    """How wide + i high a circle about the cam centre and the centres of the arcs of all roots are [mm]."""
+    centres = np.array([getattr(root, name) for root in roots for name in ("C1", "C2", "C3")])
+    centres = centres[np.isfinite(centres).all(axis=1)]
+    low, high = np.minimum(centres.min(axis=0), -outer), np.maximum(centres.max(axis=0), outer)
+    return complex(*(high - low).tolist())
+
+
+def _page(drawing: SheetTable, extent: complex) -> Paper:
+    """The part of a page in which a view is drawn the largest."""
+    rooms = free_rooms(Format(drawing.format, drawing.frame, drawing.orientation))
+    papers = [Paper(*room, STANDARD_RATIOS[drawing.frame]) for room in rooms if min(room) > abs(AROUND_CENTRES)]
+    return min(papers, key=lambda paper: paper.scale(extent, AROUND_CENTRES).per_mm)
 
 
 AnySolution = Solution | ArcsSolution

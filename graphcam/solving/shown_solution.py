@@ -10,8 +10,14 @@ from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import Floats
 from graphcam.showing import WIDTH, Shown, from_above, in_lines
 
-FILES = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
-"""The kinds of files that a solution is written to."""
+USUAL = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
+"""The kinds of files that a solution is written to if nothing else is said ..."""
+CUTTING = "profile_step", "profile_gcode"
+"""... those by which a machine cuts the cam ..."""
+FILES = (*USUAL, *CUTTING)
+"""... and all that there are."""
+GIVEN = "graphcam", "task", "files"
+"""What ``solution.json`` says of an unfinished sheet: no answers."""
 
 
 class ShownSolution(Shown):
@@ -27,20 +33,27 @@ class ShownSolution(Shown):
         upto: int | str | None = None,
         per_construction: bool = False,
         dxf: str = "plain",
+        working_drawing: bool = False,
         progress: Callable[[str], None] | None = None,
     ) -> dict[str, str | None]:
         """Write the sheet, the step player, the tables, the note and the profile into a folder: all of them, or none.
 
-        files : kinds among :data:`FILES`, by default all; ``solution.json``, which names the others, always comes along
+        The folder is the run's: what the run before wrote into it and this one does not goes, unless somebody has
+        changed it since.  Other files stay as they are.
+
+        files : kinds among :data:`FILES`, by default :data:`USUAL`; ``solution.json``, which names the others, always
+            comes along
         upto, per_construction : which sheets, as for :func:`~graphcam.report.documents.sheet_of`; an unfinished sheet
-            is called "worksheet", and has no step player, which shows the finished one
+            is called "worksheet", and stands alone: what holds answers is not written, nor do they stand in
+            ``solution.json``
         dxf : "plain" for every program, or "cad" with true dimensions and an editable title block
+        working_drawing : whether the cam as a part is drawn too, with the task's table ``[part]``: PDF, SVG and DXF
         progress : hears what is being done
         returns : the files' names in the folder by kind, None for a kind that there is not
 
         Raises
         ------
-        DesignError : there is no such kind of file, step, construction or kind of DXF
+        DesignError : there is no such kind of file, step, construction or kind of DXF, or no such part
         OutputError : the folder cannot be written
 
         >>> import graphcam as gc
@@ -50,8 +63,8 @@ class ShownSolution(Shown):
         >>> [name for name in written.values() if name]
         ['comparison.csv', 'note.md']
         """
-        choices = {"upto": upto, "per_construction": per_construction, "dxf": dxf, "progress": progress}
-        return from_above("report.output_folder.write")(self, folder, files, **choices)
+        choices = {"upto": upto, "per_construction": per_construction, "dxf": dxf, "working_drawing": working_drawing}
+        return from_above("report.output_folder.write")(self, folder, files, **choices, progress=progress)
 
     def _in_lines(self, name: str, mechanism: object, drawn: Iterable[str]) -> str:
         # The last line of the mechanism says how to go on from there.
@@ -59,6 +72,15 @@ class ShownSolution(Shown):
         last = ".drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files"
         rows = [size.strip() for size in sizes] + wrap("drawn: " + ", ".join(drawn), WIDTH)
         return in_lines(f"{type(self).__name__} of {name!r}", rows, last)
+
+
+def without_answers(document: Mapping[str, Any]) -> dict[str, Any]:
+    """What ``solution.json`` says of an unfinished sheet.
+
+    >>> without_answers({"graphcam": "1.0", "task": {}, "quantities": {"max_v": 43.0}, "files": {}})
+    {'graphcam': '1.0', 'task': {}, 'files': {}}
+    """
+    return {key: document[key] for key in GIVEN}
 
 
 def plain_number(value: float) -> float | None:

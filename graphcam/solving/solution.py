@@ -13,11 +13,14 @@ from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
+from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.spline import ProfileSpline, profile_spline
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import less_round, warnings_of
+from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
 
@@ -68,6 +71,23 @@ class Solution(ShownSolution):
         if spring is None or speed is None:
             return None
         return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None)
+
+    @cached_property
+    def profile_spline(self) -> ProfileSpline:
+        """The profile that can be cut, as one spline with the degree and the control points that the part asks for.
+
+        Raises
+        ------
+        DesignError : no profile can be told that could be cut, or its spline takes more control points, or fewer
+        """
+        part = self.task.part or PartTable()
+        degree, count = part.spline_degree, part.spline_control_points
+        try:
+            return profile_spline(self.cam, degree=degree, control_points=count, trimmed=True)
+        except DesignError as error:
+            if error.quantity != "control_points":
+                raise
+            raise DesignError("part.spline_control_points", count, error.limit, "or leave it out") from None
 
     def to_dict(self) -> dict[str, Any]:
         """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""

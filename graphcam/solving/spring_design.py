@@ -8,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, phase_symbol
+from graphcam.constructions.axes import axes_over_phi, degrees, degrees_below, phase_ends, phase_symbol, reach
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import round_scale
+from graphcam.constructions.graduation import graduated
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Role, Segments
+from graphcam.drafting.marks import Dots, Label, Line, Role, Segments
 from graphcam.drafting.meaning import Meaning
+from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
@@ -140,18 +142,17 @@ def contact_steps(drawn: Construction[Contact]) -> list[Step]:
     """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
     contact = drawn.givens
     curve, motion = contact.curve(), contact.motion
-    mu_force, mu_phi = round_scale(float(np.abs(curve.force).max())), FULL_TURN / WIDTH
-    points = curve.phi / mu_phi + UP * curve.force / mu_force.per_mm
-    low, high = min(0.0, float(points.imag.min())), max(0.0, float(points.imag.max()))
-    ends = np.append(motion.starts, FULL_TURN) / mu_phi
+    mu_force, mu_phi = round_scale(float(np.abs(curve.force).max())), Scale(FULL_TURN / WIDTH, "rad")
+    points = curve.phi / mu_phi.per_mm + UP * curve.force / mu_force.per_mm
+    low, high = reach(points.imag)
+    ends = phase_ends(motion, mu_phi)
     least = contact.least_force()
-    bottom = least.phi / mu_phi + UP * least.value / mu_force.per_mm
+    bottom = least.phi / mu_phi.per_mm + UP * least.value / mu_force.per_mm
     axes = (
-        Arrow(0j, WIDTH + OVERHANG + 0j, Role.SCALE),
-        Arrow(low * UP, (high + OVERHANG) * UP, Role.SCALE),
+        *axes_over_phi(WIDTH, mu_phi, points.imag, say("ξ, N")),
+        *graduated(points.imag, mu_force.per_mm),
+        *degrees_below(WIDTH, mu_phi, low),
         Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
-        Label(WIDTH + OVERHANG + 0j, "φ", towards=1 - 1j),
-        Label((high + OVERHANG) * UP, say("ξ, N"), towards=-1 + 0j),
         *(
             Label(complex((a + b) / 2), phase_symbol(motion, k), towards=-UP, small=True)
             for k, (a, b) in enumerate(pairwise(ends))
@@ -163,7 +164,7 @@ def contact_steps(drawn: Construction[Contact]) -> list[Step]:
         Line(points, Role.RESULT),
         Dots(np.array([bottom]), Role.LIMIT),
         Label(bottom, _newtons(_clean(least.value)), towards=-UP),
-        *(Line(np.array(ends) / mu_phi + 0j, Role.LIMIT) for ends in lost),
+        *(Line(np.array(ends) / mu_phi.per_mm + 0j, Role.LIMIT) for ends in lost),
     )
     mu = {"mu": mu_force.per_mm}
     view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", **mu))

@@ -1,24 +1,22 @@
-"""Task to drawing board: what a hand starts from, and how large the diagrams are drawn where the task leaves it open.
-
-These are the scale of the cam angle, the ordinate and the poles.
-"""
+"""Task to drawing board: what a hand starts from, and how much paper it has."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import replace
 from functools import singledispatch
-
-import numpy as np
 
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
-from graphcam.drafting.scale import Scale
-from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion, Rise
+from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale, coarsest, standard_scale
+from graphcam.errors import DesignError
 from graphcam.given.roller_rule import roller_rule
+from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.sheets.formats import Format as SheetFormat
 from graphcam.sheets.layout import profile_room
+from graphcam.sheets.leaves import free_rooms
+from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task import FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
 
@@ -28,7 +26,8 @@ def board_of(task: Task) -> Board:
     drawing, motion = task.drawing, task.motion()
     follower = drawn_follower(task.follower, task)
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
-    ordinate = drawing.ordinate or chosen_ordinate(motion, room)
+    heights = DrawnHeights(motion, room.degrees_per_mm)
+    ordinate, poles = heights.chosen(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
     return Board(
         motion=motion,
         follower=follower,
@@ -39,10 +38,12 @@ def board_of(task: Task) -> Board:
         roller_rule=roller_rule(task.follower.roller_rule),
         divisions=drawing.divisions,
         ordinate=ordinate,
-        poles=drawing.poles or chosen_poles(motion, room, ordinate),
+        poles=poles,
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
         rounding=drawing.rounding,
+        omega=None if task.speed_rpm is None else task.speed_rpm * math.tau / 60,
         profile_room=profile_room(drawing.format, drawing.frame, drawing.orientation),
+        ratios=STANDARD_RATIOS[drawing.frame],
     )
 
 
@@ -59,7 +60,8 @@ def _(table: TranslatingTable, task: Task) -> DrawnTranslating:
 
 @drawn_follower.register
 def _(table: OscillatingTable, task: Task) -> DrawnOscillating:
-    return DrawnOscillating(table.arm, table.distance, arm_room(task.drawing))
+    follower = DrawnOscillating(table.arm, table.distance)
+    return replace(follower, mu_l=_scale_of_positions(task, follower))
 
 
 @drawn_follower.register
@@ -67,44 +69,17 @@ def _(table: FlatFacedTable, task: Task) -> DrawnFlatFaced:
     return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
 
 
-ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
-"""Ordinates that are chosen from [mm of paper]."""
-POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
-"""Pole distances that are chosen from [mm of paper]."""
-USUAL_POLE = 40.0
-"""At 1 degree a millimetre [mm of paper]; where the axis is shorter it is shorter in proportion, so that chords keep
-their slopes."""
-LOW = 0.7
-"""A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
-LONGEST_POLE = 0.25
-"""Of the axis of the cam angle: a longer pole would take the room of the diagrams."""
-
-
-@dataclass(frozen=True)
-class DiagramRoom:
-    """What the diagrams of a format are drawn for.
-
-    degrees_per_mm : of the cam angle, so that a turn and the poles fit across the sheet
-    a, v, s : heights that the whole diagrams should keep to [mm of paper]
-    """
-
-    degrees_per_mm: float
-    a: float
-    v: float
-    s: float
-
-
 ROOMS = {
-    ("A1", "landscape"): DiagramRoom(1.0, 180.0, 130.0, 60.0),
-    ("A1", "portrait"): DiagramRoom(1.0, 120.0, 100.0, 50.0),
-    ("A2", "landscape"): DiagramRoom(1.0, 75.0, 60.0, 36.0),
-    ("A2", "portrait"): DiagramRoom(2.0, 110.0, 90.0, 50.0),
-    ("A3", "landscape"): DiagramRoom(2.0, 90.0, 75.0, 40.0),
-    ("A3", "portrait"): DiagramRoom(2.0, 80.0, 70.0, 40.0),
-    ("A4", "landscape"): DiagramRoom(2.0, 45.0, 40.0, 30.0),
-    ("A4", "portrait"): DiagramRoom(3.0, 75.0, 65.0, 40.0),
+    ("A1", False): DiagramRoom(1.0, 180.0, 130.0, 60.0),
+    ("A1", True): DiagramRoom(1.0, 120.0, 100.0, 50.0),
+    ("A2", False): DiagramRoom(1.0, 75.0, 60.0, 36.0),
+    ("A2", True): DiagramRoom(2.0, 110.0, 90.0, 50.0),
+    ("A3", False): DiagramRoom(2.0, 90.0, 75.0, 40.0),
+    ("A3", True): DiagramRoom(2.0, 80.0, 70.0, 40.0),
+    ("A4", False): DiagramRoom(2.0, 45.0, 40.0, 30.0),
+    ("A4", True): DiagramRoom(3.0, 75.0, 65.0, 40.0),
 }
-"""By format and orientation."""
+"""By format, and whether it stands upright."""
 WITHOUT_ANGLES = 1.6
 """So many times its height the displacement may have where no diagram of the pressure angle stands under it; not on A4,
 where the combined diagram, which has the same scale, would be wider than the sheet."""
@@ -112,74 +87,87 @@ where the combined diagram, which has the same scale, would be wider than the sh
 
 def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
     """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
-    room = ROOMS[drawing.format, drawing.orientation]
+    upright = _format(drawing).upright
+    room = ROOMS[drawing.format, upright]
     return room if angles or drawing.format == "A4" else replace(room, s=WITHOUT_ANGLES * room.s)
 
 
-def arm_room(drawing: SheetTable) -> float:
-    """How long an arm may be where its positions are drawn [mm of paper]: on A4 all of it would not fit as usual."""
-    return ARM_ON_PAPER / 2 if drawing.format == "A4" else ARM_ON_PAPER
+AROUND = complex(60.0, 52.0)
+"""What numbers, letters, arrows and the title need about the curves of a diagram."""
+
+BESIDE_POLE = 24.0
+"""What stands to the left of a pole, and to the right of a turn."""
 
 
-def chosen_ordinate(motion: Motion, room: DiagramRoom) -> float:
-    """The largest ordinate of the first rise [mm of paper] at which the acceleration keeps to its room.
+def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> DiagramRoom:
+    """What no diagram may exceed, for no page of the format would take it.
 
-    >>> from math import pi
+    The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
+    """
+    rooms = [complex(*room) for room in free_rooms(_format(task.drawing))]
+    beside = heights.turn + BESIDE_POLE
+    diagram = max((room for room in rooms if room.real >= beside + POLES[0]), key=lambda room: room.imag)
+    size = follower.extent(heights.values, task.limits(), task.rotation, task.cam.prime_radius)
+    # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
+    free = [room - AROUND for room in rooms if room.real > AROUND.real]
+    mu_s = min(max(size.real / each.real, size.imag / each.imag) for each in free)
+    low = heights.motion.lift / mu_s if mu_s else math.inf
+    high, pole = diagram.imag - AROUND.imag, diagram.real - beside
+    # Of few parts velocity and displacement are drawn higher: by so much of a cycloid, less of other laws.
+    part = math.pi / max(task.drawing.divisions, 2)
+    surplus = (part / math.sin(part)) ** 2
+    return DiagramRoom(heights.degrees_per_mm, high, high / surplus, min(high, low) / surplus, pole)
+
+
+def check_given_sizes(task: Task) -> None:
+    """That the ordinate and the poles that a task gives leave diagrams that fit a page of its format.
+
+    Raises
+    ------
+    DesignError : one of them is too large
+
     >>> import graphcam as gc
-    >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
-    >>> a3 = ROOMS["A3", "landscape"]
-    >>> chosen_ordinate(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), a3)
-    40.0
-    >>> chosen_ordinate(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), a3)
-    5.0
+    >>> from dataclasses import replace
+    >>> task = gc.builtin_task()
+    >>> check_given_sizes(replace(task, drawing=replace(task.drawing, ordinate=2000.0)))
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: drawing.ordinate is '2000 mm', but must be at most 149 mm on A1 landscape; take ...
     """
-    _, _, a = _values(motion)
-    height = _height(a) / _first_peak(motion)
-    return next((y for y in ORDINATES if y * height <= room.a), ORDINATES[-1])
+    drawing, board = task.drawing, board_of(task)
+    on, larger = f"on {_format(drawing).said}", "take a larger format, or leave it out"
+    heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
+    most = page_room(task, heights, board.follower)
+    for k, pole in enumerate(drawing.poles or ()):
+        if pole > most.pole:
+            raise DesignError(
+                f"drawing.poles[{k}]", f"{pole:g} mm", f"at most {math.floor(most.pole):g} mm {on}", larger
+            )
+    largest = heights.largest_ordinate(most, board.poles)
+    if (given := drawing.ordinate) is not None and given > largest:
+        limit = f"at most {math.floor(10 * largest) / 10:g} mm {on}"
+        raise DesignError("drawing.ordinate", f"{given:g} mm", limit, larger)
 
 
-def chosen_poles(motion: Motion, room: DiagramRoom, ordinate: float) -> tuple[float, float]:
-    """The pole distances, acceleration to velocity and on to displacement [mm of paper].
-
-    The usual ones; longer ones where a diagram would be too high, shorter ones where it would be much lower than its
-    room.
-    """
-    s, v, _ = _values(motion)
-    # mu_v = mu_a mu_phi H1, mu_s = mu_v mu_phi H2.
-    mu_phi = np.radians(room.degrees_per_mm)
-    mu_a = _first_peak(motion) / ordinate
-    first = _pole(room, room.v, lambda pole: _height(v) / (mu_a * mu_phi * pole))
-    second = _pole(room, room.s, lambda pole: _height(s) / (mu_a * mu_phi * first * mu_phi * pole))
-    return first, second
+def _format(drawing: SheetTable) -> SheetFormat:
+    return SheetFormat(drawing.format, drawing.frame, drawing.orientation)
 
 
-SAMPLES = 361
-"""Of each phase, however short it is."""
+AROUND_ARM = complex(40.0, 62.0)
+"""What stands about the arm positions: letters, the region below the cam centre, the title."""
 
 
-def _values(motion: Motion) -> tuple[Floats, Floats, Floats]:
-    """s, v and a over the turn."""
-    phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, SAMPLES), indexing="ij")
-    return motion.at(phase.ravel(), u.ravel())[:3]
-
-
-def _height(values: Floats) -> float:
-    """Of a whole diagram, with its axis."""
-    return float(max(0.0, values.max()) - min(0.0, values.min()))
-
-
-def _first_peak(motion: Motion) -> float:
-    """The greatest acceleration of the first rise."""
-    first = next(phase for phase in motion.phases if isinstance(phase, Rise))
-    return first.normalised.peak_acceleration * first.lift / first.angle**2
-
-
-def _pole(room: DiagramRoom, high: float, height: Callable[[float], float]) -> float:
-    usual, longest = USUAL_POLE / room.degrees_per_mm, LONGEST_POLE * 360 / room.degrees_per_mm
-    possible = [pole for pole in POLES if pole <= longest]
-    k = min(range(len(possible)), key=lambda k: abs(possible[k] - usual))
-    while k + 1 < len(possible) and height(possible[k]) > high:
-        k += 1
-    while k > 0 and height(possible[k]) < LOW * high and height(possible[k - 1]) <= high:
-        k -= 1
-    return possible[k]
+def _scale_of_positions(task: Task, follower: DrawnOscillating) -> Scale:
+    """The largest standard scale at which the arm is no longer than usual and its positions fit a page."""
+    ratios, radius, distance = STANDARD_RATIOS[task.drawing.frame], task.cam.prime_radius, follower.place
+    centres = [] if radius is None or distance is None else [(radius, distance)]
+    limits, arm = task.limits(), follower.built(distance, 0.0)
+    # Where the drawing will find the cam centre is computed, for no other end than to leave room for it.
+    with suppress(DesignError):
+        least = minimum_radius(task.motion(), arm, task.rotation, limits.rise, limits.return_, rest=limits.rest)
+        centres.append((least.prime_radius, least.distance))
+    size = follower.positions(over_the_turn(task.motion()), task.rotation, limits, centres)
+    rooms = [complex(*room) for room in free_rooms(_format(task.drawing))]
+    wide = [room for room in rooms if room.real > AROUND_ARM.real and room.imag > AROUND_ARM.imag]
+    papers = [Paper(room.real, room.imag, ratios) for room in wide]
+    fitting = min((paper.scale(size, AROUND_ARM) for paper in papers), key=lambda scale: scale.per_mm)
+    return coarsest(standard_scale(follower.arm, ARM_ON_PAPER, ratios), fitting)

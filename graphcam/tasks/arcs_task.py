@@ -9,6 +9,7 @@ from graphcam.given.follower import Translating
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import by_parts
+from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain
 
 MOST_PARTS = 200
@@ -78,6 +79,7 @@ class ArcsTask:
     """A cam of three circular arcs, as its file says it.
 
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
+    part : what the workshop must know; None is a part that follows from the cam
 
     Raises
     ------
@@ -93,6 +95,7 @@ class ArcsTask:
     speed_rpm: float | None = None
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
+    part: PartTable | None = None
     __repr__ = by_parts
 
     # As for every task: no text for numbers, nothing unknown, nothing infinite.

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
@@ -121,5 +122,10 @@ class MotionTable:
         """The motion, in radians and mm (an arm's lift in radians too)."""
         if self.table is not None:
             return self.table(self.tolerance, self.lift_unit)
-        phases: list[Phase] = [phase(self.lift_unit) for phase in self.phases or ()]
-        return Motion(phases)
+        return _motion(tuple(self.phases or ()), self.lift_unit)
+
+
+@lru_cache(maxsize=16)  # because a task asks for its motion in several places
+def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
+    phases: list[Phase] = [table(unit) for table in tables]
+    return Motion(phases)

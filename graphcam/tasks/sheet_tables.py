@@ -24,7 +24,8 @@ def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
 class TitleTable:
     """``[title]``: what the title block says; the number of the sheet and of the sheets comes by itself.
 
-    scale : None is the scale of the cam's profile
+    scale : None is, on each sheet, the scale of what is drawn on it: of the cam, or else of the largest other view
+        that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
     """
 
     name: str = "Cam mechanism"
@@ -44,17 +45,21 @@ class TitleTable:
 
 @dataclass(frozen=True)
 class SheetTable:
-    """The part of ``[drawing]`` that is about the sheet."""
+    """The part of ``[drawing]`` that is about the sheet.
+
+    orientation : None lies, but A4 in the frame of GOST stands
+    """
 
     format: Format = "A1"
     frame: Frame = "gost"
-    orientation: Orientation = field(default="landscape", kw_only=True)
+    orientation: Orientation | None = field(default=None, kw_only=True)
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
         one_of("format", self.format, get_args(Format))
         one_of("frame", self.frame, get_args(Frame))
-        one_of("orientation", self.orientation, get_args(Orientation))
+        if self.orientation is not None:
+            one_of("orientation", self.orientation, get_args(Orientation))
         one_of("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:

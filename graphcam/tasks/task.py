@@ -20,6 +20,7 @@ from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.showing import WIDTH, in_lines
 from graphcam.tasks.motion_tables import ByKind, MotionTable
+from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
 
 MOST_DIVISIONS = 1000
@@ -248,6 +249,7 @@ class Task:
 
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
+    part : what the workshop must know; None is a part that follows from the cam
 
     Raises
     ------
@@ -270,6 +272,7 @@ class Task:
     limits: LimitsTable = field(default_factory=LimitsTable)
     spring: SpringTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
+    part: PartTable | None = None
 
     # How pydantic reads a file: no text for numbers, nothing unknown, nothing infinite; it holds for the tables too.
     __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}

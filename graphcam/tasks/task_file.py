@@ -17,6 +17,7 @@ from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ _CLASSES: Classes = {
     ("limits",): tables.LimitsTable,
     ("spring",): tables.SpringTable,
     ("drawing",): tables.DrawingTable,
+    ("part",): PartTable,
 }
 """The class of each table of a file, by its place without numbers."""
 _CLASSES_OF_ARCS: Classes = {
@@ -51,6 +53,7 @@ _CLASSES_OF_ARCS: Classes = {
     ("arcs",): arcs.ArcsTable,
     ("follower",): arcs.RollerTable,
     ("drawing",): arcs.ArcsDrawingTable,
+    ("part",): PartTable,
 }
 """The same for a cam of three circular arcs."""
 _KEYS = {

@@ -110,7 +110,9 @@ def test_a_least_radius_is_drawn_in_as_many_passes_whatever_the_number_of_phases
         return calls(lambda: chain["minimum_radius"])
 
     few, many = slopes(calls_of)
-    assert few == many < 20
+    # One call more or less in all of the phases that are added.
+    assert many == pytest.approx(few, abs=0.1)
+    assert many < 20
 
 
 class Counted(np.ndarray[Any, Any]):

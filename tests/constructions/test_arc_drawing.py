@@ -16,7 +16,7 @@ import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Caption
 from graphcam.drafting.marks import Arc, Dots
-from graphcam.drafting.scale import STANDARD_RATIOS, Scale
+from graphcam.drafting.scale import GOST_2_302, Scale
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.mechanism.arcs import three_arc_cam
 
@@ -36,7 +36,7 @@ def test_the_drawing_s_scale_leaves_room_for_the_roller_all_about_the_cam(roller
     board = board_of(CASES["case 2"], roller)
     reach = 2 * (math.hypot(*board.given.D) + 2 * roller)
     assert reach / board.mu_l.per_mm <= 370
-    larger = min(ratio for ratio in STANDARD_RATIOS if ratio > 1 / board.mu_l.per_mm)
+    larger = min(ratio for ratio in GOST_2_302 if ratio > 1 / board.mu_l.per_mm)
     assert reach * larger > 370
 
 

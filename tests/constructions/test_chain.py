@@ -75,9 +75,9 @@ def drawn(monkeypatch) -> list[str]:
 
 
 def counted(calls: list[str], name: str, function):
-    def call(*args):
+    def call(*args, **options):
         calls.append(name)
-        return function(*args)
+        return function(*args, **options)
 
     return call
 

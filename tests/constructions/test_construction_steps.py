@@ -136,7 +136,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
     mu_s = float(chain["integration"].readings["s"].scale)
     expected = {
         "acceleration": ["360.0 mm", "0.01745 rad/mm", "50.0, 88.9 mm", "rise φ₁ rectangular, return φ₃ rectangular"],
-        "integration": ["H₁ = 40.0 mm", "H₂ = 40.0 mm", f"μₛ = {mu_s:.5g} mm/mm", "known lift of 30 mm"],
+        "integration": ["H₁ = 40.0 mm", "H₂ = 40.0 mm", f"mm = {mu_s:.5g} mm/mm", "known lift of 30 mm"],
         "minimum_radius": [
             "at 30° to",
             "× 0.6 = 43.280 mm = r₀",
@@ -173,7 +173,8 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
 
 def test_the_steps_of_the_chain_draw_every_view():
     seen = {step.view.name for step in steps_of(BOARDS["3-4-5"], Pencil())}
-    others = {views.REGION.name, views.FORCES.name}  # an arm's, and drawn with a spring
+    arms = {views.REGION.name, views.ARM_ANGLES.name, views.CAM_CENTRE.name}
+    others = {*arms, views.FORCES.name}  # drawn with a spring
     assert seen == {v.name for v in vars(views).values() if isinstance(v, View)} - others
 
 

@@ -324,6 +324,7 @@ def test_through_every_d_runs_the_line_at_the_permitted_angle_to_the_arms_normal
         families.append((rests, along, permitted.rise, -sigma))
         if permitted.return_ is not None:
             families.append((rests, along, permitted.return_, sigma))
+    (shaded,) = marks(titled(steps, "The permitted region"), Region)
     drawn = [mark for step in steps[2:] for mark in marks(step, Segments, Role.CONSTRUCTION)]
     if not permitted.rest:  # the arms themselves, from the pivot beyond their ends
         reach = drawn.pop()
@@ -332,8 +333,12 @@ def test_through_every_d_runs_the_line_at_the_permitted_angle_to_the_arms_normal
     for lines, (places, arms, limit, side) in zip(drawn, families, strict=True):
         assert_allclose(lines.starts, places, atol=EXACT)
         way, wanted = lines.ends - lines.starts, 1j * arms * np.exp(1j * side * limit)
-        assert_allclose(np.abs(way), 0.77 * length, rtol=1e-12)
-        assert_allclose((way * wanted.conj()).imag, 0, atol=1e-7)  # on the line at the limit
+        along = way / np.abs(way)
+        for start, direction_, far in zip(lines.starts, along, np.abs(way), strict=True):
+            # Along the region if it bounds it, else a short piece.
+            seen = (shaded.boundary - start) / direction_
+            assert far == pytest.approx(max([20.0, *(seen.real[np.abs(seen.imag) < 1] + 5)]))
+        assert_allclose((along * wanted.conj()).imag, 0, atol=1e-9)  # on the line at the limit
         assert np.all(way.imag < EXACT)  # and down, where the cam lies
     titles = [str(step.title) for step in steps]
     assert ("Lines at the limit of the return" in titles) == (permitted.return_ is not None)
@@ -437,12 +442,15 @@ def from_edge(place: complex, corners: np.ndarray) -> float:
 @pytest.mark.parametrize("name", ["built-in", *(name for name in BOARDS if name != REACH)])
 def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
     region, steps = steps_of(name, "minimum_radius")
-    length, outward, _, tips = positions(region)
-    (shaded,), (centre,) = marks(titled(steps, "The permitted region"), Region), marks(steps[-1], Dots)
+    _, outward, _, tips = positions(region)
+    (shaded,), (centre,) = (
+        marks(titled(steps, "The permitted region"), Region),
+        marks(titled(steps, "The least prime radius"), Dots),
+    )
     corners, place = shaded.boundary, complex(centre.points[0])
     assert from_edge(place, corners) < 1e-6
-    assert corners.imag.min() == pytest.approx(place.imag - 30)
-    assert -1.3 * length - EXACT <= corners.real.min() < corners.real.max() <= EXACT
+    adopted = complex(marks(titled(steps_of(name, "pressure_angle")[1], "The cam centre"), Dots)[1].points[0])
+    assert corners.imag.min() == pytest.approx(min(place.imag, adopted.imag) - 14)
     at, sigma = directions(region), sense(region)
     drives = np.where(at > 0, region.givens.limits.rise, region.givens.limits.return_ or math.nan)
     for corner in corners:
@@ -456,22 +464,22 @@ def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
 def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(name, pencil):
     region, steps = steps_of(name, "minimum_radius", pencil)
-    step, mu, given = steps[-1], region.givens.mu_l.per_mm, region.givens.distance
-    (to_start,), (to_pivot,) = marks(step, Line, Role.LIMIT), marks(step, Line, Role.AXIS)
+    step, mu, given = titled(steps, "The least prime radius"), region.givens.mu_l.per_mm, region.givens.distance
+    (*_, to_start), (to_pivot,) = marks(step, Line, Role.LIMIT), marks(step, Line, Role.AXIS)
     start, place = (complex(each) for each in to_start.points)
     assert abs(start + region.givens.arm / mu) < (MANY * SIGMA if pencil else EXACT)
     assert_allclose(to_pivot.points, [0, place], atol=EXACT)
     assert_allclose(marks(step, Dots)[0].points, [place], atol=EXACT)
-    assert (labels(step)["A"].at, labels(step)["A"].towards) == (pytest.approx(place), -1j)
+    assert (labels(step)["A₀"].at, labels(step)["A₀"].towards) == (pytest.approx(place), -1j)
     radius, distance = marks(step, Dimension)
     assert (radius.start, radius.end, distance.start, distance.end) == pytest.approx((start, place, place, 0))
     assert radius.aside == distance.aside == -8
     r0, c = mu * abs(place - start), mu * abs(place)
-    assert (str(radius.text), str(distance.text)) == (f"r₀ = {r0:.2f}", f"c = {c:.2f}")
+    assert (str(radius.text), str(distance.text)) == (f"min r₀ = {r0:.2f}", f"c = {c:.2f}")
     assert (radius.of.name, distance.of.name) == ("prime_radius", "distance")
     *arc_said, found, joined = step.parts
     for caption in (step.caption, joined.caption):
-        said = numbers(caption, r"AB₀ = ([\d.]+) mm, so r₀ = ([\d.]+) mm, and AC = ([\d.]+) mm, so c = ([\d.]+) mm")
+        said = numbers(caption, r"A₀B₀ = ([\d.]+) mm, so r₀ = ([\d.]+) mm, and A₀C = ([\d.]+) mm, so c = ([\d.]+) mm")
         assert said == pytest.approx([abs(place - start), r0, abs(place), c], abs=0.0051)
     assert draws(joined) == {"prime radius": [0], "line of centres": [0]}
     assert set(draws(found)) == {"lines that bind", "centre"}
@@ -487,6 +495,7 @@ def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(n
         assert c == pytest.approx(given, abs=MANY * SIGMA * mu if pencil else 1e-9)
 
 
+LIMITED = r"(rise|return), \d+′*(–\d+′*)?|dwell, (B₀|\d+′*)|arm (B₀|\d+′*)"
 WHERE = {
     "built-in": "the place of the arc nearest to B₀ in the hatching, where the arc meets the line of the dwell from B₀",
     "force, ccw": "the corner of the hatching nearest to B₀, "
@@ -498,10 +507,13 @@ WHERE = {
 @EVERY
 def test_the_lines_that_bind_are_named_and_the_centre_lies_on_them(name):
     region, steps = steps_of(name, "minimum_radius")
-    step = steps[-1]
-    (place,), (bind,) = marks(step, Dots)[0].points, marks(step, Segments, Role.LIMIT)
-    assert_allclose(bind.ends, place, atol=1e-6)
-    said = re.search(r"A is (.*?)\. Join", str(step.caption)).group(1)
+    step = titled(steps, "The least prime radius")
+    (place,), (*bind, _) = marks(step, Dots)[0].points, marks(step, Line, Role.LIMIT)
+    for start, end in (line.points for line in bind):
+        share = (place - start) / (end - start)
+        assert share.imag == pytest.approx(0, abs=1e-6)
+        assert -EXACT <= share.real <= 1 + EXACT
+    said = re.search(r"A₀ is (.*?)\. Join", str(step.caption)).group(1)
     assert said == WHERE.get(name, said)
     (length, outward, _, tips), permitted, at = positions(region), region.givens.limits, directions(region)
     sigma, seen = sense(region), np.angle((place - tips) / (1j * outward))
@@ -514,10 +526,14 @@ def test_the_lines_that_bind_are_named_and_the_centre_lies_on_them(name):
         rest = abs(cmath.phase((place - top) / (1j * top)))
         assert min(abs(rest - limit) for limit in (permitted.rise, permitted.return_ or 9)) < 1e-6
     if "foot of the perpendicular" in said:
-        across = (bind.ends - bind.starts)[0] * (place + length).conjugate()
+        across = np.diff(bind[0].points)[0] * (place + length).conjugate()
         assert abs(across.real) < 1e-6 * length
     assert re.search("the lines? of the (rise|return|dwell|arm)", said)
-    assert f"Mark A, {said}." in [str(part.caption) for part in step.parts]
+    named = [label for text, label in labels(step).items() if text != "A₀"]
+    assert [label.at for label in named] == [line.points[1] for line in bind]
+    assert all(re.fullmatch(LIMITED, str(label.text)) for label in named)
+    assert len(named) == len(set(re.findall("the lines? of the (?:rise|return|dwell|arm)[^,]*?(?= and |$)", said)))
+    assert f"Mark A₀, {said}." in [str(part.caption) for part in step.parts]
 
 
 # --- the pressure angle ----------------------------------------------------------------------------------------------
@@ -561,7 +577,7 @@ def test_the_cam_centre_is_where_the_arcs_of_the_two_sizes_cross_below_the_arm(n
     assert on_arc(about_b, place)
     assert place.imag < 0
     assert radius.points[1] == line.points[1] == pytest.approx(place)
-    assert labels(step)[f"A (r₀ = {r0:g})"].at == pytest.approx(place)
+    assert labels(step)[f"A (r₀ = {r0:g}, c = {c:g})"].at == pytest.approx(place)
     (angle,) = marks(step, AngleMark)
     psi0 = math.degrees(float(measured.first("psi0")))
     assert str(angle.text) == f"ψ₀ = {psi0:.2f}°"
@@ -643,8 +659,11 @@ def test_the_velocity_plan_is_square_to_the_mechanisms_triangle(name, pencil):
     named = labels(step)
     halves = {"v₁": (pole + v1.end) / 2, "v₂": (pole + v2.end) / 2, "v₂₁": (v1.end + v2.end) / 2, "p": pole}
     assert {key: label.at for key, label in named.items()} == pytest.approx(halves)
-    side = math.copysign(1, (v1.end - pole).real)
-    assert [named[key].towards for key in halves] == [-1j * side, -side, 1j + side, -1 - 1j]
+    assert named["p"].towards == -1 - 1j
+    for key, side in (("v₁", v1), ("v₂", v2), ("v₂₁", v21)):
+        out, inner = complex(named[key].towards), (pole + v1.end + v2.end) / 3
+        assert out.real * (side.end - side.start).real + out.imag * (side.end - side.start).imag == pytest.approx(0)
+        assert ((inner - halves[key]) * out.conjugate()).real < 0, key  # outside of the plan
     lengths = [abs(each.end - each.start) for each in (v1, v2, v21)]
     said = numbers(step.caption, r"v₁ = ([\d.]+) mm, square to AB, .* v₂ = BD = ([\d.]+) mm, .* v₂₁ = ([\d.]+) mm")
     assert said == pytest.approx(lengths, abs=0.051)
@@ -701,11 +720,18 @@ def test_all_rays_run_from_the_ends_d_to_the_cam_centre_each_with_its_normal_and
         _, outward, _, tips = positions(measured)
         assert_allclose(rays.starts, tips, atol=EXACT)
         assert_allclose(normals.starts, tips, atol=EXACT)
-        assert_allclose((normals.ends - normals.starts) / outward, 9j, atol=EXACT)
+        lengths = np.where(np.arange(tips.size) == shown_at(measured, steps)[0], 39.6, 9.0)
+        assert_allclose((normals.ends - normals.starts) / outward, 1j * lengths, atol=EXACT)
+        dots, centre = marks(step, Dots)
+        assert_allclose(dots.points, tips, atol=EXACT)
+        assert_allclose(centre.points, [place], atol=EXACT)
+    assert step.view.name != titled(steps, "The cam centre").view.name
     near = MANY * 0.004 if pencil else EXACT  # by the protractor
     assert_allclose(measured.first("alpha"), alpha, atol=near)
     names, told = names_of(measured), np.degrees(measured.first("alpha"))
-    for n, (part, text) in enumerate(zip(step.parts, names, strict=True)):
+    apart, *each = step.parts
+    assert draws(apart) == {"tips": list(range(len(names))), "centre": [0]}
+    for n, (part, text) in enumerate(zip(each, names, strict=True)):
         assert str(part.caption).startswith(f"Ray {text}: draw the normal to arm {text} downwards from D{text}, ")
         assert numbers(part.caption, r"to the ray: (-?[\d.]+)°\.") == pytest.approx([told[n]], abs=0.0051)
         assert draws(part) == {"normals": [n], "rays": [n]}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -16,26 +17,29 @@ from graphcam.constructions.axes import (
     as_high,
     axes_over_phi,
     degree_ticks,
+    degrees_below,
     height_names,
     numbered,
     numbers,
     part_names,
     phase_symbol,
+    phases_below,
     phi_axes,
     station_names,
     together,
 )
+from graphcam.constructions.graduation import graduated
 from graphcam.constructions.slope_numbers import falling_together
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
-from graphcam.drafting.marks import Arrow, Role, Segments
+from graphcam.drafting.marks import Arrow, Dimension, Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.stations import divide
 
 MOTION = coursework_motion("3-4-5")
 DEGREE = gc.Scale(math.radians(1), "rad")
-HALF_A_DEGREE, TWO_AND_A_HALF = gc.Scale(math.radians(0.5), "rad"), gc.Scale(math.radians(2.6), "rad")
+HALF_A_DEGREE, TWO_DEGREES, TWO_AND_A_HALF, SIX = (gc.Scale(math.radians(n), "rad") for n in (0.5, 2, 2.6, 6))
 
 
 def hand() -> Hand:
@@ -44,20 +48,22 @@ def hand() -> Hand:
 
 @pytest.mark.parametrize("heights", [[3.0, -20.0, 11.0], [5.0, 7.0], [-5.0, -7.0], [np.nan, 4.0]])
 def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_their_heads(heights):
-    across, up, phi, symbol = axes_over_phi(90.0, np.array(heights), "v")
+    across, up, ticks, phi, symbol, mu = axes_over_phi(90.0, TWO_DEGREES, np.array(heights), "v, mm/rad")
     assert isinstance(across, Arrow)
     assert (across.start, across.end, across.role) == (0, 90 + OVERHANG, Role.SCALE)
     lowest, highest = min(0, np.nanmin(heights)), max(0, np.nanmax(heights))
     assert (up.start, up.end, up.role) == (lowest * 1j, (highest + OVERHANG) * 1j, Role.SCALE)
-    assert (phi.at, phi.text, symbol.at, symbol.text) == (across.end, "φ", up.end, "v")
-    assert phi.towards.imag < 0 < phi.towards.real
-    assert symbol.towards == -1
+    assert (phi.at, str(phi.text), symbol.at, symbol.text) == (across.end, "φ, °", up.end, "v, mm/rad")
+    assert (phi.towards, symbol.towards) == (-1j, -1 - 1j)
+    assert (mu.at, str(mu.text), mu.small) == (90, "μᵩ = 2°/mm", True)
+    assert mu.towards.real < 0
+    assert_allclose(ticks.starts.real, np.arange(10, 181, 10) / 2)
 
 
 @pytest.mark.parametrize("scale", [DEGREE, HALF_A_DEGREE])
 def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest(scale):
     marks = phi_axes(MOTION, scale, np.array([-10.0, 25.0]), "a")
-    (limits,) = (mark for mark in marks if isinstance(mark, Segments))
+    limits, _ = (mark for mark in marks if isinstance(mark, Segments))
     ends = np.array([80, 125, 185, 360]) * math.radians(1) / scale.per_mm
     assert_allclose(limits.starts, ends - 10j)
     assert_allclose(limits.ends, ends + 25j)
@@ -65,19 +71,72 @@ def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest
     assert marks[0].end == pytest.approx(ends[-1] + OVERHANG)
 
 
-@pytest.mark.parametrize(("scale", "every"), [(DEGREE, 30), (HALF_A_DEGREE, 30), (TWO_AND_A_HALF, 60)])
-def test_degrees_are_numbered_where_they_lie_below_the_axis_and_have_room(scale, every):
-    strokes, *labels = degree_ticks(scale)
-    degrees = np.arange(every, 361, every)
+ROOM = pytest.mark.parametrize(
+    ("scale", "tick", "every"), [(DEGREE, 10, 30), (HALF_A_DEGREE, 10, 30), (TWO_AND_A_HALF, 10, 60), (SIX, 30, 90)]
+)
+
+
+@ROOM
+def test_strokes_cross_the_axis_where_degrees_are_numbered_below_the_lowest_diagram(scale, tick, every):
+    end = 360 * math.radians(1) / scale.per_mm
+    strokes, degrees = degree_ticks(end, scale), np.arange(tick, 361, tick)
     x = degrees * math.radians(1) / scale.per_mm
-    assert_allclose(strokes.starts, x)
-    assert_allclose(strokes.ends, x - 1.5j)
+    assert_allclose(strokes.starts, x + 0.8j * (degrees % every == 0))
+    assert_allclose(strokes.ends, x - 0.8j)
     assert strokes.role is Role.SCALE
-    assert [label.text for label in labels] == [f"{n}°" for n in degrees]
-    assert_allclose([label.at for label in labels], x)
+
+
+@ROOM
+def test_degrees_are_numbered_on_a_line_below_the_lowest_diagram_where_they_have_room(scale, tick, every):
+    end = 360 * math.radians(1) / scale.per_mm
+    line, strokes, *labels = degrees_below(end, scale, -20.0)
+    assert_allclose(line.points, [-27j, end - 27j])
+    degrees = np.arange(0, 361, tick)
+    assert_allclose(strokes.starts, degrees * math.radians(1) / scale.per_mm - 27j)
+    assert_allclose((strokes.starts - strokes.ends).imag, np.where(degrees % every, 1.0, 1.8))
+    assert [str(label.text) for label in labels] == [f"{n}°" for n in range(0, 361, every)]
+    assert_allclose([label.at for label in labels], strokes.ends[degrees % every == 0])
     assert {label.towards for label in labels} == {-1j}
     assert all(label.small for label in labels)
-    assert np.diff(x).min() >= DEGREES_ROOM
+    assert np.diff([label.at.real for label in labels]).min() >= DEGREES_ROOM
+
+
+@pytest.mark.parametrize("scale", [DEGREE, HALF_A_DEGREE])
+def test_the_dimensions_of_the_phases_below_the_degrees_add_up_to_the_turn(scale):
+    dimensions = [mark for mark in phases_below(MOTION, scale, -20.0) if isinstance(mark, Dimension)]
+    assert [str(mark.text) for mark in dimensions] == ["φ₁ = 80°", "φ₂ = 45°", "φ₃ = 60°", "φ₄ = 175°"]
+    assert {mark.start.imag for mark in dimensions} == {mark.end.imag for mark in dimensions} == {-46.0}
+    assert [a.end == b.start for a, b in pairwise(dimensions)] == [True] * 3
+    assert dimensions[-1].end.real * scale.per_mm == pytest.approx(math.tau)
+
+
+@pytest.mark.parametrize("right", [None, 360.0])
+@pytest.mark.parametrize(
+    ("low", "high", "per_mm", "every", "parts"),
+    [
+        (0, 50, 0.6, 10, 5),
+        (-66, 50, 0.8594, 10, 5),
+        (-80, 80, 0.4852, 5, 5),
+        (0, 56, 0.004654, 0.05, 5),
+        (0, 8, 1, 5, 1),
+    ],
+)
+def test_an_ordinate_axis_has_round_values_away_from_the_rays(low, high, per_mm, every, parts, right):
+    strokes, *labels = graduated(np.array([low, high]), per_mm, right)
+    at, out = (0, -1) if right is None else (right, 1)
+    assert_allclose(strokes.starts.real, at)
+    counts = strokes.starts.imag * per_mm * parts / every
+    assert_allclose(counts, np.round(counts), atol=1e-9)  # a stroke at each part of the step, and none at the axis
+    assert sorted([*np.round(counts), 0]) == list(range(round(counts.min()) * (low < 0), round(counts.max()) + 1))
+    assert low <= strokes.starts.imag.min()
+    assert high - every / parts / per_mm < strokes.starts.imag.max() <= high
+    for label in labels:
+        assert label.at.imag * per_mm == pytest.approx(float(str(label.text)))
+        assert (label.at.real, label.towards) == (pytest.approx(at + 1.8 * out), out)
+    assert [float(str(label.text)) for label in labels] == pytest.approx(
+        [n * every for n in range(math.ceil(low * per_mm / every), math.floor(high * per_mm / every) + 1) if n]
+    )
+    assert every / per_mm >= (10 if high > 20 else 5)
 
 
 def test_stations_are_named_at_their_places_in_their_directions_and_know_the_act_that_left_them():

@@ -191,7 +191,8 @@ def test_the_axes_of_s_and_a_reach_beyond_all_that_is_drawn(name):
         of_kind(step_of(name, *FOUND), Dots)[0].points[0],
         of_kind(step_of(name, *TANGENT), Dots)[1].points[0],
     )
-    assert up.start == pytest.approx(1j * (min(centre.imag, zero.imag) - 8), abs=EXACT)
+    adopted = of_kind(step_of(name, "curvature", "The least radius of curvature"), Dots)[0].points[0]
+    assert up.start == pytest.approx(1j * (min(centre.imag, zero.imag, adopted.imag) - 8), abs=EXACT)
     assert up.end == pytest.approx(1j * (curve.imag.max() + 8))
     assert (across.start, across.end) == (pytest.approx(curve.real.min()), pytest.approx(curve.real.max() + 8))
     s, a = of_kind(step, Label)[:2]
@@ -319,7 +320,7 @@ def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_ta
     adopted = re.search(r"dividers to ([\d.]+)/([\d.]+) = ([\d.]+) mm", str(step.caption)).groups()
     assert [float(each) for each in adopted] == pytest.approx([r0, mu, r0 / mu], abs=0.0051)
     (named,) = of_kind(step, Label)
-    assert (named.text, named.at) == ("A", dot.points[0])
+    assert (str(named.text), named.at) == (f"A (r₀ = {r0:g})", dot.points[0])
     assert named.towards.real < 0  # on the other side than A₀
     assert float(np.ravel(curved.readings["rho"].value)[0]) == pytest.approx(rho, abs=1e-7)
     # Beside the dimension of r0, not on it.

@@ -92,7 +92,7 @@ def ordinates(step: Step) -> tuple[np.ndarray, np.ndarray]:
 
 def stations(name: str, hand: str) -> np.ndarray:
     """The ticks of the stations on the axis."""
-    ticks = one(steps(name, hand, "acceleration")[3], Segments, Role.SCALE)
+    (ticks,) = of(steps(name, hand, "acceleration")[3], Segments, Role.SCALE)
     np.testing.assert_allclose(ticks.ends - ticks.starts, 2j, atol=EXACT)
     return (ticks.starts + ticks.ends).real / 2
 
@@ -110,8 +110,10 @@ def check_axes(step: Step, name: str, symbol: str, heights) -> None:
     np.testing.assert_allclose(limits.starts, starts(name)[1:] + 1j * low)
     np.testing.assert_allclose(limits.ends, starts(name)[1:] + 1j * high)
     phi, vertical = (label for label in of(step, Label) if not label.small)
-    assert (phi.at, str(phi.text), phi.towards) == (across.end, "φ", 1 - 1j)
-    assert (vertical.at, str(vertical.text), vertical.towards) == (up.end, symbol, -1)
+    assert (phi.at, str(phi.text), phi.towards) == (across.end, "φ, °", -1j)
+    assert (vertical.at, vertical.towards) == (up.end, -1 - 1j)
+    lift, per = BOARDS[name].follower.unit, {"a": "/rad²", "v": "/rad", "s": ""}[symbol]
+    assert str(vertical.text) == f"{symbol}, {lift}{per}"
 
 
 @EVERY
@@ -153,9 +155,9 @@ def test_the_greatest_ordinates_are_as_long_as_their_dimensions_say(name, hand):
         assert d.start == d.end.real
         assert abs(d.end - d.start) == pytest.approx(height, abs=slack(hand, 1.5) + 0.02)
         assert str(d.text) == text == f"{abs(d.end - d.start):.1f}"
-        # It stands on the curve, as high as any of it, and its line clear of the curve: to the right of it.
-        assert np.abs(line.points - d.end).min() < EXACT
-        assert np.abs(line.points.imag).max() == pytest.approx(abs(d.end.imag), rel=1e-5)
+        # It stands on the curve, whose points stand close, as high as any of it, and its line clear to the right of it.
+        assert np.abs(line.points - d.end).min() < 0.02
+        assert np.abs(line.points.imag).max() == pytest.approx(abs(d.end.imag), rel=1e-3)
         right = d.start + d.aside * (1j if d.end.imag > 0 else -1j) * 1j
         assert d.start.real < right.real <= starts(name)[k + 1]
         beside = line.points[(line.points.real > right.real) & (line.points.imag * d.end.imag > 0)]
@@ -219,7 +221,8 @@ def test_the_stations_are_named_at_their_places_where_no_ordinates_stand(name, h
     x, step = stations(name, hand), steps(name, hand, "acceleration")[3]
     read = drawn(name, hand, "acceleration").readings
     mean = read["before"].paper + read["stations"].paper
-    named = [label for label in steps(name, hand, "integration")[4].given if isinstance(label, Label) and label.small]
+    given = [label for label in steps(name, hand, "integration")[4].given if isinstance(label, Label) and label.small]
+    named = [label for label in given if label.of]
     for label in of(step, Label):
         k = names_of(name).index(label.text)
         assert label.at == x[k]
@@ -373,7 +376,8 @@ def test_the_curve_is_faired_from_jump_to_jump_and_level_in_the_dwells(name, han
 
 @EVERY
 def test_the_known_lift_fixes_the_scales(name, hand):
-    step, run, board = steps(name, hand, "integration")[6], integration(name, hand, 1), BOARDS[name]
+    step, *through = steps(name, hand, "integration")[6:]
+    run, board = integration(name, hand, 1), BOARDS[name]
     size, lift = one(step, Dimension), board.motion.lift
     top = run.points[np.argmax(run.points.imag)]
     assert size.start == size.end.real
@@ -381,10 +385,8 @@ def test_the_known_lift_fixes_the_scales(name, hand):
     assert np.abs(run.points - size.end).min() < EXACT
     assert str(size.text) == f"{size.end.imag:.1f}"
     assert size.aside == -6
-    paper, known, mu_s, mu_v, mu_a = says(
-        step,
-        r"measures ([\d.]+) mm .* lift of ([\d.e-]+) \w+, so μₛ = ([\d.e-]+) .*H₂\) = ([\d.e-]+) .*H₁\) = ([\d.e-]+) ",
-    )
+    paper, known, mu_s = says(step, r"measures ([\d.]+) mm .* lift of ([\d.e-]+) \w+, so μₛ = .* mm = ([\d.e-]+) ")
+    (mu_v,), (mu_a,) = (says(each, r"\) = ([\d.e-]+) ") for each in through)
     assert paper == pytest.approx(size.end.imag, abs=0.0051)
     assert known == pytest.approx(lift, rel=1e-5)
     expected = lift / size.end.imag

@@ -462,8 +462,8 @@ def laid_off_from_b(chain: Chain, step: Step, radii: dict[str, float]) -> None:
         only(step, Dots), only(step, Label), step.parts, radii.items(), strict=True
     ):
         assert dots.points[0] == label.at == pytest.approx(radius / per_mm * hub / abs(hub))
-        assert str(label.text) == name
-        assert label.towards / hub == pytest.approx(-1j)
+        assert str(label.text) == f"{name} = {radius:.4g}"
+        assert label.towards / hub == pytest.approx(1j if name == "r" else -1j)
         expected = f"Lay off {name} = {radius:.2f} mm from B towards O: {radius / per_mm:.1f} mm."
         assert str(part.caption) == expected
 

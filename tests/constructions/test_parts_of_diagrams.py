@@ -11,7 +11,7 @@ from boards import arm_board, arm_motion, coursework, limits
 from test_marks_of_integration import BOARDS, EVERY, MANY, PASSES, SIGMA, Pass, drawn, names_of, of, starts, steps
 
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.acts import Act
+from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Part, Step
 from graphcam.drafting.marks import Dots, Label, Line, Role, Segments
 from graphcam.drafting.moves import FollowedBoard, pieces_of, visible_in
@@ -49,8 +49,9 @@ def diagrams(name: str, hand: str) -> list[Step]:
 
 
 def own_pieces(step: Step) -> set[tuple[Act, int]]:
-    """The places of acts that the marks of a step show, but for what is given and the axes."""
+    """The places of acts that the marks of a step show, but for what is given, the axes and the numbers of readings."""
     marks = [mark for mark in step.own if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE)]
+    marks = [mark for mark in marks if mark.of.kind is not Kind.READ]
     return {
         (mark.of, int(k)) for mark in marks for k in (mark.index if mark.index is not None else range(mark.of.size))
     }
@@ -246,7 +247,7 @@ def test_chord_k_bears_the_number_of_the_ray_that_it_is_parallel_to_and_climbs_a
         assert rise == pytest.approx(ray[own] * width, abs=loose + CENTI * width / run.pole)
         assert k in pieces_of(part.draws)[0].at
     for label in of(run.chords, Label)[2:]:
-        if label.of.name != "axis" and label.small and label not in run.chords.given:
+        if label.of and label.of.name != "axis" and label.small and label not in run.chords.given:
             assert ends[stations.index(label.text)] == label.at
             k = stations.index(label.text)
             near = [
@@ -357,24 +358,29 @@ def test_the_ruler_joins_what_lies_on_one_line_and_the_french_curve_the_rest(nam
 
 @EVERY
 def test_the_scales_are_divided_as_is_told(name, hand):
-    step, board = steps(name, hand, "integration")[6], BOARDS[name]
-    lift, paper, mu_s = numbers(step.parts[0], rf"= ([\d.e-]+) \S+/{NUMBER} mm = ([\d.e-]+) ")
+    scales, board = steps(name, hand, "integration")[6:], BOARDS[name]
+    lift, paper, mu_s = numbers(scales[0].parts[0], rf"= ([\d.e-]+) \S+/{NUMBER} mm = ([\d.e-]+) ")
     assert lift == pytest.approx(board.motion.lift, rel=1e-5)
     assert mu_s == pytest.approx(lift / paper, rel=2e-4)
     before = mu_s
-    for part, pole in zip(step.parts[1:3], board.poles[::-1], strict=True):
-        source, mu_phi, h, mu = numbers(part, rf"= ([\d.e-]+)/\(([\d.e-]+)·{NUMBER}\) = ([\d.e-]+) ")
+    for step, pole in zip(scales[1:], board.poles[::-1], strict=True):
+        source, mu_phi, h, mu = numbers(step.parts[0], rf"= ([\d.e-]+)/\(([\d.e-]+)·{NUMBER}\) = ([\d.e-]+) ")
         assert source == pytest.approx(before, rel=1e-4)
         assert (mu_phi, h) == (pytest.approx(math.pi / 180, rel=1e-4), pole)
         assert mu == pytest.approx(source / (mu_phi * h), rel=1e-4)
         before = mu
-    last = str(step.parts[3].caption)
-    k = names_of(name).index(re.match(r"Station (\S+):", last).group(1))
     read = drawn(name, hand, "integration").readings
-    for symbol, y, mu, value in re.findall(rf"([sva]) = {NUMBER} mm × ([\d.e-]+) = (-?[\d.e-]+) ", last):
+    for symbol, step in zip("sva", scales, strict=True):
+        last = str(step.parts[1].caption)
+        k = names_of(name).index(re.match(r"Station (\S+):", last).group(1))
+        y, mu, value = re.search(rf"{symbol} = {NUMBER} mm × ([\d.e-]+) = (-?[\d.e-]+) ", last).groups()
         assert float(y) == pytest.approx(read[symbol].paper[k], abs=CENTI)
         assert float(value) == pytest.approx(float(y) * float(mu), rel=1e-4, abs=CENTI * float(mu))
         assert float(mu) == pytest.approx(read[symbol].per_mm, rel=1e-4)
+        divided = [label for label in step.own if isinstance(label, Label)]
+        heights = [float(str(label.text)) / float(mu) for label in divided]
+        assert [label.at.imag for label in divided] == pytest.approx(heights, rel=1e-4)
+        assert {label.at.real > 0 for label in divided} == {symbol != "s"}  # from the pole rays run to the axis
 
 
 # --- the diagram of the pressure angle -------------------------------------------------------------------------------

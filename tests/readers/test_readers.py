@@ -1,4 +1,4 @@
-"""PDF and DXF of the built-in sheets in the hands of other programs: poppler, PDFium, LibreCAD, GDAL."""
+"""PDF and DXF of the built-in sheets and of a working drawing in other programs: poppler, PDFium, LibreCAD, GDAL."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.matplotlib_renderer import write_pdf
 from graphcam.sheets.model import Drawing
+from graphcam.workshop.working_drawing import working_drawing_of
 
 TASKS = Path(graphcam.__file__).parent / "data" / "tasks"
 
@@ -27,13 +28,15 @@ def sheet(task: str) -> Drawing:
 
 
 SHEETS = [
-    pytest.param(name, marks=() if name in ("scene", "coursework") else pytest.mark.slow)
-    for name in ("scene", *sorted(task.stem for task in TASKS.glob("*.toml")))
+    pytest.param(name, marks=() if name in ("scene", "coursework", "part") else pytest.mark.slow)
+    for name in ("scene", "part", *sorted(task.stem for task in TASKS.glob("*.toml")))
 ]
 
 
 @pytest.fixture(params=SHEETS)
 def drawing(request: pytest.FixtureRequest) -> Drawing:
+    if request.param == "part":
+        return working_drawing_of(graphcam.solve(graphcam.builtin_task()))
     return scene() if request.param == "scene" else sheet(request.param)
 
 

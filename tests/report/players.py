@@ -8,6 +8,7 @@ from pathlib import Path
 from playwright.sync_api import Page
 
 import graphcam as gc
+from graphcam.language import ENGLISH
 from graphcam.report.documents import contents_of, drawing_of, scene_of
 from graphcam.report.step_player import player_of, slides
 from graphcam.tasks.task import DrawingTable
@@ -33,7 +34,7 @@ class Solved:
         self.text = player_of(contents, self.drawing)
         self.file = folder / f"{name}.html"
         self.file.write_text(self.text, encoding="utf-8")
-        self.slides, _ = slides(contents)
+        self.slides, _ = slides(contents, ENGLISH.text)
         self.scene = scene_of(self.solution)
 
 

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.drafting.pencil import Pencil
+from graphcam.files import digest
 from graphcam.report.output_folder import write
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
@@ -38,7 +39,11 @@ def document(folder):
 
 def test_files_are_written_and_named(folder, document):
     place, files = folder
-    assert document == solve(builtin_task()).to_dict() | {"files": files}
+    written = {path.name: digest(path) for path in place.iterdir() if path.name != "solution.json"}
+    spline = document["profile_spline"]
+    assert spline["degree"] == 3
+    assert 0 < spline["deviation"] <= 0.0005
+    assert document == solve(builtin_task()).to_dict() | {"files": files, "profile_spline": spline, "written": written}
     named = {name for name in files.values() if name}
     assert named == {
         "sheet.pdf", "sheet.svg", "sheet.png", "sheet.dxf", "comparison.csv", "comparison.md", "note.md",
@@ -108,7 +113,8 @@ def printed(tmp_path, monkeypatch):
 
 
 def test_the_command_line_prints_the_json_alone(printed, document, tmp_path):
-    assert printed() == document | {"files": dict.fromkeys(document["files"])}
+    own = {key: told for key, told in document.items() if key not in ("written", "profile_spline")}
+    assert printed() == own | {"files": dict.fromkeys(document["files"])}
     assert list(tmp_path.iterdir()) == []
 
 

@@ -80,7 +80,7 @@ def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
     read = {f"{quantities[name].drawn:.3f}" for name in ("max_v", "minimum_prime_radius", "roller_radius")}
     assert read <= set(whole)
     assert not read & set(said)
-    assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "-10 mm", "greatest v, mm/rad"} <= set(said)
+    assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "−10 mm", "greatest v, mm/rad"} <= set(said)
     names = {group.name.split(" ")[1] for _, group in groups(sheet_of(solution(), 0)).items() if "step" in group.name}
     assert {"scheme", "acceleration", "integration", "minimum_radius", "inversion"} <= names
     assert not names & {"pressure_angle", "curvature", "working_profile"}, "what is only found leaves no line"
@@ -129,8 +129,8 @@ def test_a_worksheet_and_a_half_done_sheet_exclude_each_other() -> None:
     assert result.exit_code == 2
 
 
-def test_a_spring_leaves_everything_on_one_sheet_of_a1() -> None:
+def test_a_springs_views_take_a_second_sheet_of_a1() -> None:
     task = replace(builtin_task(), spring=SpringTable(mass=0.2, stiffness=3.0))
     drawing = sheet_of(gc.solve(task))
-    assert len(drawing.pages) == 1
+    assert len(drawing.pages) == 2
     assert overlaps(drawing) == []

@@ -6,6 +6,7 @@ import numpy as np
 
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
+from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, UPRIGHT_ONLY
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
@@ -15,6 +16,14 @@ ACCELERATION = View("acceleration", say("Acceleration a, μₐ = 1.2 (mm/rad²)/
 DISPLACEMENT = View("displacement", say("Displacement s"), across="phi", up="s")
 COMBINED = View("combined", say("Least radius"), across="offset", up="s")
 PROFILE = View("profile", say("Cam profile, 1:1"), across="x", up="y")
+SHEETS = [
+    (paper, frame, lie)
+    for lie in ORIENTATIONS
+    for paper in SIZES
+    for frame in MARGINS
+    if (paper, frame, lie) != (*UPRIGHT_ONLY, "landscape")
+]
+"""Every format, frame and orientation in which it is used."""
 TITLE = TitleBlock(name="Cam mechanism", number="ТММ.01.02", organisation="Кафедра ТММ", author="Ivanova", scale="1:1")
 
 
@@ -24,34 +33,41 @@ def oval(n: int = 400) -> np.ndarray:
     return 60 * np.cos(t) + 45j * np.sin(t)
 
 
-def steps(ordinate: float = 50.0) -> list[tuple[str, Step]]:
-    """Steps of four views; the ordinates of the diagrams can be chosen."""
+DRAWN_AT = {"A1": 1.0, "A2": 1.0, "A3": 0.6, "A4": 0.3}
+"""What the scene is drawn at, so that its largest view fits a page."""
+
+
+def steps(ordinate: float = 50.0, size: float = 1.0) -> list[tuple[str, Step]]:
+    """Steps of four views, drawn smaller if they are to fit; the ordinates of the diagrams can be chosen."""
     x = np.linspace(0, 360, 121)
-    s = 25 * (1 - np.cos(np.radians(x)))
+    up, s, x = size * ordinate * np.cos(np.radians(x)), 25 * size * (1 - np.cos(np.radians(x))), size * x
     stations = x[::10] + 1j * s[::10]
     acceleration = (
-        Arrow(0j, 370 + 0j, Role.SCALE), Arrow(-1j * ordinate, 1j * (ordinate + 8), Role.SCALE),
-        Line(x + 1j * ordinate * np.cos(np.radians(x)), Role.RESULT),
+        Arrow(0j, x[-1] + 10 + 0j, Role.SCALE), Arrow(-1j * up.max(), 1j * (up.max() + 8), Role.SCALE),
+        Line(x + 1j * up, Role.RESULT),
         *(Label(complex(at), str(k), towards=-1j, small=True) for k, at in enumerate(x[::10])),
         Dimension(-40 + 0j, 0j, "H₁ = 40", aside=-8.0),
         Segments(np.full(5, -40 + 0j), 10j * np.arange(5), Role.CONSTRUCTION),
     )  # fmt: skip
     displacement = (
-        Arrow(0j, 370 + 0j, Role.SCALE), Arrow(0j, 58j, Role.SCALE), Line(x + 1j * s, Role.CURVE), Dots(stations),
-        Segments(stations.real + 0j, stations, Role.CONSTRUCTION), Dimension(180 + 0j, 180 + 50j, "50.0"),
-        Dimension(0j, 5 + 0j, "5", aside=-12.0),
+        Arrow(0j, x[-1] + 10 + 0j, Role.SCALE), Arrow(0j, 1j * (s.max() + 8), Role.SCALE), Line(x + 1j * s, Role.CURVE),
+        Dots(stations), Segments(stations.real + 0j, stations, Role.CONSTRUCTION),
+        Dimension(x[60] + 0j, complex(x[60], s[60]), f"{s[60]:.1f}"), Dimension(0j, 5 + 0j, "5", aside=-12.0),
     )  # fmt: skip
     combined = (
-        Line(np.array([0, 60 + 25j, 50j, -60 + 25j]), Role.CURVE, closed=True),
-        Region(np.array([0, 60 - 100j, -60 - 100j])), Line(np.array([0, 60 - 100j]), Role.LIMIT),
-        Label(-70j, "A"), AngleMark(0j, 40.0, -np.pi / 2, -np.pi / 2 + 0.5, "30°"), Circle(-70j, 12.0, Role.HIDDEN),
+        Line(size * np.array([0, 60 + 25j, 50j, -60 + 25j]), Role.CURVE, closed=True),
+        Region(size * np.array([0, 60 - 100j, -60 - 100j])), Line(size * np.array([0, 60 - 100j]), Role.LIMIT),
+        Label(-70j * size, "A"), AngleMark(0j, 40.0 * size, -np.pi / 2, -np.pi / 2 + 0.5, "30°"),
+        Circle(-70j * size, 12.0 * size, Role.HIDDEN),
     )  # fmt: skip
+    curve = size * oval()
     profile = (
-        Line(oval(), Role.RESULT, closed=True),
-        Line(np.array([-80, 80]) + 0j, Role.AXIS), Line(np.array([-70j, 70j]), Role.AXIS),
-        Circle(0j, 30.0, Role.CONSTRUCTION), Arc(0j, 20.0, 0.5, 2.0, Role.CURVE, arrow="end"), Dots(np.array([0j])),
-        AngleMark(0j, 75.0, 0.0, 1.4, "φ₁ = 80°"), AngleMark(0j, 75.0, 1.4, 1.45, "φ₂ = 3°"),
-        *(Label(complex(at), f"{k}′", towards=complex(at), small=True) for k, at in enumerate(oval()[::20])),
+        Line(curve, Role.RESULT, closed=True),
+        Line(size * np.array([-80, 80]) + 0j, Role.AXIS), Line(size * np.array([-70j, 70j]), Role.AXIS),
+        Circle(0j, 30.0 * size, Role.CONSTRUCTION), Arc(0j, 20.0 * size, 0.5, 2.0, Role.CURVE, arrow="end"),
+        Dots(np.array([0j])),
+        AngleMark(0j, 75.0 * size, 0.0, 1.4, "φ₁ = 80°"), AngleMark(0j, 75.0 * size, 1.4, 1.45, "φ₂ = 3°"),
+        *(Label(complex(at), f"{k}′", towards=complex(at), small=True) for k, at in enumerate(curve[::20])),
     )  # fmt: skip
     scenes = ((ACCELERATION, acceleration), (DISPLACEMENT, displacement), (COMBINED, combined), (PROFILE, profile))
     return [
@@ -62,6 +78,7 @@ def steps(ordinate: float = 50.0) -> list[tuple[str, Step]]:
 TABLE = Table("Data", ("quantity", "value"), (("lift", "30 mm"), ("prime radius r₀", "44 mm"), ("угол", "80°")))
 
 
-def drawing(paper: str = "A1", frame: str = "gost", ordinate: float = 50.0) -> Drawing:
+def drawing(paper: str = "A1", frame: str = "gost") -> Drawing:
     """The scene laid out."""
-    return compose(steps(ordinate), [TABLE], TITLE, paper, frame, notes=["Every length is in millimetres of paper."])
+    drawn = steps(size=DRAWN_AT[paper])
+    return compose(drawn, [TABLE], TITLE, paper, frame, notes=["Every length is in millimetres of paper."])

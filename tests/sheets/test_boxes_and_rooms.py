@@ -90,6 +90,31 @@ def test_a_copy_of_a_room_is_filled_by_itself():
     other.take(Box(4, 4, 6, 6))
     assert taken(other) - taken(room) == {(2, 2)}
     assert other.corner == room.corner
+    aside = room.copy(100 + 50j)
+    assert (aside.corner, taken(aside)) == (100 + 50j, taken(room))
+
+
+def test_room_is_found_about_all_that_was_taken_in_whatever_order():
+    """What is full is counted again only above what has been taken, in copies too."""
+    room = Room(Box(0, 0, 20, 60))
+    side = Box(0, 0, 10, 10)
+
+    def lowest(some: Room) -> complex | None:
+        return some.find([side], lambda x, y: y + 0.01 * x)
+
+    assert lowest(room) == 0j
+    room.take(Box(0, 40, 20, 60))
+    assert lowest(room) == 0j
+    other = room.copy()
+    other.take(Box(0, 0, 20, 10))
+    assert (lowest(other), lowest(room)) == (10j, 0j)
+    other.take(Box(0, 24, 2, 26))
+    room.take(Box(0, 0, 4, 2))
+    assert (lowest(other), lowest(room)) == (10j, 4 + 0j)
+    other.take(Box(0, 10, 20, 12))
+    assert lowest(other) == 12j
+    other.take(Box(0, 0, 20, 40))
+    assert lowest(other) is None
 
 
 @settings(max_examples=15)

@@ -76,6 +76,11 @@ def test_marks_stand_where_the_view_stands_reduced_with_it():
     )
     (dots,), _ = drawn(Dots(np.array([2j, 4])), THERE)
     assert (dots.centres.tolist(), dots.radius, dots.opaque) == ([100 + 51j, 102 + 50j], 0.75, True)
+    # What a curve is drawn through does not break it; pivots and centres hide the ends of their lines.
+    assert [drawn(Dots(np.array([0j]), role))[0][0].opaque for role in (Role.CONSTRUCTION, Role.RESULT)] == [
+        False,
+        True,
+    ]
     line, point = drawn(Arrow(0j, 20 + 0j, Role.CURVE), THERE)[0]
     assert (line.starts[0], triangle(point)[:2]) == (100 + 50j, (110 + 50j, 1.0))
 

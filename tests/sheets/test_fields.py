@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import fields, replace
 from itertools import pairwise
 
@@ -9,19 +10,21 @@ import numpy as np
 import pytest
 import shapely
 from overlaps import overlaps
-from scene import TITLE
+from scene import SHEETS, TITLE
 
+from graphcam.errors import DesignError
+from graphcam.language import language
 from graphcam.sheets.box import Box
-from graphcam.sheets.fonts import width
-from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, Format
+from graphcam.sheets.fonts import width, wrap
+from graphcam.sheets.formats import MARGINS, Format
 from graphcam.sheets.frame import frame, gauge, gauge_box, taken, title_box
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Entity, Stroke, Strokes, Text
-from graphcam.sheets.sampling import box_of, corners
+from graphcam.sheets.sampling import box_of, corners, pieces
 from graphcam.sheets.title_block import TitleBlock, entry, fitted, stacked, title_block
 
 Field = tuple[float, float, float, float]
-EVERY = [Format(*each) for each in np.array(np.meshgrid([*SIZES], [*MARGINS], ORIENTATIONS)).T.reshape(-1, 3).tolist()]
+EVERY = [Format(*each) for each in SHEETS]
 NAMED = TitleBlock(**{field.name: field.name[:6].upper() for field in fields(TitleBlock)})
 
 
@@ -142,7 +145,7 @@ def test_captions_of_form_1_stand_in_their_fields():
     for caption, (left, right) in head:
         assert in_the_middle(texts[caption], (left, 30, right, 35))
         assert texts[caption].height <= 2.0
-    for bottom, caption in zip((25, 20, 15, 5, 0), ("Drawn", "Checked", "Tech.", "Norms", "Approved"), strict=True):
+    for bottom, caption in zip((25, 20, 15, 5, 0), ("Drawn", "Checked", "Tech.", "Norms", "Appr."), strict=True):
         field = (0, bottom, 17, bottom + 5)
         assert inside(texts[caption], field)
         assert (texts[caption].at.real, centre(texts[caption]).imag) == (1.0, bottom + 2.5)
@@ -199,6 +202,31 @@ def test_captions_and_entries_of_the_iso_block_stand_in_their_fields():
     assert captions["2/3"].height == 3.5
 
 
+def loose(entities: list[Entity]) -> float:
+    """The length of rulings that enclose nothing: ends that stand over, and lines that stand alone [mm]."""
+    rulings = [e for e in entities if isinstance(e, Stroke | Strokes) and e.role in ("frame", "ruling")]
+    lines = [
+        shapely.LineString([(a.real, a.imag), (b.real, b.imag)])
+        for ruling in rulings
+        for a, b in zip(*pieces(ruling), strict=True)
+    ]
+    _, cuts, dangles, _ = shapely.polygonize_full(shapely.get_parts(shapely.unary_union(lines)).tolist())
+    return cuts.length + dangles.length
+
+
+@pytest.mark.parametrize("kind", [*MARGINS])
+def test_no_ruling_of_a_title_block_stands_over(kind):
+    assert loose(title_block(kind, 0j, NAMED, 1, 1)) == 0
+    over = Strokes(np.array([0j]), np.array([-1 + 0j]), "frame")
+    assert loose([*title_block(kind, 0j, NAMED, 1, 1), over]) == 1
+
+
+@pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "gost"], ids=repr)
+def test_no_ruling_of_a_frame_stands_over(paper):
+    """Neither in the binding margin nor about the number in the corner; the marks of the gauge stand for themselves."""
+    assert loose([*frame(paper, NAMED, 1, 1).entities]) == pytest.approx(loose(gauge(0j)))
+
+
 @pytest.mark.parametrize("paper", [paper for paper in EVERY if paper.frame == "gost"], ids=repr)
 def test_the_binding_margin_has_five_fields_of_the_standard_lengths(paper):
     entities = [*frame(paper, NAMED, 1, 1).entities]
@@ -228,7 +256,7 @@ def sides(paper: Format) -> list[Entity]:
 def test_the_number_stands_once_more_in_the_corner_that_is_filed_on_top(paper):
     entities, inside_frame = [*frame(paper, NAMED, 1, 1).entities], paper.content
     (number,) = (t for t in texts_of(entities) if t.field == "number" and t.angle)
-    aside = paper.orientation == "portrait" and paper.name != "A4"
+    aside = paper.upright and paper.name != "A4"
     # Beside the binding margin where the sheet lies when filed, else at the right.
     field = (
         (inside_frame.right - 14, inside_frame.top - 70, inside_frame.right, inside_frame.top)
@@ -340,7 +368,7 @@ def test_the_gauge_is_a_rule_of_100_mm_with_a_line_every_10():
     assert [(z.real, z.imag) for z in ticks.ends - ticks.starts] == [(0, 3.0 if k % 5 == 0 else 1.5) for k in range(11)]
     numbers, (said,) = texts[:3], texts[3:]
     assert [(t.text, t.at) for t in numbers] == [("0", 7 + 9j), ("50", 57 + 9j), ("100", 107 + 9j)]
-    assert (said.text, said.at, said.height, said.align) == ("mm, true to scale", 82 + 9j, 2.0, "center")
+    assert (said.text, said.at, said.height, said.align) == ("mm, true to scale", 82 + 9j, 2.5, "center")
     assert {(t.height, t.align) for t in numbers} == {(2.5, "center")}
     room = gauge_box(7 + 5j)
     assert room.holds(box_of([line, ticks, *texts]))
@@ -348,33 +376,62 @@ def test_the_gauge_is_a_rule_of_100_mm_with_a_line_every_10():
 
 
 @pytest.mark.parametrize("align", ["center", "left"])
-def test_a_text_is_lowered_to_seven_tenths_before_it_is_broken(align):
+def test_a_text_is_broken_into_lines_before_it_is_set_smaller(align):
     text = "two words"
-    wide = width(text, 1.0)
-    for share, lines in ((1.5, 1), (1.0, 1), (0.71, 1), (0.69, 2)):
-        # 2 mm at the sides stay free.
-        found = fitted(text, (10.0, 20.0, 12.0 + share * wide * 5.0, 60.0), 5.0, align)
-        assert len(found) == lines
-        assert found[0].height == pytest.approx(5.0 if lines == 2 else min(5.0, 5.0 * share))
-        assert all(inside(line, (11.0 - 1e-9, 20.5, 11.0 + share * wide * 5.0 + 1e-9, 59.5)) for line in found)
-        left, middle = 11.0, (22.0 + share * wide * 5.0) / 2
-        assert {(line.at.real, line.align) for line in found} == {(left if align == "left" else middle, align)}
+    wide = width(text, 5.0)
+    # Width and height of a field, and what fits: the words side by side, one over the other, both in smaller letters.
+    for room, tall, lines, height in ((wide, 40, 1, 5.0), (0.9 * wide, 40, 2, 5.0), (0.9 * wide, 9, 1, 3.5)):
+        found = fitted(text, (10.0, 20.0, 12.0 + room + 1e-9, 20.0 + tall), 5.0, align)
+        assert (len(found), {line.height for line in found}) == (lines, {height})
+        assert all(inside(line, (11.0 - 1e-9, 20.0, 11.0 + room + 1e-6, 20.0 + tall)) for line in found)
+        left, middle = 11.0, (22.0 + room) / 2
+        assert [line.at.real for line in found] == pytest.approx([left if align == "left" else middle] * lines)
+        assert {line.align for line in found} == {align}
 
 
-def test_a_broken_text_is_as_large_as_its_field_allows_and_in_its_middle():
+def test_a_broken_text_stands_in_the_middle_of_its_field_in_the_largest_standard_letters_that_fit():
     words = ["cam", "mechanism", "of", "an", "engine"]
     field = (0.0, 0.0, 30.0, 14.0)
     found = fitted(" ".join(words), field, 7.0)
     height = found[0].height
+    assert height == 2.5
     assert " ".join(line.text for line in found) == " ".join(words)
     assert max(width(line.text, height) for line in found) <= 28.0
-    assert 1.6 * len(found) * height <= 13.0
-    # One step of lowering less would not have fitted.
-    assert height / 7.0 == pytest.approx(0.95 ** round(np.log(height / 7.0) / np.log(0.95)))
-    larger = height / 0.95
-    assert max(width(line.text, larger) for line in found) > 28.0 or 1.6 * len(found) * larger > 13.0
-    assert {round(a.at.imag - b.at.imag, 9) for a, b in pairwise(found)} == {round(1.6 * height, 9)}
+    # In letters a size larger the widest word fits, but not all lines.
+    assert len(wrap(" ".join(words), 3.5, 28.0)) * 1.5 * 3.5 > 14.0
+    assert {round(a.at.imag - b.at.imag, 9) for a, b in pairwise(found)} == {round(1.5 * height, 9)}
     assert (found[0].at.imag + height + found[-1].at.imag) / 2 == pytest.approx(7.0)
+
+
+def test_a_word_is_broken_only_where_it_fits_no_other_way():
+    field = (0.0, 0.0, 22.0, 14.0)
+    (whole,) = fitted("mechanism", field, 3.5)
+    assert (whole.text, whole.height) == ("mechanism", 2.5)
+    first, *rest = fitted("counterbalanced" * 2, field, 3.5)
+    assert first.text.endswith("-")
+    assert "".join(line.text.removesuffix("-") for line in (first, *rest)) == "counterbalanced" * 2
+    # Behind a sign of its own, no other is set; between ideographs none.
+    assert "".join(line.text for line in fitted("ТММ.01.02.000-КП-ХХ-00001", field, 3.5)) == "ТММ.01.02.000-КП-ХХ-00001"
+    assert "".join(line.text for line in fitted("凸轮机构" * 6, field, 3.5)) == "凸轮机构" * 6
+
+
+@pytest.mark.parametrize("frame_name", ["gost", "iso"])
+def test_what_fits_its_field_in_no_standard_letters_is_refused_by_its_name_and_length(frame_name):
+    for name in ("author", "name", "document", "organisation"):
+        field = "number" if name == "document" else name
+        with pytest.raises(
+            DesignError, match=rf"length of title\.{name} is 2000, but must be at most \d+ letters"
+        ) as error:
+            title_block(frame_name, 0j, TitleBlock(**{field: "long " * 400}), 1, 1)
+        fits = int(re.search(r"most (\d+)", str(error.value))[1])
+        assert title_block(frame_name, 0j, TitleBlock(**{field: ("long " * 400)[:fits]}), 1, 1)
+
+
+@pytest.mark.parametrize("tell", [str, language("ru").text], ids=["en", "ru"])
+@pytest.mark.parametrize("paper", EVERY, ids=repr)
+def test_an_empty_sheet_is_lettered_in_standard_heights(paper, tell):
+    heights = {e.height for e in frame(paper, NAMED, 1, 1, tell).entities if isinstance(e, Text)}
+    assert heights <= {1.8, 2.5, 3.5, 5.0, 7.0}
 
 
 def test_nothing_is_written_of_what_is_empty():

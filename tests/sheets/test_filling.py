@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
-from scene import TITLE
+import shapely
+from overlaps import overlaps
+from scene import SHEETS, TITLE
 
+import graphcam as gc
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.sheets.box import Box
-from graphcam.sheets.filling import GAPS, Leaf, fill
-from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, Format, Lettering
+from graphcam.sheets.filling import FULL, fill
+from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.frame import taken
 from graphcam.sheets.layout import SheetPart, compose, compose_parts, profile_room
+from graphcam.sheets.leaves import Leaf, free_rooms
 from graphcam.sheets.model import Drawing, Strokes, Text
 from graphcam.sheets.panels import Panel
+from graphcam.sheets.runs import GAPS
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.tables import Block, Table, table_block
+from graphcam.sheets.tables import Block, Table, table_blocks
 
 LETTERS = Lettering(3.5, 2.5, 2.5)
 
@@ -43,7 +49,7 @@ def origins(leaves: list[Leaf]) -> dict[str, tuple[int, complex]]:
 
 
 MANY = [view("a", 90, 60, "phi", "a"), view("b", 80, 40, "phi", "s"), view("c", 50, 45, "e", "s"), view("d", 100, 90)]
-EVERY = [Format(paper, frame, lie) for paper in SIZES for frame in MARGINS for lie in ORIENTATIONS]
+EVERY = [Format(*each) for each in SHEETS]
 
 
 @pytest.mark.parametrize("sheet", EVERY, ids=repr)
@@ -57,15 +63,17 @@ def test_everything_stands_once_inside_the_border_and_on_nothing_else(sheet):
     inside = sheet.content.grown(-4.0)
     for leaf in leaves:
         tables = [b.box.moved(at) for b, at in leaf.blocks]
-        covered = [box.moved(at) for panel, at in leaf.views.values() for box in panel.footprint]
-        assert all(inside.grown(1e-6).holds(box) for box in tables + covered)
+        # The boxes of views have 3 mm of air about what is drawn.
+        drawn = [panel.box.grown(-3.0).moved(at) for panel, at in leaf.views.values()]
+        assert all(inside.grown(1e-6).holds(box) for box in tables + drawn)
         kept = taken(sheet, 4.0)
-        assert not any(box.grown(-1e-6).meets(other) for box in tables + covered for other in kept)
-        # Six millimetres lie between things that do not belong together.
+        assert not any(box.grown(-1e-6).meets(other) for box in tables + drawn for other in kept)
+        # Six millimetres lie between things that do not belong together, and four between diagrams in line.
         assert not any(a.grown(5.999).meets(b) for a, b in combinations(tables, 2))
+        assert not any(a.grown(3.999).meets(b) for a, b in combinations(drawn, 2))
         for panel, at in leaf.views.values():
-            for box in (table.grown(5.999) for table in tables):
-                assert not box.meets(panel.title_box.moved(at))
+            for box in (table.grown(4.999) for table in tables):
+                assert not box.grown(-2.0).meets(panel.title_box.moved(at))
                 there = panel.points + at
                 across, up = (box.left < there.real) & (there.real < box.right), (box.bottom < there.imag)
                 assert not np.any(across & up & (there.imag < box.top))
@@ -89,17 +97,17 @@ def test_views_that_share_an_axis_stand_in_line_wherever_they_stand_together(she
 
 
 def test_a_page_is_begun_only_where_there_is_no_room_on_the_others():
-    sheet = Format("A4", "gost")
+    sheet = Format("A4", "iso")
     assert len(fill(sheet, [view("a", 100, 80)], [[]])) == 1
     assert len(fill(sheet, [view("a", 100, 80), view("b", 100, 80)], [[]])) == 1
     assert len(fill(sheet, [view(name, 140, 100) for name in "abc"], [[]])) == 3
     assert len(fill(sheet, [view("a", 100, 80)], [[block(60, 30)]])) == 1
-    assert len(fill(sheet, [view("a", 230, 120)], [[block(180, 60)]])) == 2
+    assert len(fill(sheet, [view("a", 230, 90)], [[block(180, 60)]])) == 2
     assert len(fill(sheet, [], [[]])) == 1
 
 
 def test_of_the_ways_to_set_tables_the_first_is_taken_that_needs_no_further_page():
-    sheet = Format("A4", "gost")
+    sheet = Format("A4", "iso")
     large, small = [block(190, 60)], [block(90, 12)]
     (leaf,) = fill(sheet, [view("a", 230, 80)], [large, small])
     assert [b for b, _ in leaf.blocks] == small
@@ -114,17 +122,17 @@ def test_what_stands_alone_on_a_page_stands_in_the_middle_of_what_is_free(sheet)
     (leaf,) = fill(sheet, [view("a", 60, 40)], [[]])
     panel, at = leaf.views["a"]
     free = sheet.content.grown(-4.0)
-    footprint = [box.moved(at) for box in panel.footprint]
-    left, right = min(b.left for b in footprint) - free.left, free.right - max(b.right for b in footprint)
+    box = panel.box.moved(at)
+    left, right = box.left - free.left, free.right - box.right
     assert abs(left - right) <= 30.0
-    low, high = min(b.bottom for b in footprint) - free.bottom, free.top - max(b.top for b in footprint)
+    low, high = box.bottom - free.bottom, free.top - box.top
     # The title block takes of the lower part only.
     assert low - high >= -4.0
 
 
 def test_diagrams_in_a_column_stand_as_far_apart_as_the_page_has_room():
     assert GAPS == (24.0, 12.0, 6.0, 2.0, -2.0)
-    heights = {60.0: 24.0, 64.0: 12.0, 70.0: 6.0, 73.0: 2.0, 76.0: -2.0}
+    heights = {60.0: 24.0, 66.0: 12.0, 73.0: 6.0, 75.5: 2.0, 78.0: -2.0}
     for high, gap in heights.items():
         (leaf,) = fill(Format("A3", "gost"), [view(name, 100, high, "phi") for name in "abc"], [[]])
         boxes = [panel.box.moved(at) for panel, at in leaf.views.values()]
@@ -132,28 +140,102 @@ def test_diagrams_in_a_column_stand_as_far_apart_as_the_page_has_room():
         assert apart == pytest.approx([gap, gap]), high
 
 
-def test_what_is_larger_than_a_page_is_reduced_by_a_standard_ratio_with_all_that_shares_its_axes():
-    sheet = Format("A4", "gost")
-    for wide, factor in ((240, 1.0), (270, 1 / 2), (530, 1 / 2.5), (20000, 1 / 100), (30000, 1e-3)):
-        (leaf,) = fill(sheet, [view("a", wide, 20)], [[]])
-        assert leaf.views["a"][0].factor == factor
-    leaves = fill(sheet, [view("a", 400, 20, "phi"), view("b", 50, 20, "phi"), view("c", 50, 20)], [[]])
-    factors = {name: panel.factor for leaf in leaves for name, (panel, _) in leaf.views.items()}
-    assert factors == {"a": 0.5, "b": 0.5, "c": 1.0}
+@pytest.mark.parametrize("sheet", EVERY, ids=repr)
+def test_what_a_page_has_room_for_is_known_beforehand(sheet):
+    """A view of each of the largest sizes fits, but for the grid on which room is found, and no larger one does."""
+    for wide, high in free_rooms(sheet):
+        if wide < 160 or high < 60:
+            continue  # its title would be wider
+        # About a frame there are 3 mm, and above it the title.
+        around = view("a", 100, 50).box
+        size = wide - around.width + 100, high - around.height + 50
+        (leaf,) = fill(sheet, [view("a", size[0] - 4, size[1] - 4)], [[]])
+        assert set(leaf.views) == {"a"}
+    widest, highest = max(w for w, _ in free_rooms(sheet)), max(h for _, h in free_rooms(sheet))
+    for wide, high in ((widest, 20), (50, highest)):
+        with pytest.raises(gc.DesignError, match=f"the view 'a' .* on {sheet.said}"):
+            fill(sheet, [view("a", wide, high)], [[]])
 
 
-def test_a1_parts_columns_before_it_reduces_and_never_what_stands_one_under_the_other():
+def test_every_view_keeps_its_size_and_those_that_share_an_axis_are_parted_where_a_page_cannot_take_them():
     sheet = Format("A1", "gost")
     side = [view("a", 500, 60, "phi", "s"), view("b", 500, 60, "e", "s")]
-    leaves = fill(sheet, side, [[]])
-    assert {panel.factor for leaf in leaves for panel, _ in leaf.views.values()} == {1.0}
     column = [view(name, 300, 250, "phi") for name in "abc"]
-    (leaf,) = fill(sheet, column, [[]])
-    assert {panel.factor for panel, _ in leaf.views.values()} == {0.5}
-    # On smaller sheets each stands on one of its own instead.
-    leaves = fill(Format("A2", "gost"), [view(name, 300, 250, "phi") for name in "abc"], [[]])
+    for views in (side, column):
+        leaves = fill(sheet, views, [[]])
+        assert len(leaves) == 1
+        assert {panel for leaf in leaves for panel, _ in leaf.views.values()} == {*views}
+    # On smaller sheets each stands on one of its own.
+    leaves = fill(Format("A2", "gost"), column, [[]])
     assert [len(leaf.views) for leaf in leaves] == [1, 1, 1]
-    assert {panel.factor for leaf in leaves for panel, _ in leaf.views.values()} == {1.0}
+
+
+def pages_of(sheet: Format, *views: Panel) -> list[str]:
+    """The names of the views on each page."""
+    return ["".join(leaf.views) for leaf in fill(sheet, views, [[]])]
+
+
+def test_every_page_but_the_last_is_well_used():
+    """Four views leave two pages half empty each in their own order, and fill one of them in another."""
+    sheet = Format("A3", "iso")
+    views = [view("a", 360, 60), view("b", 170, 110), view("c", 360, 60), view("d", 170, 110)]
+    leaves = fill(sheet, views, [[]])
+    assert len(leaves) == 2
+    assert leaves[0].used >= FULL
+    assert leaves[0].used > leaves[1].used
+
+
+def test_what_a_page_uses_are_the_boxes_of_views_and_tables_and_of_the_sheet_itself():
+    sheet = Format("A3", "iso")
+    (leaf,) = fill(sheet, [view("a", 100, 80)], [[block(60, 20)]])
+    covered = leaf.views["a"][0].box.area + 60 * 20 + sum(box.area for box in taken(sheet, 0.0))
+    assert leaf.used == pytest.approx(covered / (390 * 277))
+    # A table inside a diagram takes no more of the page.
+    diagrams = [view(name, 300, 60, "phi") for name in "ab"]
+    (leaf,) = fill(sheet, diagrams, [[block(60, 20)]])
+    assert leaf.used == pytest.approx(
+        (sum(panel.box.area for panel, _ in leaf.views.values()) + sum(box.area for box in taken(sheet, 0.0)))
+        / (390 * 277)
+    )
+
+
+def test_pages_follow_the_work_and_the_first_view_stands_on_the_first():
+    sheet = Format("A4", "iso")
+    large = [view(name, 230, 90) for name in "abc"]
+    assert pages_of(sheet, *large) == ["a", "b", "c"]
+    # What is small fills the room that is left, but not on a page before the first of all views.
+    assert pages_of(sheet, view("k", 40, 30), *large) == ["ak", "b", "c"]
+    assert pages_of(sheet, *large[:2], view("k", 40, 30), large[2])[0][0] == "a"
+
+
+def test_no_diagram_of_a_column_is_passed_over():
+    """The second is too high to stand under the first; the third goes with the second."""
+    column = [view("a", 200, 80, "phi"), view("b", 200, 200, "phi"), view("c", 200, 15, "phi")]
+    assert pages_of(Format("A3", "gost"), *column) == ["a", "bc"]
+
+
+def test_a1_puts_views_into_the_corners_of_others_rather_than_on_another_page():
+    """Triangles fill half of their boxes; between any two views of the page a straight line can be drawn."""
+    sheet = Format("A1", "gost")
+
+    def triangle(name: str, *corners: complex) -> Panel:
+        shown = View(name, say(""), f"x {name}", f"y {name}")
+        return Panel(shown, (Line(np.array(corners), Role.CURVE, closed=True),), LETTERS)
+
+    def pair(wide: float, high: float) -> list[Panel]:
+        return [triangle("a", 0, wide, 1j * high), triangle("b", wide, wide + 1j * high, 30 + 1j * high)]
+
+    (leaf,) = fill(sheet, pair(600, 290), [[]])
+    (a, at_a), (b, at_b) = leaf.views.values()
+    assert a.box.moved(at_a).common(b.box.moved(at_b)) > 0
+    # Six millimetres from line to line, less what the outlines miss.
+    assert shapely.distance(*(hull(panel.points + at) for panel, at in leaf.views.values())) >= 5.0
+    # On smaller formats the boxes keep off each other.
+    assert len(fill(Format("A2", "gost"), pair(400, 200), [[]])) == 2
+
+
+def hull(points: np.ndarray) -> shapely.Geometry:
+    return shapely.convex_hull(shapely.MultiPoint(np.stack([points.real, points.imag], axis=1)))
 
 
 def middle(leaf: Leaf, name: str) -> complex:
@@ -194,7 +276,7 @@ def steps(*parts: tuple[str, float, float]) -> list[tuple[str, Step]]:
 
 
 def test_pages_come_in_the_order_of_their_first_step():
-    drawn = compose(steps(("late", 50, 40), ("large", 240, 105), ("wide", 240, 90)), [], TITLE, "A4")
+    drawn = compose(steps(("late", 50, 40), ("large", 240, 105), ("wide", 240, 90)), [], TITLE, "A4", "iso")
     named = [[g.name.split()[1] for g in page.groups if g.key.startswith("step")] for page in drawn.pages]
     assert [names[0] for names in named] == sorted((names[0] for names in named), key=["late", "large", "wide"].index)
     assert len(named) > 1
@@ -234,24 +316,47 @@ def test_an_unfinished_sheet_shows_what_is_given_and_the_steps_so_far_at_the_sam
                 np.testing.assert_array_equal(entity.points, same.points)
 
 
-def test_a_page_knows_where_its_views_stand_true_to_scale():
-    drawn = compose(steps(("true", 50, 40), ("reduced", 900, 20)), [], TITLE, "A4")
+def test_a_page_knows_where_its_views_stand():
+    drawn = compose(steps(("one", 50, 40), ("other", 200, 80)), [], TITLE, "A4", "iso")
     places = {name: (k, at) for k, page in enumerate(drawn.pages) for name, at in page.origins.items()}
-    assert set(places) == {"true"}
-    k, at = places["true"]
-    (group,) = (g for g in drawn.pages[k].groups if g.name.endswith(" true"))
-    assert group.entities[0].points[0] == at
+    assert set(places) == {"one", "other"}
+    for name, (k, at) in places.items():
+        (group,) = (g for g in drawn.pages[k].groups if g.name.endswith(f" {name}"))
+        assert group.entities[0].points[0] == at
 
 
-def test_a_table_wider_than_the_sheet_is_set_in_smaller_letters():
-    columns = tuple(f"column of many {k}" for k in range(30))
-    wide = Table("T", columns, (columns,))
+def test_a_table_wider_than_the_sheet_is_broken_into_lines_and_parted_by_its_columns():
+    columns = tuple(f"column{k} of" for k in range(30))
+    wide = Table("T", columns, (columns, columns))
     room = Format("A4", "gost").content.width - 8 - 4
     drawn = compose([], [wide], TITLE, "A4")
     entities = [e for p in drawn.pages for g in p.groups if g.key == "tables" for e in g.entities]
-    assert box_of(e for e in entities if isinstance(e, Strokes)).width == pytest.approx(room, rel=1e-6)
-    (height,) = {e.height for e in entities if isinstance(e, Text)}
-    assert height == pytest.approx(2.5 * room / table_block(wide, 2.5).box.width)
+    said = [e for e in entities if isinstance(e, Text)]
+    assert {e.height for e in said} == {2.5}
+    parts = sum(e.text.startswith("T, ") for e in said)
+    assert {f"T, {k}/{parts}" for k in range(1, parts + 1)} <= {e.text for e in said}
+    # The first column stands in each part, in the header and two rows; every other one once.
+    words = Counter(e.text.split()[0] for e in said)
+    assert words["column0"] == 3 * parts
+    assert {words[f"column{k}"] for k in range(1, 30)} == {3}
+    borders = [e for e in entities if isinstance(e, Strokes) and e.role == "table"]
+    assert len(borders) == parts > 1
+    assert all(box_of([e]).width <= room for e in borders)
+
+
+def test_a_table_higher_than_the_sheet_is_parted_by_its_rows():
+    long = Table("T", ("", "value"), tuple((f"row {k}", f"{k}") for k in range(100)), frozenset({(0, 1), (99, 1)}))
+    drawn = compose([], [long], TITLE, "A4")
+    said = [
+        e.text for p in drawn.pages for g in p.groups if g.key == "tables" for e in g.entities if isinstance(e, Text)
+    ]
+    parts = said.count("value")
+    assert parts > 1
+    assert {f"T, {k}/{parts}" for k in range(1, parts + 1)} <= set(said)
+    assert [said.count(f"row {k}") for k in range(100)] == [1] * 100
+    assert overlaps(drawn) == []
+    answers = [e for block in table_blocks(long, 2.5, 100.0, 150.0) for e in block.answers]
+    assert [e.text for e in answers] == ["0", "99"]
 
 
 def test_notes_are_180_mm_wide_at_most_and_no_wider_than_the_sheet():

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from overlaps import overlaps
-from scene import TABLE, TITLE, drawing, steps
+from scene import DRAWN_AT, TABLE, TITLE, drawing, steps
 
 import graphcam as gc
 from graphcam.drafting.ink import Step, View, say
@@ -16,7 +16,7 @@ from graphcam.drafting.marks import Line, Role
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Stroke, Strokes, Text
+from graphcam.sheets.model import Drawing, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import TranslatingTable
@@ -69,27 +69,21 @@ def test_scene_has_no_text_in_the_way(paper: str, frame: str) -> None:
     assert overlaps(drawing(paper, frame)) == []
 
 
-def test_a1_takes_the_scene_on_one_page_at_full_size() -> None:
-    drawn = drawing("A1")
-    assert len(drawn.pages) == 1
-    assert not any("reduced" in e.text for g in drawn.pages[0].groups for e in g.entities if isinstance(e, Text))
+def test_a1_takes_the_scene_on_one_page() -> None:
+    assert len(drawing("A1").pages) == 1
 
 
 @pytest.mark.parametrize("ordinate", [800.0, 50000.0])
 @pytest.mark.parametrize("paper", SIZES)
-def test_what_is_too_large_is_reduced_with_its_neighbours(paper: str, ordinate: float) -> None:
-    # Acceleration, displacement and combined diagram share axes; the profile does not.
-    shared = [(name, step) for name, step in steps(ordinate) if name != "profile"]
-    drawn = compose(shared, [TABLE], TITLE, paper)
-    assert overlaps(drawn) == []
-    titles = [e.text for page in drawn.pages for g in page.groups if g.key == "titles" for e in g.entities]
-    reduced = [title.split("reduced ")[1] for title in titles if "reduced" in title]
-    assert len(reduced) == 3
-    assert len(set(reduced)) == 1
-    for page in drawn.pages:
-        for group in page.groups:
-            box = box_of(e for e in group.entities if isinstance(e, Stroke | Strokes | ArcEntity | Circles | Curve))
-            assert group.key == "frame" or box is None or page.frame.holds(box)
+def test_what_fits_no_page_is_refused_with_its_size(paper: str, ordinate: float) -> None:
+    with pytest.raises(gc.DesignError) as raised:
+        compose(steps(ordinate, DRAWN_AT[paper]), [TABLE], TITLE, paper)
+    assert raised.value.quantity == "the view 'acceleration'"
+    assert f"on {Format(paper, 'gost').said}" in raised.value.limit
+    wide, high = map(float, str(raised.value.value).removesuffix(" mm").split(" × "))
+    drawn = 2 * ordinate * DRAWN_AT[paper]
+    assert drawn < high < drawn + 40
+    assert 360 * DRAWN_AT[paper] < wide < 360 * DRAWN_AT[paper] + 80
 
 
 @pytest.mark.parametrize(("paper", "frame"), EVERY)
@@ -113,13 +107,11 @@ def test_notes_are_numbered_and_broken_into_lines() -> None:
 
 @pytest.mark.parametrize("frame", MARGINS)
 def test_built_in_task_on_a1(frame: str) -> None:
-    """One page, full size, no text in the way, and the profile the largest thing drawn."""
+    """One page, no text in the way, and the profile the largest thing drawn."""
     task = builtin_task()
     drawn = sheet_of(gc.solve(replace(task, drawing=replace(task.drawing, format="A1", frame=frame))))
     assert len(drawn.pages) == 1
     assert overlaps(drawn) == []
-    texts = [e.text for g in drawn.pages[0].groups for e in g.entities if isinstance(e, Text)]
-    assert not any("reduced" in text for text in texts)
     assert all(e.height >= 2.5 for g in drawn.pages[0].groups for e in g.entities
                if isinstance(e, Text) and g.key != "frame")  # fmt: skip
     areas: dict[str, float] = {}
@@ -131,12 +123,10 @@ def test_built_in_task_on_a1(frame: str) -> None:
     assert max(areas, key=lambda name: areas[name]) == "inversion"
 
 
-def test_a1_parts_the_combined_diagram_before_it_reduces() -> None:
+def test_a1_parts_the_combined_diagram_from_the_others() -> None:
     """A limit on the return makes the combined diagram too tall to stand beside the displacement."""
     task = builtin_task()
     drawn = sheet_of(gc.solve(replace(task, limits=replace(task.limits, pressure_angle_return=60.0))))
-    texts = [e.text for page in drawn.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
-    assert not any("reduced" in text for text in texts)
     assert overlaps(drawn) == []
     axes = {
         (number, round(float(e.starts[0].real), 6))
@@ -161,9 +151,8 @@ def test_random_tasks_have_no_text_in_the_way(seed: int, paper: str) -> None:
         DwellTable(float(360 - angles[:3].sum())),
     )
     task = builtin_task()
-    drawing_table = replace(
-        task.drawing, format=paper, frame=str(random.choice(["gost", "iso"])), divisions=int(random.integers(4, 17))
-    )
+    frame, divisions = str(random.choice(["gost", "iso"])), int(random.integers(4, 17))
+    drawing_table = replace(task.drawing.on(paper), frame=frame, divisions=divisions)
     task = replace(
         task, rotation=str(random.choice(["cw", "ccw"])), motion=MotionTable(phases), follower=TranslatingTable(),
         drawing=drawing_table,
@@ -194,5 +183,30 @@ def test_a_wide_title_in_a_later_row_moves_the_next_column_aside() -> None:
     ((page_c, c),) = corners_of(drawn, "combined")
     assert page_s == page_c
     assert c.imag + 60 == pytest.approx(s.imag, abs=1e-9)
-    titles = [e.text for p in drawn.pages for g in p.groups if g.key == "titles" for e in g.entities]
-    assert not any("reduced" in title for title in titles)
+
+
+def scales(drawn: Drawing) -> list[str]:
+    """What the field of the title block says, page by page."""
+    fields = [[e.text for g in page.groups for e in g.entities if isinstance(e, Text) and e.field == "scale"]
+              for page in drawn.pages]  # fmt: skip
+    return [" ".join(texts) for texts in fields]
+
+
+def scaled(name: str, size: complex, mu_l: float | None, *, main: bool = False) -> tuple[str, Step]:
+    view = View(name, say(name), f"{name} x", f"{name} y", mu_l=mu_l, main=main)
+    box = np.array([0, size.real, size, 1j * size.imag])
+    return name, Step(say("."), say("."), view, (Line(box, Role.CURVE, closed=True),))
+
+
+def test_the_title_block_bears_the_scale_of_what_is_drawn_on_its_sheet() -> None:
+    """That of the cam where it stands, or the only one; views of several and a sheet of diagrams have none."""
+    own, given = replace(TITLE, scale=None), replace(TITLE, scale="as shown")
+    cam, plan, detail = (
+        scaled("cam", 100 + 60j, 0.5, main=True), scaled("plan", 160 + 80j, 2.0), scaled("detail", 50 + 40j, 0.1)
+    )  # fmt: skip
+    assert scales(compose([plan, cam, detail], [], own, "A2")) == ["2:1"]
+    assert scales(compose([plan, detail], [], own, "A2")) == [""]
+    diagram = scaled("diagram", 240 + 80j, None)
+    assert scales(compose([diagram], [], own, "A4", "iso")) == [""]
+    assert scales(compose([diagram, plan, cam], [], own, "A4", "iso")) == ["", "1:2", "2:1"]
+    assert scales(compose([diagram, plan], [], given, "A4", "iso")) == ["as shown"] * 2

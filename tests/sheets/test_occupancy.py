@@ -46,8 +46,8 @@ def test_a_cell_is_half_a_millimetre_wide_and_keeps_its_highest_cost():
 @pytest.mark.parametrize(
     ("role", "worth"),
     [
-        (Role.RESULT, 200.0), (Role.CURVE, 6.0), (Role.LIMIT, 6.0), (Role.CONSTRUCTION, 1.5), (Role.AXIS, 1.5),
-        (Role.HATCH, 0.4), ("frame", 200.0), ("table", 6.0), ("ruling", 1.5),
+        (Role.RESULT, 200.0), (Role.CURVE, 80.0), (Role.LIMIT, 80.0), (Role.CONSTRUCTION, 2.0), (Role.AXIS, 2.0),
+        (Role.DIMENSION, 80.0), (Role.HATCH, 0.4), ("frame", 200.0), ("table", 80.0), ("ruling", 2.0),
     ],
 )  # fmt: skip
 def test_a_line_costs_by_its_width_in_every_cell_that_it_crosses(role, worth):
@@ -107,10 +107,10 @@ def test_a_free_place_is_worth_more_than_a_near_one_by_what_lies_there():
     thin = Strokes(np.array([15 + 30j]), np.array([30 + 30j]), Role.CONSTRUCTION)
     places = 22 + 30j, 45 + 30j
     assert chosen(writing(*places, price=[0.0, 1000.0]), bold) == pytest.approx(places[1])
-    # Across a thin line it costs the cells of the line: one and a half for each letter's width of half a millimetre.
+    # Across a thin line it costs the cells of the line: two for each half of a millimetre of the letters' width.
     cells = corners(Text(0j, "HHH", 3.5)).real.max() / 0.5
-    assert chosen(writing(*places, price=[0.0, 1.5 * cells + 10]), thin) == pytest.approx(places[0])
-    assert chosen(writing(*places, price=[0.0, 1.5 * cells - 5]), thin) == pytest.approx(places[1])
+    assert chosen(writing(*places, price=[0.0, 2.0 * cells + 10]), thin) == pytest.approx(places[0])
+    assert chosen(writing(*places, price=[0.0, 2.0 * cells - 5]), thin) == pytest.approx(places[1])
 
 
 @pytest.mark.parametrize(("gap", "free"), [(0.3, False), (1.2, True)])

@@ -31,6 +31,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "grade-a-group",
         "write-an-exercise",
         "check-my-drawing",
+        "make-the-cam",
         "sweep-many-cams",
         "add-a-law",
         "add-a-language",
@@ -106,7 +107,8 @@ def test_the_construction_of_the_page_is_drawn_compared_and_shown(tmp_path):
     _, exact, error, bound = map(float, numbers.split())
     assert exact == pytest.approx(2 * 30 / math.radians(60))  # a return of 30 mm in 60 degrees, twice its mean
     assert 0 < abs(error) <= bound
-    assert "The steepest chord" in (tmp_path / "look" / "sheet.svg").read_text(encoding="utf-8")
+    pages = [path.read_text(encoding="utf-8") for path in (tmp_path / "look").glob("sheet*.svg")]
+    assert sum("The steepest chord" in page for page in pages) == 1
     assert "the follower is fastest" in (tmp_path / "look" / "player.html").read_text(encoding="utf-8")
 
 

@@ -22,6 +22,7 @@ QUANTITIES = {
 }  # fmt: skip
 FILES = {
     "pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz",
+    "profile_step", "profile_gcode",
 }  # fmt: skip
 
 

@@ -128,5 +128,5 @@ def test_a_lift_that_vanishes_beside_the_cam_is_not_drawn(tmp_path):
 
 def test_the_profile_of_a_huge_cam_asks_for_a_deviation_that_can_be_told_from_rounding():
     motion = gc.Motion([gc.Rise(1e30, 2.0), gc.Return(1e30, 2.0), gc.Dwell(math.tau - 4)])
-    with pytest.raises(gc.DesignError, match=r"deviation is 0\.001, but must be .* mm or more"):
+    with pytest.raises(gc.DesignError, match=r"deviation is 0\.0005, but must be .* mm or more"):
         gc.profile_spline(gc.Cam(motion, gc.Translating(), 1e30))

@@ -176,7 +176,6 @@ def error_of(path: Path) -> str:
     [
         ("nowhere.toml", "not there graphcam init"),
         (".", "folder name"),
-        ("", "folder"),
         ("cam.toml/cam.toml", "not readable permissions"),
         ("x" * 5000, "not readable"),
     ],

@@ -92,7 +92,7 @@
     for (const name of mechanism.live) at(`live-${name}`).textContent = written(arrays[name][k], mechanism.digits[name], mechanism.units[name]);
     cursors.forEach((move) => move(k));
     const phase = mechanism.phases.findLast((one) => one.start <= phi) || mechanism.phases[0];
-    at("phase").textContent = phase.name;
+    at("phase").innerHTML = phase.heading;
     document.querySelectorAll("#mechanism .chapters span").forEach((bar, j) => bar.classList.toggle("here", mechanism.phases[j] === phase));
     at("phi").value = phi;
     at("phi").setAttribute("aria-valuetext", `φ = ${written(phi, 1, "°")}, α = ${written(angle, 1, "°")}`);

@@ -124,11 +124,11 @@ def _composed(
 ) -> Drawing:
     task = variant.task
     title = replace(task.title, name=variant.exercise.title, author=student.name or student.id)
-    # Diagrams alone have scales of their own, and the sheet none.
-    shown = any(step.view.name == PROFILE.name for _, step in steps)
-    title = title if shown or title.scale is not None else replace(title, scale="")
-    scale, tell = board_chain(task).profile_scale, variant.exercise.tell
-    block = title_block(title, scale, tell)
+    mu_l, tell = board_chain(task).profile_scale.per_mm, variant.exercise.tell
+    # The scale of the profile is that of the sheet, though the titles of views tell none: some are to be found.
+    profile = {PROFILE.name: mu_l}
+    steps = [(name, replace(step, view=replace(step.view, mu_l=profile.get(step.view.name)))) for name, step in steps]
+    block = title_block(title, tell)
     return compose(steps, tables, block, task.drawing.format, task.drawing.frame, notes, tell=tell)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from graphcam.constructions.axes import phi_axes
+from graphcam.constructions.axes import ordinate, phi_axes
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import VIEWS
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
@@ -31,7 +31,8 @@ def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     symbol, view, low, high = ROOM[name]
     # Under the measured diagram, which has a cam angle of its own.
     view = VIEWS[symbol] if "differentiation" in exercise.sheet else view
-    axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), symbol)
+    named = ordinate(symbol, chain.board.follower.unit)
+    axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
     pole = () if name == "displacement" else (Line(np.array([-BEFORE, 0]) + 0j, Role.CONSTRUCTION),)
     return Step(view.title, view.title, view, (*axes, *pole))
 

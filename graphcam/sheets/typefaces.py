@@ -1,0 +1,193 @@
+"""Typefaces: osifont, which is lettered by ISO 3098, and for what it lacks DejaVu Sans, then the machine's own.
+
+Each character has one face, by which it is measured and drawn.
+"""
+
+from __future__ import annotations
+
+import base64
+import struct
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.ft2font import FT2Font
+
+FAMILY = "osifont"
+"""The family of the letters, by the name that drawings have for it."""
+ELSEWHERE = "DejaVu Sans"
+"""What comes nearest to it where it is not at hand."""
+BOX = "□"
+"""Stands for a character that no face has."""
+ALPHABET = "".join(map(chr, (*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3CA), *range(0x400, 0x460))))
+"""What nearly every sheet is lettered with, in any language that the program speaks."""
+UPRIGHT = "regular", "medium", "book", "roman"
+"""How files are named that hold neither bold nor slanted letters."""
+
+
+@dataclass(frozen=True)
+class Glyph:
+    """Advance, depth below and height above the base line, in heights of the family's capitals.
+
+    left, right : what stays blank of the advance at either side
+    """
+
+    advance: float
+    below: float
+    above: float
+    left: float
+    right: float
+
+
+def lettering_file() -> Path:
+    """The file of osifont."""
+    return Path(str(files("graphcam") / "data" / "fonts" / "osifont.ttf"))
+
+
+@cache
+def shipped() -> tuple[Path, ...]:
+    """The faces that every machine has."""
+    from matplotlib import get_data_path
+
+    return lettering_file(), Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
+
+
+@cache
+def font(face: Path) -> FT2Font:
+    """A face, open."""
+    from matplotlib.ft2font import FT2Font
+
+    return FT2Font(str(face))
+
+
+@cache
+def face_of(character: str) -> Path | None:
+    """The face that has the character; None where no face of the machine has it.
+
+    >>> face_of("μ").name, face_of("√").name, face_of(chr(0xE000 + 77))
+    ('osifont.ttf', 'DejaVuSans.ttf', None)
+    """
+    has_it = (face for face in shipped() if font(face).get_char_index(ord(character)))
+    return next(has_it, None) or _found(character)
+
+
+def _found(character: str) -> Path | None:
+    """The first of the machine's own faces that has a character; nobody draws those for private use alike."""
+    if not character.isprintable():
+        return None
+    return next((face for face in installed() if ord(character) in _characters(face)), None)
+
+
+@cache
+def installed() -> tuple[Path, ...]:
+    """The machine's own faces, upright ones first, always in the same order."""
+    from matplotlib.font_manager import findSystemFonts
+
+    found = {Path(name) for name in findSystemFonts()}
+    # A face whose outlines can stand in a PDF as they are comes before one whose cannot.
+    return tuple(sorted(found, key=lambda face: (cubic(face), not _is_upright(face), face.name, str(face))))
+
+
+def _is_upright(face: Path) -> bool:
+    name = face.stem.lower()
+    styled = any(style in name for style in ("bold", "italic", "oblique", "light", "black", "thin", "mono"))
+    return any(style in name for style in UPRIGHT) or not styled
+
+
+@cache
+def _characters(face: Path) -> frozenset[int]:
+    """What a face has, if it is one whose letters can be drawn at any size."""
+    try:
+        opened = font(face)
+    except (OSError, RuntimeError):
+        return frozenset()
+    return frozenset(opened.get_charmap()) if opened.scalable else frozenset()
+
+
+@cache
+def cubic(face: Path) -> bool:
+    """Whether the outlines of a face are cubic, not quadratic as those of TrueType."""
+    try:
+        with face.open("rb") as file:
+            start = file.read(16)
+            if start[:4] == b"ttcf":
+                file.seek(struct.unpack(">I", start[12:16])[0])
+                start = file.read(4)
+    except OSError:
+        return True
+    return start[:4] == b"OTTO"
+
+
+@cache
+def glyph(character: str) -> Glyph:
+    """The measures of a character in its face; a box stands for one that has none."""
+    from matplotlib.ft2font import LoadFlags
+
+    face = face_of(character)
+    if face is None:
+        return glyph(BOX)
+    opened = font(face)
+    loaded = opened.load_glyph(opened.get_char_index(ord(character)), flags=LoadFlags.NO_SCALE)
+    unit, advance, (left, bottom, right, top) = opened.units_per_EM * capital(), loaded.horiAdvance, loaded.bbox
+    return Glyph(advance / unit, -bottom / unit, top / unit, left / unit, (advance - right) / unit)
+
+
+@cache
+def capital() -> float:
+    """The height of the family's capitals, in ems, which are alike in all faces."""
+    from matplotlib.ft2font import LoadFlags
+
+    letters = font(lettering_file())
+    return letters.load_char(ord("H"), flags=LoadFlags.NO_SCALE).bbox[3] / letters.units_per_EM
+
+
+def unknown(texts: Iterable[str]) -> str:
+    """The characters that no face of the machine has.
+
+    >>> unknown(["φ = 80°", "漢" if face_of("漢") else ""])
+    ''
+    """
+    return "".join(character for character in sorted(set("".join(texts))) if face_of(character) is None)
+
+
+def font_faces(texts: Iterable[str]) -> str:
+    """Rules of CSS by which a page carries the letters of these texts with it, under the name of the family."""
+    needed = sorted(set("".join(texts)))
+    by_face: dict[Path, str] = {lettering_file(): ALPHABET}
+    for character in needed:
+        if (face := face_of(character)) is not None:
+            by_face[face] = by_face.get(face, "") + character
+    return "\n".join(_rules(by_face))
+
+
+def _rules(by_face: dict[Path, str]) -> Iterator[str]:
+    for face, characters in by_face.items():
+        letters = "".join(sorted(set(characters)))
+        source = f'url(data:font/woff;base64,{_woff(face, letters)}) format("woff")'
+        # A face under the same name has only what the first one lacks.
+        only = "" if face == lettering_file() else f" unicode-range: {', '.join(f'U+{ord(c):X}' for c in letters)};"
+        yield f'@font-face {{ font-family: "{FAMILY}"; src: {source};{only} }}'
+
+
+# The pages of a drawing and its step player have nearly always the same letters.
+@lru_cache(maxsize=32)
+def _woff(face: Path, characters: str) -> str:
+    """A face with these characters alone: base64 of a WOFF."""
+    from fontTools import subset
+
+    # Widths are measured without kerning and ligatures.
+    options = subset.Options(flavor="woff", layout_features=[], recalc_timestamp=False, notdef_outline=True)
+    # Of a collection the first one; and without the dates of the editor that it was drawn with.
+    options.font_number, options.hinting = 0, False
+    options.drop_tables += ["FFTM"]
+    subsetter, written = subset.Subsetter(options), BytesIO()
+    subsetter.populate(text=characters)
+    with subset.load_font(str(face), options) as opened:
+        subsetter.subset(opened)
+        subset.save_font(opened, written, options)
+    return base64.b64encode(written.getvalue()).decode("ascii")

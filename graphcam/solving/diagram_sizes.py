@@ -1,0 +1,158 @@
+"""How large the diagrams over the cam angle are drawn where the task leaves it open: the ordinate and the poles."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import count
+
+import numpy as np
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import Motion, Rise
+
+ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+"""Ordinates that are chosen from [mm of paper]."""
+SMALLER = (40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+"""Tenths of these, hundredths and so on where even the last of them is too large."""
+POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
+"""Pole distances that are chosen from [mm of paper]."""
+USUAL_POLE = 40.0
+"""At 1 degree a millimetre [mm of paper]; where the axis is shorter it is shorter in proportion, so that chords keep
+their slopes."""
+LOW = 0.7
+"""A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
+LONGEST_POLE = 0.25
+"""Of the axis of the cam angle: a longer pole would take the room of the diagrams."""
+SAMPLES = 361
+"""Of each phase, however short it is."""
+
+
+@dataclass(frozen=True)
+class DiagramRoom:
+    """What the diagrams of a format are drawn for.
+
+    degrees_per_mm : of the cam angle, so that a turn and the poles fit across the sheet
+    a, v, s : heights that the whole diagrams should keep to [mm of paper]
+    pole : the longest that there is room for [mm of paper]
+    """
+
+    degrees_per_mm: float
+    a: float
+    v: float
+    s: float
+    pole: float = math.inf
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnHeights:
+    """How high the diagrams of a motion come out, by the ordinate of the first rise and the poles [mm of paper].
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
+    >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).chosen(room, page)
+    (40.0, (20.0, 40.0))
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).chosen(room, page)
+    (1.5, (12.0, 15.0))
+    """
+
+    motion: Motion
+    degrees_per_mm: float
+
+    @cached_property
+    def values(self) -> tuple[Floats, Floats, Floats]:
+        """s, v and a over the turn."""
+        return over_the_turn(self.motion)
+
+    @property
+    def turn(self) -> float:
+        """How long the axis of the cam angle is."""
+        return 360.0 / self.degrees_per_mm
+
+    @cached_property
+    def unit(self) -> tuple[float, float, float]:
+        """Acceleration, velocity and displacement at an ordinate and poles of 1 mm."""
+        rise = next(phase for phase in self.motion.phases if isinstance(phase, Rise))
+        mu_a = rise.normalised.peak_acceleration * rise.lift / rise.angle**2
+        mu_phi = math.radians(self.degrees_per_mm)
+        s, v, a = map(_height, self.values)
+        # mu_v = mu_a mu_phi H1, mu_s = mu_v mu_phi H2.
+        return a / mu_a, v / (mu_a * mu_phi), s / (mu_a * mu_phi**2)
+
+    def largest_ordinate(self, most: DiagramRoom, poles: tuple[float, float]) -> float:
+        """The largest at which no diagram exceeds a room."""
+        (a, v, s), (first, second) = self.unit, poles
+        return min(most.a / a, most.v * first / v, most.s * first * second / s)
+
+    def chosen(
+        self,
+        room: DiagramRoom,
+        most: DiagramRoom,
+        ordinate: float | None = None,
+        poles: tuple[float, float] | None = None,
+    ) -> tuple[float, tuple[float, float]]:
+        """The ordinate and the poles: those that are given, or else such that the diagrams keep to their room.
+
+        most : what no diagram may exceed, for no page would take it
+        """
+        first = ordinate or self._chosen_ordinate(room, most)
+        found = poles or self._chosen_poles(room, most, first)
+        if ordinate is None:
+            # Poles that are given, or the longest, may not make velocity and displacement low enough.
+            largest = self.largest_ordinate(most, found)
+            first = next(y for y in _ordinates() if y <= min(first, largest))
+        return first, found
+
+    def _chosen_ordinate(self, room: DiagramRoom, most: DiagramRoom) -> float:
+        """The largest of a round series at which the acceleration keeps to its room."""
+        a, _, _ = self.unit
+        # Rather than a very small ordinate a diagram that is higher than usual.
+        usual = (y for y in ORDINATES if y * a <= (most if y == ORDINATES[-1] else room).a)
+        return next(usual, None) or next(y for y in _ordinates() if y * a <= most.a)
+
+    def _chosen_poles(self, room: DiagramRoom, most: DiagramRoom, ordinate: float) -> tuple[float, float]:
+        """Acceleration to velocity and on to displacement.
+
+        The usual ones; longer ones where a diagram would be too high, shorter ones where it would be much lower than
+        its room.
+        """
+        _, v, s = (ordinate * height for height in self.unit)
+        longest = min(LONGEST_POLE * self.turn, most.pole)
+        possible = [pole for pole in POLES if pole <= longest]
+        first = self._pole(possible, min(room.v, most.v), lambda pole: v / pole)
+        second = self._pole(possible, min(room.s, most.s), lambda pole: s / (first * pole))
+        if s > most.s * first * second:
+            # The second alone would be too long.
+            longer = [pole for pole in possible if pole >= first]
+            first = next((pole for pole in longer if s <= most.s * pole * second), longer[-1])
+        return first, second
+
+    def _pole(self, possible: Sequence[float], high: float, height: Callable[[float], float]) -> float:
+        usual = USUAL_POLE / self.degrees_per_mm
+        k = min(range(len(possible)), key=lambda k: abs(possible[k] - usual))
+        while k + 1 < len(possible) and height(possible[k]) > high:
+            k += 1
+        while k > 0 and height(possible[k]) < LOW * high and height(possible[k - 1]) <= high:
+            k -= 1
+        return possible[k]
+
+
+@lru_cache(maxsize=16)  # because an arm's scale is chosen by it too
+def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
+    """s, v and a at many places of every phase."""
+    phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, SAMPLES), indexing="ij")
+    return motion.at(phase.ravel(), u.ravel())[:3]
+
+
+def _height(values: Floats) -> float:
+    """Of a whole diagram, with its axis."""
+    return float(max(0.0, values.max()) - min(0.0, values.min()))
+
+
+def _ordinates() -> Iterator[float]:
+    """Those that are usually chosen from, and ever smaller ones."""
+    yield from ORDINATES
+    for k in count(1):
+        yield from (y / 10**k for y in SMALLER)

@@ -1,0 +1,95 @@
+"""The table ``[part]`` of a task file: the cam as a part that a workshop makes."""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from graphcam.errors import DesignError
+from graphcam.given.ranges import positive
+from graphcam.tasks.sheet_tables import one_of
+
+Keyway = Literal["din6885", "gost23360", "none"]
+BoreTolerance = Literal["H6", "H7", "H8", "H9"]
+TableStep = Literal[1, 2, 5, 10]
+SplineDegree = Literal[2, 3, 4, 5]
+
+
+@dataclass(frozen=True)
+class PartTable:
+    """``[part]``: what the workshop must know beside the profile; what is None follows from the cam or the frame.
+
+    bore : mm; None is the largest standard shaft diameter that leaves enough wall
+    keyway : standard of the keyway in the bore; None is that of the sheet's frame
+    width : mm, of the cam; None is a width that carries the bore
+    hub_diameter, hub_length : mm, both or neither; the length counts from one side of the cam to the hub's far end
+    material : as the title block says it; None is carbon steel by the frame's standards
+    density : kg/m^3, for the mass
+    hardness : of the profile, as the notes say it; empty where it is not hardened
+    profile_roughness, bore_roughness, roughness : Ra in micrometres, of the profile, of the bore, and of the rest
+    profile_tolerance : mm, width of the zone of the profile of a line (ISO 1101); None goes by the cam's size
+    bore_tolerance : of the bore's diameter, by ISO 286
+    cutter_radius : mm, of the cutter whose centre the table follows too; None leaves it out
+    table_step : degrees of the polar angle from row to row of the table
+    feed : mm/min, of the cutter in the program of G-code
+    spline_degree, spline_control_points : of the profile's spline in DXF and STEP; None is as many as it takes
+
+    Raises
+    ------
+    DesignError : a value that cannot be, alone or together with another
+
+    >>> PartTable(bore=20, hub_diameter=36)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: hub_length is 'missing', but must be given where there is hub_diameter; ...
+    """
+
+    bore: float | None = None
+    keyway: Keyway | None = None
+    width: float | None = None
+    hub_diameter: float | None = None
+    hub_length: float | None = None
+    material: str | None = None
+    density: float = 7850.0
+    hardness: str = "45...50 HRC"
+    profile_roughness: float = 0.8
+    bore_roughness: float = 1.6
+    roughness: float = 3.2
+    profile_tolerance: float | None = None
+    bore_tolerance: BoreTolerance = "H7"
+    cutter_radius: float | None = None
+    table_step: TableStep = 5
+    feed: float = 100.0
+    spline_degree: SplineDegree = 3
+    spline_control_points: int | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("bore", "width", "hub_diameter", "hub_length", "profile_tolerance", "cutter_radius"):
+            positive(name, getattr(self, name), "mm")
+        for name in ("profile_roughness", "bore_roughness", "roughness"):
+            positive(name, getattr(self, name), "micrometres")
+        positive("density", self.density, "kg/m^3")
+        positive("feed", self.feed, "mm/min")
+        self._check_words()
+        self._check_hub()
+
+    def _check_words(self) -> None:
+        one_of("keyway", self.keyway or "none", get_args(Keyway))
+        one_of("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
+        if self.table_step not in get_args(TableStep):
+            raise DesignError("table_step", self.table_step, "1, 2, 5 or 10 degrees")
+        if self.spline_degree not in get_args(SplineDegree):
+            raise DesignError("spline_degree", self.spline_degree, "2, 3, 4 or 5")
+        for name in ("material", "hardness"):
+            if not (text := getattr(self, name) or "").isprintable():
+                raise DesignError(name, text, "printable text on one line")
+
+    def _check_hub(self) -> None:
+        """A hub has both sizes, and both reach beyond what it surrounds."""
+        diameter, length = self.hub_diameter, self.hub_length
+        if (diameter is None) != (length is None):
+            missing, there = ("hub_diameter", "hub_length") if diameter is None else ("hub_length", "hub_diameter")
+            raise DesignError(missing, "missing", f"given where there is {there}", "leave out both for a cam without")
+        for name, outer, inner in (("hub_diameter", diameter, "bore"), ("hub_length", length, "width")):
+            limit = getattr(self, inner)
+            if outer is not None and limit is not None and outer <= limit:
+                raise DesignError(
+                    name, outer, f"greater than the {inner} of {limit:g} mm", "enlarge it or leave the hub out"
+                )

@@ -1,0 +1,1 @@
+"""The cam as a part: what a workshop needs to make it, from the exact side."""

@@ -1,0 +1,170 @@
+"""The part that is made of a cam: what the table ``[part]`` says, and what follows from the cam where it is silent."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+from graphcam.tasks.part_table import PartTable
+from graphcam.words import Words, say
+from graphcam.workshop.keyways import STANDARDS, THICKEST_SHAFT, THINNEST_SHAFT, KeySection, key_section
+from graphcam.workshop.limits_and_fits import standard_diameters
+
+USUAL_WALL, LEAST_WALL = 0.3, 0.15
+"""Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""
+USUAL_TOLERANCE = 0.0005
+"""Of the profile, as a part of its greatest diameter."""
+USUAL_WIDTH = 0.8
+"""Of the cam, as a part of the bore."""
+STEEL = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
+"""The material where the task names none, by the frame of the sheet."""
+STANDARD_OF_FRAME = {"iso": "din6885", "gost": "gost23360"}
+
+
+@dataclass(frozen=True)
+class Hub:
+    """A hub on one side of the cam [mm]; its length is that of the bore, the cam's width included."""
+
+    diameter: float
+    length: float
+
+
+@dataclass(frozen=True)
+class CamPart:
+    """The part, every size settled, in mm.
+
+    keyway : None for a bore without one;  key_standard : what the drawing calls its standard
+    table : the rest of what the task says: roughness, tolerances, cutter, step
+    """
+
+    bore: float
+    keyway: KeySection | None
+    key_standard: Words
+    width: float
+    hub: Hub | None
+    material: Words
+    table: PartTable
+
+    @property
+    def length(self) -> float:
+        """Of the bore."""
+        return self.hub.length if self.hub else self.width
+
+    @property
+    def keyway_top(self) -> float:
+        """From the axis to the keyway's bottom, or to the bore where there is none."""
+        return self.bore / 2 + (self.keyway.depth if self.keyway else 0.0)
+
+    @property
+    def chamfer(self) -> float:
+        """Of the bore's edges at 45 degrees."""
+        return next(
+            size for least, size in ((30, 1.6), (10, 1.0), (5, 0.5), (0, 0.05 * self.bore)) if self.bore > least
+        )
+
+    def mass(self, profile_area: float) -> float:
+        """In kg, of a cam with a profile of that area [mm^2]; chamfers are left out.
+
+        >>> part = cam_part(PartTable(bore=20, width=10), "iso", 27)
+        >>> round(part.mass(6000), 4)
+        0.4449
+        """
+        hole = math.pi * self.bore**2 / 4 + (self.keyway.area(self.bore) if self.keyway else 0.0)
+        hub = (math.pi * self.hub.diameter**2 / 4 - hole) * (self.hub.length - self.width) if self.hub else 0.0
+        return ((profile_area - hole) * self.width + hub) * self.table.density * 1e-9
+
+
+def cam_part(table: PartTable, frame: str, least_radius: float) -> CamPart:
+    """The part of a cam whose profile comes as near as ``least_radius`` mm to the axis.
+
+    frame : "iso" or "gost", by whose standards the rest is chosen
+
+    Raises
+    ------
+    DesignError : bore and keyway leave no wall inside the profile or the hub, the hub is not inside the profile or not
+        longer than the cam is wide, or the standards have no key for the bore
+
+    >>> part = cam_part(PartTable(), "iso", 27.0)
+    >>> part.bore, part.keyway, part.width
+    (28.0, KeySection(width=8.0, height=7.0, depth=3.3), 23.0)
+    """
+    bore = table.bore if table.bore is not None else _usual_bore(table, least_radius)
+    keyway = _keyway(table, bore)
+    width = table.width if table.width is not None else _usual_width(bore)
+    hub = None
+    if table.hub_diameter is not None and table.hub_length is not None:
+        hub = Hub(table.hub_diameter, table.hub_length)
+    standard = STANDARDS[_standard(table, frame)] if keyway else ""
+    part = CamPart(bore, keyway, standard, width, hub, table.material or STEEL[frame], table)
+    _check_walls(part, least_radius)
+    return part
+
+
+def profile_tolerance(table: PartTable, greatest_radius: float) -> float:
+    """The tolerance of the profile [mm]: as given, else the round value next to the usual part of its diameter.
+
+    >>> profile_tolerance(PartTable(), 56.5), profile_tolerance(PartTable(), 500), profile_tolerance(PartTable(), 3)
+    (0.05, 0.5, 0.002)
+    """
+    if table.profile_tolerance is not None:
+        return table.profile_tolerance
+    usual = math.log10(USUAL_TOLERANCE * 2 * greatest_radius)
+    decade = math.floor(usual)
+    nearest = min((1, 2, 5, 10), key=lambda value: abs(math.log10(value) + decade - usual))
+    return float(f"{nearest}e{decade}")
+
+
+def _standard(table: PartTable, frame: str) -> str:
+    return table.keyway if table.keyway not in (None, "none") else STANDARD_OF_FRAME[frame]
+
+
+def _keyway(table: PartTable, bore: float) -> KeySection | None:
+    if table.keyway == "none":
+        return None
+    section = key_section(bore)
+    if section is None and table.keyway is not None:
+        limit = (
+            f"none for a bore of {bore:g} mm: the standard has keys from {THINNEST_SHAFT:g} to {THICKEST_SHAFT:g} mm"
+        )
+        raise DesignError("part.keyway", table.keyway, limit, "write 'none' or change part.bore")
+    return section
+
+
+def _usual_bore(table: PartTable, least_radius: float) -> float:
+    """The largest standard diameter that leaves the usual wall, not larger than what the standards have keys for."""
+    outer = least_radius if table.hub_diameter is None else min(least_radius, table.hub_diameter / 2)
+    standard = [d for d in standard_diameters() if d <= THICKEST_SHAFT]
+    fitting = [d for d in standard if _top(table, d) + USUAL_WALL * d <= outer]
+    return max(fitting, default=standard[0])
+
+
+def _top(table: PartTable, bore: float) -> float:
+    section = None if table.keyway == "none" else key_section(bore)
+    return bore / 2 + (section.depth if section else 0.0)
+
+
+def _usual_width(bore: float) -> float:
+    """In round millimetres, of small cams in round parts of one."""
+    step = min(1.0, 10.0 ** math.floor(math.log10(bore)) / 10)
+    return round(math.ceil(USUAL_WIDTH * bore / step - 1e-9) * step, 12)
+
+
+def _check_walls(part: CamPart, least_radius: float) -> None:
+    needed = part.keyway_top + LEAST_WALL * part.bore
+    hub = part.hub
+    if hub and not hub.diameter / 2 < least_radius:
+        limit = f"less than twice the least radius of the profile, {least_radius:.4g} mm"
+        raise DesignError("part.hub_diameter", hub.diameter, limit, "take a smaller hub or a larger prime radius")
+    if hub and not hub.length > part.width:
+        limit = f"greater than the cam's width of {part.width:g} mm"
+        raise DesignError("part.hub_length", hub.length, limit, "lengthen the hub or give a smaller part.width")
+    for inside, outer, larger in (
+        *([("the hub's radius", hub.diameter / 2, "part.hub_diameter")] if hub else []),
+        ("the least radius of the profile", least_radius, "prime radius"),
+    ):
+        if not needed <= outer:
+            keyway = f" with its keyway {part.keyway.depth:g} mm deep" if part.keyway else ""
+            found = f"{part.bore:g} mm{keyway}"
+            limit = f"small enough to leave a wall of {LEAST_WALL:g} of the bore inside {inside} of {outer:.4g} mm"
+            raise DesignError("part.bore", found, limit, f"take a smaller bore or a larger {larger}")

@@ -1,0 +1,217 @@
+"""Where on which sheet the views, notes and tables of a working drawing stand, and at which standard scale.
+
+The true view stands at the upper left and the section beside it, the notes over the title block; the bore, the data and
+the polar table go where there is room.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import takewhile
+
+from graphcam.errors import DesignError
+from graphcam.sheets.box import Box
+from graphcam.sheets.formats import Format
+from graphcam.sheets.frame import taken, title_box
+from graphcam.sheets.model import Entity
+from graphcam.sheets.packing import MESH, Room, least, top_left
+from graphcam.sheets.part_symbols import PartSymbol, other_faces
+from graphcam.sheets.tables import Block, notes_block, table_block
+from graphcam.words import say
+from graphcam.workshop.bore_view import bore_box
+from graphcam.workshop.part_contents import PartContents
+from graphcam.workshop.part_notes import cam_data, requirements, told_table
+from graphcam.workshop.part_views import ShownPart, front_box, section_box
+
+BORDER = 5.0
+"""Free along the frame and between what stands on the sheet, mm."""
+UNDER_NUMBER = 17.0
+"""From the border down to below the drawing's number, which stands in the upper left corner by GOST 2.104, mm."""
+LEAST_PROFILE = 70.0
+"""The profile is not drawn smaller than this, mm on paper ..."""
+SHEETS = (("A3", LEAST_PROFILE), ("A2", LEAST_PROFILE), ("A2", 20.0), ("A1", 5.0))
+"""... but of a part that is much wider than its profile is large.  The first sheet that has room is taken."""
+BORE_ROOM = 70.0
+"""The enlarged bore is at most so wide, mm on paper."""
+ROW = 1.75
+"""Height of a row of the polar table, in heights of its letters."""
+AT_RIGHT = least(-10, -1)
+"""At the right, then high."""
+SERIES = (5.0, 2.0, 1.0)
+"""Of drawing scales that both ISO 5455 and GOST 2.302 have, in every decade."""
+LARGEST_PROFILE = 300.0
+"""Nor is it drawn larger than this, mm on paper."""
+
+Placed = list[tuple[Block, complex]]
+"""Blocks and where their lower left corners stand."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartLayout:
+    """Where the views and the notes stand: places of their axes, and boxes.
+
+    fixed : blocks with their corners: the notes, the roughness of the other faces
+    room : what is left free
+    """
+
+    shown: ShownPart
+    sheet: Format
+    front: complex
+    section: complex
+    bore: complex
+    fixed: Placed
+    general: tuple[PartSymbol, complex]
+    room: Room
+
+
+def standard_ratios(most: float) -> Iterator[float]:
+    """Paper over part, by the standards, from ``most`` or the next lower one downwards, without end.
+
+    >>> from itertools import islice
+    >>> list(islice(standard_ratios(3.0), 5))
+    [2.0, 1.0, 0.5, 0.2, 0.1]
+    """
+    decade = math.floor(math.log10(most))
+    while True:
+        yield from (ratio for step in SERIES if (ratio := round(step * 10.0**decade, 15)) <= most * (1 + 1e-9))
+        decade -= 1
+
+
+def laid_out(contents: PartContents) -> tuple[Format, PartLayout, Placed | None]:
+    """The sheet, the places of the views, and those of the tables; None where the polar table has no room on it."""
+    first: tuple[Format, PartLayout] | None = None
+    for name, least_profile in SHEETS:
+        sheet = Format(name, contents.frame)
+        for views in _scaled_views(contents, sheet, least_profile):
+            first = first or (sheet, views)
+            if (tables := _tables(contents, views)) is not None:
+                return sheet, views, tables
+        if first and least_profile < LEAST_PROFILE:
+            break
+    if first is None:
+        found = f"{contents.part.length:g} mm wide"
+        limit = "narrow enough to be drawn beside its profile"
+        raise DesignError("part", found, limit, "give a smaller part.width or part.hub_length")
+    return *first, None
+
+
+def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -> Iterator[PartLayout]:
+    """The views at the standard scales at which they fit and the profile is not too small, the largest first."""
+    width = 2 * contents.outline.greatest_radius
+    for ratio in standard_ratios(LARGEST_PROFILE / width):
+        if width * ratio < least_profile:
+            return
+        yield from _views(contents, sheet, ratio)
+
+
+def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[PartLayout]:
+    """The views at a scale, where they have room, with the bore the larger the better, but no smaller than in them."""
+    shown = ShownPart(contents.part, sheet.frame, contents.outline, ratio, ratio, sheet.lettering, contents.tell)
+    inside = sheet.content.grown(-BORDER)
+    front, section = front_box(shown), section_box(shown)
+    high = max(front.top, section.top)
+    at = complex(inside.left - front.left, inside.top - high - (UNDER_NUMBER if sheet.frame == "gost" else 0))
+    beside = at + front.right - section.left
+    if at.real + front.width > inside.right or (beside + section.right).real > inside.right:
+        return
+    if at.imag + min(front.bottom, section.bottom) < inside.bottom:
+        return
+    room = Room(inside, taken(sheet, BORDER))
+    fixed, general = _fixed(contents, sheet, shown)
+    for block, corner in fixed:
+        room.take(block.box.moved(corner))
+    room.take(general[0].box.moved(general[1]).grown(2))
+    boxes = [front.moved(at), section.moved(beside)]
+    if any(not _free(room, box) for box in boxes):
+        return
+    for box in boxes:
+        room.take(box)
+    for bore_scale in takewhile(lambda scale: scale >= ratio, standard_ratios(max(ratio, BORE_ROOM / shown.part.bore))):
+        enlarged = replace(shown, bore_scale=bore_scale)
+        bore = bore_box(enlarged)
+        if (by := room.find([bore], top_left)) is not None:
+            left = room.copy()
+            left.take(bore.moved(by))
+            yield PartLayout(enlarged, sheet, at, beside, by, fixed, general, left)
+
+
+def _free(room: Room, box: Box) -> bool:
+    """Whether nothing stands in a box."""
+    left, bottom = (max(0, math.floor(x / MESH)) for x in (box.left - room.corner.real, box.bottom - room.corner.imag))
+    right, top = (math.ceil(x / MESH) for x in (box.right - room.corner.real, box.top - room.corner.imag))
+    return not room.full[bottom:top, left:right].any()
+
+
+def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Placed, tuple[PartSymbol, complex]]:
+    """The notes over the title block, and the roughness of all other faces where the frame's standard has it."""
+    block, letters, inside = title_box(sheet), sheet.lettering, sheet.content.grown(-BORDER)
+    said = requirements(contents.solution, contents.part, contents.outline, contents.table, contents.frame)
+    notes = notes_block([contents.tell(note) for note in said], letters.small, block.width - BORDER)
+    corner = complex(block.left, block.top + BORDER) - notes.box.corner
+    symbol = other_faces(contents.tell(say("Ra {ra:g}", ra=contents.part.table.roughness)), letters.label)
+    if sheet.frame == "gost":
+        at = complex(inside.right - symbol.box.right, inside.top - symbol.box.top)
+    else:
+        at = complex(block.left, block.top + BORDER + notes.box.height + 3)
+    return [(notes, corner)], (symbol, at)
+
+
+# --- tables ----------------------------------------------------------------------------------------------------------
+
+
+def _tables(contents: PartContents, views: PartLayout) -> Placed | None:
+    """The polar table, in as many columns as it takes, and the data, in what the views leave free."""
+    tell, height = contents.tell, views.sheet.lettering.small
+    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
+    rows = contents.table.angles.size
+    most, lines = _capacity(contents, views.sheet.content, height)
+    for columns in range(math.ceil(rows / lines), most + 1):
+        room, placed = views.room.copy(), Placed()
+        polar = table_block(told_table(contents.table, 0, rows, columns).told(tell), height, row_height=ROW)
+        for block, where in ((polar, AT_RIGHT), (data, top_left)):
+            box = block.box.grown(1.5)
+            by = room.find([box], where)
+            if by is None:
+                break
+            room.take(box.moved(by))
+            placed.append((block, by))
+        if len(placed) == 2:
+            return placed
+    return None
+
+
+def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
+    """The data with the first part of the polar table, and the rest of it, over the title blocks of further pages."""
+    tell, height, inside = contents.tell, sheet.lettering.small, sheet.content.grown(-BORDER)
+    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
+    top = inside.top - (UNDER_NUMBER if sheet.frame == "gost" else 0.0)
+    free = Box(inside.left, title_box(sheet).top + BORDER, inside.right, top)
+    rows, first, pages = contents.table.angles.size, 0, list[Placed]()
+    while first < rows:
+        placed: Placed = [] if pages else [(data, complex(inside.left, top - data.box.height))]
+        beside = free if pages else replace(free, left=free.left + data.box.width + BORDER)
+        columns, lines = _capacity(contents, beside, height)
+        last = min(rows, first + columns * lines)
+        table = told_table(contents.table, first, last, math.ceil((last - first) / lines))
+        block = table_block(table.told(tell), height, row_height=ROW)
+        pages.append([*placed, (block, complex(beside.left, beside.top - block.box.height))])
+        first = last
+    return pages
+
+
+def _capacity(contents: PartContents, free: Box, height: float) -> tuple[int, int]:
+    """How many columns of the polar table a box has room for, and how many lines in each."""
+    rows = contents.table.angles.size
+    one = table_block(told_table(contents.table, 0, rows, 1).told(contents.tell), height, row_height=ROW).box
+    line = ROW * height
+    head = one.height - rows * line
+    # A column alone is as wide as the title of the table.
+    two = table_block(told_table(contents.table, 0, rows, 2).told(contents.tell), height, row_height=ROW).box
+    return max(1, int(free.width / (two.width / 2))), int((free.height - head) / line)
+
+
+def drawn_blocks(placed: Placed) -> tuple[Entity, ...]:
+    """All that stands in the blocks, on the page."""
+    return tuple(entity for block, at in placed for entity in block.drawn(at))

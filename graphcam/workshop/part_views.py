@@ -1,0 +1,339 @@
+"""The views of the part: the profile in true view, and its section through the axis.
+
+A view is drawn about a place of the page; what it measures are dimensions, what it names are labels that find room.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from graphcam.drafting.marks import Arc, Circle, Dimension, Label, Line, Mark, Points, Region, Role, Segments
+from graphcam.given.laws import Floats
+from graphcam.sheets.box import Box
+from graphcam.sheets.expand import Drawn, Placement, expand, head
+from graphcam.sheets.fonts import width
+from graphcam.sheets.formats import Lettering
+from graphcam.sheets.model import Curve, Entity, Length, Stroke
+from graphcam.sheets.part_symbols import cutting_plane, segments, sense_arrow
+from graphcam.sheets.sampling import around
+from graphcam.sheets.writing import Writing, along
+from graphcam.words import Caption, Tell, say, say_in
+from graphcam.workshop.cam_part import CamPart
+from graphcam.workshop.outline import Outline
+
+BESIDE, BETWEEN = 9.0, 8.0
+"""Of the first dimension line from what it measures, and of the next ones from it, mm on paper."""
+OVERHANG, PAST = 5.0, 4.0
+"""Of centre lines over the outline, and of the axis over the section, short of dimensions beside it, mm on paper."""
+MARK = 6.0
+"""Length of the zero mark, mm on paper."""
+THINNING = 12
+"""Of the dense points of the outline every so many are drawn as a smooth curve, which passes between them exactly."""
+SHELF = 5.0
+"""From the left face of the section to the shelf of its chamfer, mm on paper."""
+ARROW_AIR = 5.0
+"""Between the profile and an arrow outside it, mm on paper."""
+SAME_RADIUS = 0.05
+"""The outline keeps a radius where it leaves it by no more than this, mm on paper."""
+SECTION, DETAIL = say_in("of a view", "A"), say_in("of a detail", "C")
+
+
+@dataclass(frozen=True, eq=False)
+class ShownPart:
+    """What the views show.
+
+    frame : of the sheet, "iso" or "gost";  scale : mm of paper for a mm of the part;  bore_scale : the same of the
+    bore enlarged
+    """
+
+    part: CamPart
+    frame: str
+    outline: Outline
+    scale: float
+    bore_scale: float
+    letters: Lettering
+    tell: Tell
+
+    def paper(self, seen: Points) -> Points:
+        """Points of the outline on paper, the zero mark upwards, in true view."""
+        return 1j * self.scale * (seen if self.outline.sense > 0 else np.conj(seen))
+
+    @cached_property
+    def profile(self) -> Points:
+        """The dense outline on paper, about the axis."""
+        return self.paper(self.outline.points)
+
+    @cached_property
+    def extent(self) -> Box:
+        """Of the profile on paper, about the axis."""
+        return around(self.profile)
+
+    def reach(self, start: float, sweep: float) -> float:
+        """The greatest radius on paper between directions."""
+        low, high = sorted((start, start + sweep))
+        turned = (np.angle(self.profile) - low) % (2 * math.pi)
+        inside = turned <= high - low + 0.05
+        return float(np.abs(self.profile[inside]).max())
+
+    def radius(self, direction: complex) -> float:
+        """The radius on paper in a direction."""
+        return float(np.interp(0.0, *self._about(direction)))
+
+    def expanded(self, marks: Sequence[Mark], origin: complex) -> Drawn:
+        """Marks about a place, their texts in the language of the drawing."""
+        told = [
+            replace(mark, text=self.tell(mark.text)) if isinstance(mark, Label | Dimension) else mark for mark in marks
+        ]
+        return expand(told, Placement(origin), self.letters)
+
+    def _about(self, direction: complex) -> tuple[Floats, Floats]:
+        turned = np.angle(self.profile / direction)
+        order = np.argsort(turned)
+        return turned[order], np.abs(self.profile)[order]
+
+
+def size(length: float) -> Caption:
+    """A length as drawings say it: to hundredths, without needless zeros.
+
+    >>> str(size(22.800000000000001)), str(size(27.0))
+    ('22.8', '27')
+    """
+    return say("{length:g}", length=round(length, 2))
+
+
+# --- the true view ---------------------------------------------------------------------------------------------------
+
+
+def front_box(shown: ShownPart) -> Box:
+    """The room of the true view about the axis, its symbols included."""
+    box = shown.extent
+    return Box(box.left - 16, box.bottom - 24, box.right + 16, box.top + 26)
+
+
+def front_view(shown: ShownPart, origin: complex) -> Drawn:
+    """Profile, bore, hub, centre lines, zero mark, the sense of angle and rotation, and the cutting plane."""
+    marks = [*bore_marks(shown.part, shown.scale), *_front_marks(shown), *_sense_labels(shown)]
+    entities, writings = shown.expanded(marks, origin)
+    radii = [_radius_dimension(shown, origin, place) for place in told_radii(shown)]
+    entities += [*_profile(shown, origin), *_cutting_planes(shown, origin), *_senses(shown, origin)]
+    return [*entities, *(e for lines, _ in radii for e in lines)], [*writings, *(w for _, w in radii)]
+
+
+def _profile(shown: ShownPart, origin: complex) -> list[Entity]:
+    """The profile as one closed curve; with corners, through all its dense points."""
+    points = origin + shown.profile
+    if shown.outline.corners:
+        return [Stroke(points, Role.RESULT, closed=True)]
+    return [Curve(points[::THINNING], Role.RESULT)]
+
+
+def _front_marks(shown: ShownPart) -> list[Mark]:
+    box, up = shown.extent, shown.radius(1j)
+    ends = np.array([complex(box.left - OVERHANG), complex(0, box.bottom - OVERHANG)])
+    others = np.array([complex(box.right + OVERHANG), complex(0, box.top + OVERHANG)])
+    scribed = Line(np.array([1j * (up - 1.0), 1j * (up - 1.0 - MARK)]), Role.CURVE)
+    hub = shown.part.hub
+    return [
+        Segments(ends, others, Role.AXIS),
+        scribed,
+        Label(1j * (up - MARK), say("0°"), 1 - 0.3j),
+        *([Circle(0j, shown.scale * hub.diameter / 2, Role.RESULT)] if hub else []),
+        *_detail_circle(shown),
+    ]
+
+
+def _detail_circle(shown: ShownPart) -> list[Mark]:
+    """The circle about the bore that is shown enlarged, and its letter."""
+    radius = shown.scale * shown.part.keyway_top + 3.0
+    at = radius * np.exp(-0.25j * math.pi)
+    return [Circle(0j, radius, Role.DIMENSION), Label(complex(at), DETAIL, 1 - 1j)]
+
+
+def bore_marks(part: CamPart, scale: float) -> list[Mark]:
+    """The bore with its keyway upwards."""
+    radius = scale * part.bore / 2
+    if part.keyway is None:
+        return [Circle(0j, radius, Role.RESULT)]
+    half, top = scale * part.keyway.width / 2, scale * part.keyway_top
+    side = math.acos(half / radius)
+    foot = 1j * math.sqrt(radius**2 - half**2)
+    corners = np.array([half + foot, half + 1j * top, -half + 1j * top, -half + foot])
+    return [Arc(0j, radius, math.pi - side, 2 * math.pi + side, Role.RESULT), Line(corners, Role.RESULT)]
+
+
+def told_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
+    """Where on the profile its least and its greatest radius are dimensioned."""
+    radii = np.abs(shown.outline.points)
+    told: list[tuple[complex, Caption]] = []
+    for extreme, name in ((radii.min(), say("R{radius} min")), (radii.max(), say("R{radius} max"))):
+        at = shown.profile[np.abs(radii - extreme) * shown.scale <= SAME_RADIUS]
+        # Away from the centre lines, where the text has most room, and from the arrow of the rotation.
+        oblique = np.abs(np.sin(2 * np.angle(at))) - 2.0 * ((at.real > 0) & (at.imag < 0))
+        way = np.angle(at[np.argmax(oblique.round(6))])
+        told.append((cmath.rect(shown.scale * extreme, way), name.where(radius=size(float(extreme)))))
+    return told
+
+
+def _radius_dimension(
+    shown: ShownPart, origin: complex, place: tuple[complex, Caption]
+) -> tuple[list[Entity], Writing]:
+    """A line from the axis to the profile with one head, and its text."""
+    at, text = origin + place[0], place[1]
+    way = place[0] / abs(place[0])
+    told, height = shown.tell(text), shown.letters.label
+    inner, room = origin + way * (shown.scale * shown.part.keyway_top + 4.0), width(told, height) + 5.0
+    outside = abs(at - inner) < room
+    # Between the detail's circle and the profile where there is room, else beyond the profile.
+    begin, end = (at + 2 * way, at + room * way) if outside else (inner, at)
+    lines: tuple[Entity, ...] = (
+        segments((origin, end)),
+        head(at - 0.35 * way, way, Role.DIMENSION),
+    )
+    writing = along(begin, end, told, height)
+    measured = Length(origin, at, origin, lines)
+    return list(lines), replace(writing, of=measured)
+
+
+def _cutting_planes(shown: ShownPart, origin: complex) -> list[Entity]:
+    letter, height = shown.tell(SECTION), shown.letters.title
+    above = cutting_plane(origin + 1j * (shown.radius(1j) + 11.0), 1j, 1.0, letter, height)
+    below = cutting_plane(origin - 1j * (shown.radius(-1j) + 11.0), -1j, 1.0, letter, height)
+    return above + below
+
+
+@dataclass(frozen=True)
+class SenseArrow:
+    """An arrow about the axis: its name, its radius on paper, from where it runs and by how much [rad]."""
+
+    name: Caption
+    radius: float
+    start: float
+    sweep: float
+
+
+def _sense_arrows(shown: ShownPart) -> list[SenseArrow]:
+    """Outside the profile: in which sense the angle is counted, and in which the cam turns."""
+    sense = shown.outline.sense
+    # Beside the zero mark, and at the lower right.
+    counted, turned = (math.pi / 2 + 0.12 * sense, 0.5 * sense), (-0.35 - 0.275 * (1 - sense), -0.55 * sense)
+    named = (say("θ"), counted), (say("rotation"), turned)
+    return [SenseArrow(name, shown.reach(*arrow) + ARROW_AIR, *arrow) for name, arrow in named]
+
+
+def _senses(shown: ShownPart, origin: complex) -> list[Entity]:
+    arrows = _sense_arrows(shown)
+    return [entity for a in arrows for entity in sense_arrow(origin, a.radius, a.start, a.sweep)]
+
+
+def _sense_labels(shown: ShownPart) -> list[Mark]:
+    """The names of the arrows."""
+    ways = [(arrow, cmath.rect(1.0, arrow.start + arrow.sweep / 2)) for arrow in _sense_arrows(shown)]
+    return [Label(arrow.radius * way, arrow.name, way) for arrow, way in ways]
+
+
+# --- the section -----------------------------------------------------------------------------------------------------
+
+
+def section_box(shown: ShownPart) -> Box:
+    """The room of the section about the axis on the left face."""
+    box, part = shown.extent, shown.part
+    right = shown.scale * part.length + (BESIDE + BETWEEN if part.hub else 0.0)
+    below = BESIDE + (BETWEEN if part.hub else 0.0) + 4
+    return Box(-34, box.bottom - below, right + 20, box.top + 22)
+
+
+def section_view(shown: ShownPart, origin: complex) -> Drawn:
+    """The section through axis and keyway, seen from the left, with what is seen behind it."""
+    part, k = shown.part, shown.scale
+    # The edges over the hatching that ends on them.
+    marks: list[Mark] = [*_cut_faces(shown), *_cut_edges(shown), *_section_dimensions(shown)]
+    marks.append(Segments(np.array([-PAST + 0j]), np.array([complex(k * part.length + PAST)]), Role.AXIS))
+    return shown.expanded(marks, origin)
+
+
+def heights(shown: ShownPart) -> tuple[float, float, float, float]:
+    """On paper: the cut profile below and above the axis, and how far the half behind it is seen."""
+    behind = shown.profile[shown.profile.real >= 0]
+    cut = -shown.radius(-1j), shown.radius(1j)
+    return (*cut, min(float(behind.imag.min()), cut[0]), max(float(behind.imag.max()), cut[1]))
+
+
+def _cut_edges(shown: ShownPart) -> list[Mark]:
+    """All visible edges."""
+    part, k = shown.part, shown.scale
+    low, high, seen_low, seen_high = heights(shown)
+    w, end, c = k * part.width, k * part.length, k * part.chamfer
+    r, top = k * part.bore / 2, k * part.keyway_top
+    edge = math.sqrt(r**2 - (k * part.keyway.width / 2) ** 2) if part.keyway else r
+    pairs = [(complex(0, seen_low), complex(w, seen_low)), (complex(0, seen_high), complex(w, seen_high))]
+    # The cut and what is seen behind it are told apart where both can be seen.
+    pairs += [(complex(0, y), complex(w, y)) for y, seen in ((low, seen_low), (high, seen_high)) if abs(y - seen) > 0.7]
+    pairs += [(complex(0, seen_low), complex(0, seen_high))]
+    if part.hub:
+        half = k * part.hub.diameter / 2
+        pairs += [(complex(w, seen_low), complex(w, -half)), (complex(w, half), complex(w, seen_high))]
+        pairs += [(complex(w, y), complex(end, y)) for y in (-half, half)]
+        pairs += [(complex(end, -half), complex(end, half))]
+    else:
+        pairs += [(complex(w, seen_low), complex(w, seen_high))]
+    pairs += [(complex(c, -r), complex(end - c, -r)), (complex(c, edge), complex(end - c, edge))]
+    pairs += [(complex(x, -r), complex(x, edge)) for x in (c, end - c)]
+    pairs += [(complex(0, -r - c), complex(c, -r)), (complex(end, -r - c), complex(end - c, -r))]
+    if part.keyway:
+        # The keyway cuts the chamfers farther from the axis than the bore.
+        rim = math.sqrt((r + c) ** 2 - (k * part.keyway.width / 2) ** 2)
+        pairs += [(complex(0, top), complex(end, top))]
+        pairs += [(complex(0, rim), complex(c, edge)), (complex(end, rim), complex(end - c, edge))]
+    else:
+        pairs += [(complex(0, r + c), complex(c, r)), (complex(end, r + c), complex(end - c, r))]
+    starts, ends = zip(*pairs, strict=True)
+    return [Segments(np.array(starts), np.array(ends), Role.RESULT)]
+
+
+def _cut_faces(shown: ShownPart) -> list[Mark]:
+    """What is cut, hatched: below the bore, and above the keyway."""
+    part, k = shown.part, shown.scale
+    low, high, *_ = heights(shown)
+    w, end, c = k * part.width, k * part.length, k * part.chamfer
+    r, top = k * part.bore / 2, k * part.keyway_top
+    half = k * part.hub.diameter / 2 if part.hub else None
+
+    def face(side: float, reach: float, inner: Sequence[complex]) -> Mark:
+        """One of the two faces; ``inner`` runs along the bore from the right to the left."""
+        outer = [complex(0, side * reach), complex(w, side * reach)]
+        outer += [complex(w, side * half), complex(end, side * half)] if half else []
+        return Region(np.array([*outer, *inner]))
+
+    bevelled = [complex(end, r + c), complex(end - c, r), complex(c, r), complex(0, r + c)]
+    above = [complex(end, top), complex(0, top)] if part.keyway else bevelled
+    return [face(1.0, high, above), face(-1.0, -low, [z.conjugate() for z in bevelled])]
+
+
+def _section_dimensions(shown: ShownPart) -> list[Mark]:
+    part, k = shown.part, shown.scale
+    _, _, low, _ = heights(shown)
+    w, end = k * part.width, k * part.length
+    marks: list[Mark] = [Dimension(complex(0, low), complex(w, low), size(part.width), -BESIDE)]
+    if part.hub:
+        half = k * part.hub.diameter / 2
+        # Both from one level, so that their lines are parallel.
+        marks.append(Dimension(complex(0, low), complex(end, low), size(part.hub.length), -BESIDE - BETWEEN))
+        marks.append(Line(np.array([complex(end, -half - 1), complex(end, low - 2)]), Role.DIMENSION))
+        diameter = say("⌀{length}", length=size(part.hub.diameter))
+        marks.append(Dimension(complex(end, -half), complex(end, half), diameter, -BESIDE))
+    return [*marks, *_chamfer_marks(shown)]
+
+
+def _chamfer_marks(shown: ShownPart) -> list[Mark]:
+    """The size of the chamfer on a shelf at the left of the section, on the line square to it."""
+    text = say("{size} × 45°", size=size(shown.part.chamfer))
+    c, r = shown.scale * shown.part.chamfer, shown.scale * shown.part.bore / 2
+    face, knee = complex(c / 2, -r - c / 2), complex(-SHELF, SHELF - r)
+    end = knee - width(shown.tell(text), shown.letters.label) - 1.0
+    return [Line(np.array([face, knee, end]), Role.DIMENSION), Label((knee + end) / 2, text, 1j)]

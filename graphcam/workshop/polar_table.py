@@ -1,0 +1,176 @@
+"""The polar table of a working drawing: radii of profile and cutter's centre by the angle from the zero mark.
+
+The rows stand a round step apart.  Where a straight line from row to row would leave the exact curve by more than a
+stated part of the profile's tolerance, a step is divided, in a round number of parts, until it does not.  Every corner
+has a row of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.mechanism.kinematics import Complexes
+from graphcam.mechanism.roots import roots
+from graphcam.tasks.part_table import PartTable
+from graphcam.workshop.cam_part import profile_tolerance
+from graphcam.workshop.outline import Outline
+
+PART_OF_TOLERANCE = 0.25
+"""How far a straight line between rows may leave the curve, as a part of the profile's tolerance."""
+PARTS = (1, 2, 5, 10, 20, 50, 100)
+"""Into so many equal parts a step may be divided."""
+MOST_ROWS = 1500
+"""Of a table that somebody reads."""
+CORNER_DECIMALS = 3
+"""Of the angle of a corner [deg]."""
+ROUNDING_PART = 0.5
+"""The last decimal of a radius is at most this part of the tolerance."""
+FILES_REMEDY = "give a larger one; the files of the profile have the curve itself"
+TURNS_BACK = 1e-12
+"""Less than this [rad] a curve does not turn back, but is rounded."""
+
+
+@dataclass(frozen=True, eq=False)
+class PolarCurve:
+    """The outline, or its parallel curve ``distance`` mm outside, as a radius over the angle from the zero mark.
+
+    Raises
+    ------
+    DesignError : a ray from the axis meets the curve more than once
+    """
+
+    outline: Outline
+    distance: float = 0.0
+
+    def __post_init__(self) -> None:
+        angles = self.angles
+        back = np.flatnonzero(np.diff(angles) < -TURNS_BACK)
+        if back.size:
+            at = f"met more than once by the ray at {math.degrees(angles[back[0]]) % 360:.1f} degrees"
+            raise DesignError("profile", at, "met once by every ray from the cam centre", "enlarge the prime radius")
+
+    @cached_property
+    def _sampled(self) -> tuple[Floats, Complexes, NDArray[np.intp]]:
+        """Parameters, points and numbers of their spans, densely."""
+        samples = self.outline.sampled
+        points = np.concatenate([points + self.distance * normals for _, points, normals in samples])
+        number = np.repeat(np.arange(len(samples)), [at.size for at, *_ in samples])
+        return np.concatenate([at for at, *_ in samples]), points, number
+
+    @cached_property
+    def angles(self) -> Floats:
+        """Dense angles [rad] in order over one turn."""
+        return np.unwrap(np.angle(self._sampled[1]))
+
+    @cached_property
+    def turn(self) -> tuple[Floats, Floats, Floats]:
+        """Angles [deg] from before 0 to beyond 360, exact radii there [mm], and cosines between radius and normal."""
+        _, points, _ = self._sampled
+        normals = np.concatenate([normals for *_, normals in self.outline.sampled])
+        lean = np.abs((points.conj() * normals).real) / np.abs(points)
+        turn = np.degrees(self.angles) - 360 * np.floor(np.degrees(self.angles[0]) / 360)
+        return np.concatenate([turn - 360, turn, turn + 360]), np.tile(np.abs(points), 3), np.tile(lean, 3)
+
+    def radius(self, angle: Floats) -> Floats:
+        """The radii [mm] at angles [rad] (n,) from the zero mark."""
+        angles = self.angles
+        at, _, number = self._sampled
+        angle = angles[0] + (angle - angles[0]) % FULL_TURN
+        before = np.clip(np.searchsorted(angles, angle, side="right") - 1, 0, angles.size - 2)
+        radius = np.empty(angle.shape)
+        for k in np.unique(number[before]).tolist():
+            here = number[before] == k
+            low, ray = before[here], np.exp(-1j * angle[here])
+            # The last place of a span has no other behind it.
+            high = np.where(number[low + 1] == k, low + 1, low)
+            found = roots(lambda at, k=k, ray=ray: (self._point(k, at) * ray).imag, at[low], at[high])
+            radius[here] = np.abs(self._point(k, found))
+        return radius
+
+    def _point(self, number: int, at: Floats) -> Complexes:
+        span = self.outline.spans[number]
+        return self.outline.seen(span.point(at) + self.distance * span.normal(at))
+
+
+@dataclass(frozen=True, eq=False)
+class PolarTable:
+    """The rows of the table.
+
+    angles : (n,) from the zero mark [deg], in the outline's sense;  radii : (n,) of the profile [mm]
+    cutter : (n,) of the centre of the cutter at the same angles [mm]; None without a cutter
+    bound : what a straight line between rows leaves the curves by, at most, along their normals [mm]
+    decimals : of the radii
+    """
+
+    angles: Floats
+    radii: Floats
+    cutter: Floats | None
+    bound: float
+    decimals: int
+
+
+def polar_table(outline: Outline, table: PartTable) -> PolarTable:
+    """The table of an outline, with the step, the tolerance and the cutter that ``[part]`` names.
+
+    Raises
+    ------
+    DesignError : the cutter is larger than a hollow of the profile, a ray from the axis meets the profile more than
+        once, or the tolerance is too small for a table
+
+    >>> import graphcam as gc
+    >>> from graphcam.workshop.outline import of_cam
+    >>> rows = polar_table(of_cam(gc.solve(gc.builtin_task()).cam), PartTable(table_step=10))
+    >>> rows.angles[:4].tolist(), rows.radii[:4].round(2).tolist()
+    ([0.0, 2.0, 4.0, 6.0], [27.0, 27.02, 27.08, 27.18])
+    """
+    curves = [PolarCurve(outline)]
+    if table.cutter_radius is not None:
+        _check_cutter(outline, table.cutter_radius)
+        curves.append(PolarCurve(outline, table.cutter_radius))
+    allowed = profile_tolerance(table, outline.greatest_radius)
+    bound = PART_OF_TOLERANCE * allowed
+    corners = np.degrees(np.angle(outline.corners)) % 360
+    angles = _rows(curves, table.table_step, bound, corners.round(CORNER_DECIMALS))
+    if angles.size > MOST_ROWS:
+        limit = f"large enough for a table of at most {MOST_ROWS} rows, not {angles.size}"
+        raise DesignError("part.profile_tolerance", allowed, limit, FILES_REMEDY)
+    radii = [curve.radius(np.radians(angles)) for curve in curves]
+    decimals = max(2, math.ceil(-math.log10(ROUNDING_PART * allowed) - 1e-9))
+    return PolarTable(angles, radii[0], radii[1] if radii[1:] else None, bound, decimals)
+
+
+def _check_cutter(outline: Outline, cutter_radius: float) -> None:
+    hollow = outline.least_hollow
+    if not cutter_radius <= hollow:
+        limit = f"at most {hollow:.4g} mm, the least radius of the profile's hollows"
+        raise DesignError("part.cutter_radius", cutter_radius, limit, "take a smaller cutter, or leave it out")
+
+
+def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) -> Floats:
+    """The angles of the rows [deg], from 0 to below 360, one at each corner."""
+    rows: list[Floats] = []
+    for start in range(0, 360, step):
+        inside = corners[(start < corners) & (corners < start + step)]
+        divided = (np.union1d(start + step * np.arange(parts + 1) / parts, inside) for parts in PARTS)
+        near = (row for row in divided if max(_departure(row, *curve.turn) for curve in curves) <= bound)
+        row = next(near, None)
+        if row is None:
+            limit = f"large enough for rows {step / PARTS[-1]:g} degrees apart"
+            raise DesignError("part.profile_tolerance", bound / PART_OF_TOLERANCE, limit, FILES_REMEDY)
+        rows.append(row[:-1])
+    return np.concatenate(rows)
+
+
+def _departure(row: Floats, angles: Floats, radii: Floats, lean: Floats) -> float:
+    """How far straight lines between the rows leave the curve, along its normal [mm]."""
+    inside = slice(*np.searchsorted(angles, [row[0], row[-1]]).tolist())
+    straight = np.interp(angles[inside], row, np.interp(row, angles, radii))
+    return float((lean[inside] * np.abs(radii[inside] - straight)).max(initial=0.0))

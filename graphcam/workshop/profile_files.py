@@ -1,0 +1,60 @@
+"""The files of the exact profile, which CAD and CAM programs import.
+
+``profile.csv`` is a table, ``profile.xyz`` a curve through points (x, y, z = 0 on each line, closed), ``profile.dxf``
+one B-spline, all in mm with the cam centre at the origin.  They hold the profile that can be cut: what a roller too
+large would lose is left out.
+"""
+
+import csv
+from collections.abc import Collection
+from pathlib import Path
+
+import numpy as np
+
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.spline import ProfileSpline
+from graphcam.mechanism.undercut import CutProfile, trimmed_profile
+
+POINTS = 720
+"""On the profile: one for every half degree of the cam angle."""
+NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
+
+
+def write_profile(
+    cam: Cam, spline: ProfileSpline, folder: Path, kinds: Collection[str] = tuple(NAMES)
+) -> dict[str, str]:
+    """Write those of the three files into a folder that are wanted; returns their names by kind.
+
+    spline : of the profile that can be cut
+
+    Raises
+    ------
+    DesignError : no profile can be told that could be cut
+    """
+    from graphcam.sheets.dxf_renderer import write_spline
+
+    wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
+    if "profile_dxf" in wanted:
+        told = {"greatest distance from the exact profile, mm": f"{spline.deviation:.2g}"}
+        write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile", told=told)
+    cut = trimmed_profile(cam.envelope, POINTS)
+    if "profile_csv" in wanted:
+        _write_csv(cut, folder / wanted["profile_csv"])
+    if "profile_xyz" in wanted:
+        _write_xyz(cut, folder / wanted["profile_xyz"])
+    return wanted
+
+
+def _write_csv(cut: CutProfile, path: Path) -> None:
+    x, y = cut.points.T
+    columns = np.degrees(cut.phi), x, y, np.hypot(x, y), np.degrees(np.arctan2(y, x)) % 360
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["phi_deg", "x", "y", "radius", "angle_deg"])
+        table.writerows([f"{value:.9f}" for value in row] for row in zip(*columns, strict=True))
+
+
+def _write_xyz(cut: CutProfile, path: Path) -> None:
+    closed = np.append(cut.points, cut.points[:1], axis=0)
+    lines = (f"{x:.9f}\t{y:.9f}\t{0:.9f}\n" for x, y in closed.tolist())
+    path.write_text("".join(lines), encoding="ascii", newline="\n")
