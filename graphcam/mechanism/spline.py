@@ -40,6 +40,8 @@ LEAST_PART = 2.5e-13
 """... or than this part of the cam."""
 MOST_CONTROL_POINTS = 2000
 """That may be asked for."""
+MOST_PARTS = 20_000
+"""A demanded deviation that takes more is not looked for: the parts would fill the memory before they kept it."""
 RESERVE = 0.97
 """The part of the deviation that may be seen where it is measured: between these places it may be a little more."""
 ROUNDS = 40
@@ -190,6 +192,8 @@ def _near(stretch: _Stretch, deviation: float) -> _Fit:
     needs = _needs(stretch, aim)
     counts = np.array([need.parts[-1] for need in needs])
     for _ in range(ROUNDS):
+        if counts.sum() > MOST_PARTS:
+            break
         fit = _fit(stretch, needs, np.ceil(counts))
         if fit.errors.max() <= aim:
             return fit

@@ -75,7 +75,8 @@ def test_what_is_accepted_of_foul_numbers_is_solved_or_refused_in_one_message(na
         try:
             solution = gc.solve(task)
             solution.to_dict()
-            solution.write(tmp_path / "out", files=["csv", "note", "profile_dxf"])
+            files = ["csv", "note", "profile_dxf", "profile_step", "profile_gcode"]
+            solution.write(tmp_path / "out", files=files, working_drawing=True)
         except GraphcamError:
             continue
         solved += 1
@@ -130,3 +131,11 @@ def test_the_profile_of_a_huge_cam_asks_for_a_deviation_that_can_be_told_from_ro
     motion = gc.Motion([gc.Rise(1e30, 2.0), gc.Return(1e30, 2.0), gc.Dwell(math.tau - 4)])
     with pytest.raises(gc.DesignError, match=r"deviation is 0\.0005, but must be .* mm or more"):
         gc.profile_spline(gc.Cam(motion, gc.Translating(), 1e30))
+
+
+def test_a_profile_that_would_take_more_knots_than_the_memory_holds_is_refused():
+    motion = gc.Motion(
+        [gc.Rise(1e9, 1.4, "rectangular"), gc.Return(1e9, 1.05, "rectangular"), gc.Dwell(math.tau - 2.45)]
+    )
+    with pytest.raises(gc.DesignError, match=r"deviation is '0\.0005 mm', but must be larger for this profile"):
+        gc.profile_spline(gc.Cam(motion, gc.Translating(offset=-10, roller_radius=17), 50), trimmed=True)
