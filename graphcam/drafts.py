@@ -38,8 +38,9 @@ def draft_folder(place: Path) -> Generator[Path]:
     try:
         yield draft
     finally:
-        shutil.rmtree(draft, ignore_errors=True)
+        # Some systems do not remove what is still open.
         os.close(lock)
+        shutil.rmtree(draft, ignore_errors=True)
 
 
 def _new_draft(place: Path) -> tuple[Path, int]:

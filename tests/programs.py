@@ -5,12 +5,14 @@ from __future__ import annotations
 import importlib
 import os
 import shutil
+import subprocess
+from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
 
 import pytest
 
-from graphcam.sheets.fonts import pieces
+from graphcam.sheets.fonts import letters_of
 from graphcam.sheets.model import Circles, Entity, Heads, Strokes, Text
 
 
@@ -20,7 +22,7 @@ def count(entity: Entity) -> int:
         case Strokes(starts=items) | Circles(centres=items) | Heads(corners=items):
             return len(items)
         case Text():
-            return len(pieces(entity.text, entity.height))
+            return len(letters_of(entity.text, entity.height))
         case _:
             return 1
 
@@ -36,6 +38,20 @@ def library(name: str) -> ModuleType:
         return importlib.import_module(name)
     except (ImportError, OSError) as error:
         missing(f"{name} cannot be loaded: {error}")
+
+
+def freecad(script: str, folder: Path) -> list[str]:
+    """What FreeCAD finds: the words behind FOUND in the one line that the script prints so."""
+    place = folder / "read.py"
+    place.write_text(script, encoding="utf-8")
+    # Its own Python must not meet ours.
+    clean = {key: value for key, value in os.environ.items() if key not in ("VIRTUAL_ENV", "PYTHONPATH")}
+    command, windowless = [program("freecadcmd"), place], clean | {"QT_QPA_PLATFORM": "offscreen"}
+    out = subprocess.run(
+        command, check=False, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300, env=windowless
+    ).stdout
+    (line,) = (line for line in out.splitlines() if line.startswith("FOUND"))
+    return line.split()[1:]
 
 
 def missing(why: str) -> NoReturn:

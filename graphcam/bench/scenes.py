@@ -12,7 +12,7 @@ from graphcam.constructions.drawn_arm import DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.given.follower import Rotation
 from graphcam.given.limits import Limits
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
@@ -82,7 +82,8 @@ def scene(follower: str, law: str) -> TestScene:
     if follower == "arm":
         motion, sizes = motion_of(law, radians(20), 90, 40, 80), AdoptedSizes(50.0, 120.0, 10.0)
         limits = Limits(radians(45), None, True)
-        return TestScene(follower, law, _board(motion, DrawnOscillating(ARM, None), limits, "ccw"), sizes)
+        arm = DrawnOscillating(ARM, None, Scale(1.0, "mm"))
+        return TestScene(follower, law, _board(motion, arm, limits, "ccw"), sizes)
     motion, sizes = motion_of(law, LIFT, 120, 30, 100), AdoptedSizes(60.0, 0.0, 0.0)
     return TestScene(follower, law, _board(motion, DrawnFlatFaced(8.0), limits, "ccw"), sizes)
 
@@ -97,5 +98,5 @@ def free_scene(law: str) -> TestScene:
 def _board(motion: Motion, follower: DrawnFollower, limits: Limits, rotation: Rotation) -> Board:
     rule, mu_phi = roller_rule(DEFAULT_RULE), Scale(radians(1), "rad")
     # Prime radius and roller radius are left open, and so is what they are rounded to.
-    drawing = 12, 50.0, (40.0, 40.0), mu_phi, None, (330.0, 330.0)
+    drawing = 12, 50.0, (40.0, 40.0), mu_phi, None, Paper(330.0, 330.0, GOST_2_302)
     return Board(motion, follower, rotation, limits, None, None, rule, *drawing)

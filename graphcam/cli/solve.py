@@ -26,6 +26,7 @@ from graphcam.cli.shared import (
 from graphcam.language import languages
 
 if TYPE_CHECKING:
+    from graphcam.solving.arcs_solution import AnySolution
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
@@ -88,19 +89,18 @@ def solve(
         given = _read(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
-        from graphcam.solving.shown_solution import without_answers
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
         solution = solved(given, None if pencil is None else graphcam.Pencil.of(pencil, seed=seed))
-        document = solution.to_dict() if last is None else without_answers(solution.to_dict())
+        document = _document(solution, finished=last is None)
         if folder is None:
             # A wrong choice is one even where nothing is drawn by it.
             check_choices(solution, last, dxf=dxf, working_drawing=working_drawing)
         else:
-            parts, as_part = per_construction, working_drawing
+            part = working_drawing
             document["files"] = solution.write(
-                folder, upto=last, per_construction=parts, dxf=dxf, working_drawing=as_part, progress=progress
+                folder, upto=last, per_construction=per_construction, dxf=dxf, working_drawing=part, progress=progress
             )
     # A warning tells what somebody with an unfinished sheet is to find.
     _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
@@ -133,6 +133,13 @@ def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
     if worksheet:
         return 0
     return int(upto) if upto is not None and upto.isdecimal() else upto
+
+
+def _document(solution: AnySolution, *, finished: bool) -> dict[str, Any]:
+    """What is told of a solution; of an unfinished sheet nothing that holds an answer."""
+    from graphcam.solving.shown_solution import without_answers
+
+    return solution.to_dict() if finished else without_answers(solution.to_dict())
 
 
 def _print_solution(

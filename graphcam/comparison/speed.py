@@ -1,11 +1,11 @@
 """What the analogues mean at a speed: phase times, velocities in m/s, accelerations in m/s^2."""
 
-import math
 from dataclasses import dataclass
 
+from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.motion import Motion, Moving
 
-PER_SPEED = {"mm": 1000.0, "rad": 1.0}
+PER_SPEED = {"mm": MM_PER_M, "rad": 1.0}
 """How many units of the lift make the one in which speeds are told: a metre, or for an arm a radian."""
 
 
@@ -39,7 +39,7 @@ def at_speed(motion: Motion, speed_rpm: float, unit: str = "mm") -> list[PhaseAt
     [6.17, 0.0, 24.67, 0.0]
     """
     per_speed = PER_SPEED[unit]
-    omega = speed_rpm * 2 * math.pi / 60
+    omega = omega_of(speed_rpm)
     phases: list[PhaseAtSpeed] = []
     for phase in motion.phases:
         velocity = acceleration = 0.0

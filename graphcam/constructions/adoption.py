@@ -1,11 +1,13 @@
 """Adopting sizes as in a design office: round numbers, as far as the drawn region has any."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.drafting.ink import Caption, Step, View, say
+from graphcam.drafting.scale import UNLIMITED, Paper
 from graphcam.given.laws import Floats
 from graphcam.words import sequence
 
@@ -81,8 +83,20 @@ class Adoption:
 
 
 def nothing_adopted() -> Adoption | None:
-    """Of a region that is drawn for itself."""
+    """Of what is drawn for itself, with sizes that are only tried."""
     return None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ToldByChain:
+    """What lies on the board only where a construction is drawn as one of a chain.
+
+    adopted : tells how the sizes came about that are taken in the end; None where they are not known
+    paper : for views of its own
+    """
+
+    adopted: Callable[[], Adoption | None] = nothing_adopted
+    paper: Paper = UNLIMITED
 
 
 def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step:

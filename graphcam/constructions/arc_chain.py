@@ -14,7 +14,7 @@ from graphcam.constructions.arc_stations import ArcStations, divide_arcs
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import GOST_2_302, UNLIMITED, Paper, Ratios, Scale, coarsest, standard_scale
+from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest, standard_scale
 from graphcam.given.three_arcs import ThreeArcs
 
 AROUND_CENTRES = complex(40.0, 50.0)
@@ -29,9 +29,8 @@ class ArcBoard:
     roller_radius : mm
     divisions : equal parts of each arc
     mu_phi : rad/mm
-    room : width and height of paper that the cam may take [mm]
+    paper : what the cam may take of the sheet
     extent : how wide + i high the cam and all the centres of its arcs are [mm];  page : what a page has for them
-    ratios : the drawing scales of the sheet's standard
     heights : that the diagrams of a, v and s should keep to [mm of paper]
     omega : of the cam [rad/s], where the task gives a speed
     """
@@ -41,22 +40,21 @@ class ArcBoard:
     roller_radius: float
     divisions: int
     mu_phi: Scale
-    room: tuple[float, float]
+    paper: Paper
     extent: complex = 0j
     page: Paper = UNLIMITED
-    ratios: Ratios = GOST_2_302
     heights: Mapping[str, float] = field(default_factory=lambda: HEIGHTS)
     omega: float | None = None
 
     @property
     def mu_l(self) -> Scale:
-        """The largest standard scale at which the cam and the roller, and C2 if it is given, fit into their room.
+        """The largest standard scale at which the cam and the roller, and C2 if it is given, fit their paper.
 
         It is coarser where no page would take a centre that is found far away.
         """
         outer = math.hypot(*self.given.D) + 2 * self.roller_radius
         below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))
-        usual = standard_scale(outer + below, min(self.room), self.ratios)
+        usual = standard_scale(outer + below, min(self.paper.width, self.paper.height), self.paper.ratios)
         return coarsest(usual, self.page.scale(self.extent, AROUND_CENTRES))
 
 
@@ -79,7 +77,7 @@ class ArcChain(Drawings):
     def three_arcs(self) -> Construction:
         """Centres and points of touching."""
         board = self.board
-        return three_arcs(board.given, board.dwell, board.mu_l, self.pencil, Paper(*board.room, board.ratios))
+        return three_arcs(board.given, board.dwell, board.mu_l, self.pencil, board.paper)
 
     @DrawnOnce
     def arc_roller(self) -> Construction:

@@ -22,7 +22,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.drafting.scale import GOST_2_302, Scale, standard_scale
 from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -122,7 +122,9 @@ def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
     values: Floats = np.nan_to_num(rolled.value(name))
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     # On the return the velocity goes as far down as it went up.
-    return standard_scale((2 * high if name == "v" else high - low) or 1.0, height)
+    size = (2 * high if name == "v" else high - low) or 1.0
+    # The scale of a diagram is no drawing scale, so that the finer series serves every frame.
+    return standard_scale(size, height, GOST_2_302)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

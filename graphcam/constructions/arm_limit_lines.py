@@ -22,6 +22,8 @@ from graphcam.words import sequence
 
 SHORTEST, BEYOND = 20.0, 5.0
 """A line at a limit that does not bound the region is drawn only so far, one that does so far beyond it [mm]."""
+PRODUCED = 1.3
+"""An arm is produced so far beyond its end, in lengths of the arm."""
 BESIDE = 1.0
 """A line that comes so near to a corner of the region bounds it [mm]."""
 
@@ -44,7 +46,7 @@ class _AtLimit:
 def _downwards(lines: Drawn, hatched: Points) -> Segments:
     """The lines at a limit as far as they matter: from the ends down along the region."""
     down = _down(lines)
-    ends = [touch + way * reach(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
+    ends = [touch + way * bounding_length(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
     return Segments(lines.shown, np.array(ends), Role.CONSTRUCTION, of=lines.act, index=lines.index)
 
 
@@ -54,11 +56,11 @@ def _down(lines: Drawn) -> Points:
     return np.where(along.imag < 0, along, -along)
 
 
-def reach(touch: complex, way: complex, hatched: Points) -> float:
+def bounding_length(touch: complex, way: complex, hatched: Points) -> float:
     """How far a line is drawn from a touch: as far as it bounds the region of these corners [mm].
 
     >>> square = np.array([0j, 20 + 0j, 20 - 60j, -60j])
-    >>> reach(20 + 1j, -1j, square), reach(30 + 1j, -1j, square)
+    >>> bounding_length(20 + 1j, -1j, square), bounding_length(30 + 1j, -1j, square)
     (66.0, 20.0)
     """
     along = dot(way, hatched - touch)[np.abs(dot(way * UP, hatched - touch)) < BESIDE]
@@ -148,7 +150,7 @@ def highest_arm(drawn: ArmPositions) -> str:
 def reach_step(drawn: ArmPositions) -> Step:
     """The lines of the lowest and of the highest arm, which the cam centre lies below."""
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
-    out = lines.shown - 1.3 * abs(drawn.acts["start"].place) * unit(lines.first.directions)
+    out = lines.shown - PRODUCED * abs(drawn.acts["start"].place) * unit(lines.first.directions)
     produced = Segments(lines.shown, out, Role.CONSTRUCTION, of=lines.act, index=lines.index)
     lowest, highest = say("Produce CB₀ with the ruler; A must lie below it."), say("Produce arm {top} with the ruler.")
     return Step(

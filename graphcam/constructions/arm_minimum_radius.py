@@ -6,17 +6,18 @@ makes the pressure angle with the arm's normal; so through every D the line at t
 is drawn, and A may lie where no line cuts it off.  Between the positions the lines are faired like any other curve.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphcam.constructions.adoption import Adoption, nothing_adopted
-from graphcam.constructions.arm_limit_lines import dwells_step, family_step, highest_arm, reach, reach_step
+from graphcam.constructions.adoption import ToldByChain
+from graphcam.constructions.arm_limit_lines import bounding_length, dwells_step, family_step, highest_arm, reach_step
 from graphcam.constructions.arm_positions import (
     ArmGivens,
     arc_through,
     arm_positions,
+    cam_centre,
     directions,
     positions_step,
     velocities_step,
@@ -44,7 +45,7 @@ from graphcam.words import joined
 
 
 @dataclass(frozen=True, eq=False)
-class ArmLeastRadiusGivens(ArmGivens):
+class ArmLeastRadiusGivens(ArmGivens, ToldByChain):
     """What lies on the board; see :func:`arm_least_radius`.
 
     adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
@@ -52,7 +53,6 @@ class ArmLeastRadiusGivens(ArmGivens):
 
     limits: Limits
     distance: float | None
-    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 ArmRegion = Construction[ArmLeastRadiusGivens]
@@ -236,7 +236,7 @@ def _draw(region: ArmRegion) -> list[Step]:
 def _enlarged(region: ArmRegion) -> list[Step]:
     """The surroundings of the cam centre, where they are small and one is adopted."""
     adopted = region.givens.adopted()
-    scale = adopted and detail_scale(adopted.prime_radius, region.givens.mu_l)
+    scale = adopted and detail_scale(adopted.prime_radius, region.givens.mu_l, region.givens.paper.ratios)
     if scale is None:
         return []
     bind = [(region.acts["lines that bind"].first[n], name) for n, name in _named(region)]
@@ -254,8 +254,7 @@ def _adopted(region: ArmRegion) -> list[complex]:
     adopted, arm, mu = region.givens.adopted(), region.givens.arm, region.givens.mu_l.per_mm
     if adopted is None:
         return []
-    place = circles_meet(np.asarray(0j), adopted.place, np.asarray(-arm + 0j), adopted.prime_radius)
-    return [complex(place) / mu]
+    return [cam_centre(arm, adopted.place, adopted.prime_radius) / mu]
 
 
 def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
@@ -296,7 +295,7 @@ def _binding_marks(region: ArmRegion, hatched: Points) -> tuple[Mark, ...]:
     for n, text in _named(region):
         touch = complex(bind.shown[n])
         way = complex(unit(np.asarray(centre - touch)))
-        end = touch + way * max(reach(touch, way, hatched), abs(centre - touch))
+        end = touch + way * max(bounding_length(touch, way, hatched), abs(centre - touch))
         lines.append(Line(np.array([touch, end]), Role.LIMIT, of=bind.act, index=bind.index[[n, n]]))
         named.append(Label(end, text, way, small=True, of=bind.act, index=bind.index[[n]]))
     return (*lines, *named)

@@ -15,7 +15,7 @@ from graphcam.constructions.axes import numbered, numbers, station_names, turnin
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Arc, Line, Points, Role
@@ -54,6 +54,14 @@ def arm_positions(
     outward = hand.join("arms", pivot, ends).turned(sense(rotation))
     hand.lay_off("tips", ends, outward, hand.carry(v, length * np.asarray(v.scale)))
     return hand.acts
+
+
+def cam_centre(arm: float, distance: float, prime_radius: float, *, flat: bool = False) -> complex:
+    """The cam centre [mm] from the pivot, the arm at rest on its left; NaN where the three lengths close no triangle.
+
+    flat : to take the nearest place, where they close none
+    """
+    return complex(circles_meet(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius, flat=flat))
 
 
 def directions(givens: ArmGivens) -> NDArray[np.intp]:

@@ -11,24 +11,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.constructions.adoption import adoption_step
-from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm_positions, stroke
+from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm_positions, cam_centre, stroke
 from graphcam.constructions.arm_region_detail import adopted_enlarged, detail_scale
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import (
     ANGLES,
     MeasuredGivens,
-    angle_at,
     read_angles,
     shown_station,
 )
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
-from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
+from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import Points, Role, Segments
+from graphcam.drafting.marks import Points, Role, Segments, angle_at
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
@@ -81,7 +80,7 @@ def arm_pressure_angle(
     about_pivot = hand.circle("circle of the centre", pivot, distance / mu_l.per_mm)
     about_start = hand.circle("prime circle", start, prime_radius / mu_l.per_mm)
     # Where a triangle has these sides, circles that miss one another by a hand's errors are taken to touch.
-    closes = bool(np.isfinite(circles_meet(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius)))
+    closes = bool(np.isfinite(cam_centre(arm, distance, prime_radius)))
     centre = hand.cross("centre", about_pivot, about_start, flat=closes)
     normals = hand.perpendicular("normals", drawn["arms"], tips)
     read_angles(hand, normals, hand.join("rays", tips, centre))
@@ -96,6 +95,8 @@ PLAN_ARM = 70.0
 """The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
 PLAN_BESIDE = complex(40.0, 40.0)
 """What stands beside the mechanism and the plan, and between them: letters, the ends of lines, the title [mm]."""
+POLE_BESIDE = 0.6
+"""The plan's pole lies so far beyond C, in lengths of AB."""
 NORMAL = 9.0
 """So much of the normal to each arm is drawn [mm]."""
 ACROSS = 0.2
@@ -106,8 +107,8 @@ def _draw(measured: ArmAngles) -> list[Step]:
     k = shown_station(measured)
     scale = _plan_scale(measured, k)
     scales = VelocityScale(scale, measured.givens.omega)
-    plan, decided, mu_l = _plan(measured, k, scale), measured.givens.adopted, measured.givens.mu_l
-    rounding = [adoption_step(decided(), "c", mu_l.per_mm, at_scale(REGION, mu_l))] if decided else []
+    plan, decided, mu_l = _plan(measured, k, scale), measured.givens.adopted(), measured.givens.mu_l
+    rounding = [adoption_step(decided, "c", mu_l.per_mm, at_scale(REGION, mu_l))] if decided else []
     return [
         *rounding,
         _centre(measured),
@@ -125,7 +126,7 @@ def _plan_scale(measured: ArmAngles, k: int) -> Scale:
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     # About the cam centre [mm], the pivot level with it.
     arm = -givens.arm * np.exp(-1j * (float(measured.first("psi0")) + s))
-    b, pole = givens.distance + arm, givens.distance + 0.6 * abs(givens.distance + arm)
+    b, pole = givens.distance + arm, givens.distance + POLE_BESIDE * abs(givens.distance + arm)
     d = b + sigma * v * arm
     places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
     size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
@@ -181,7 +182,7 @@ def _named(givens: ArmPressureAngleGivens) -> Caption:
 def _enlarged(measured: ArmAngles) -> list[Step]:
     """The adopted cam centre beside the one found, where both are shown enlarged."""
     givens = measured.givens
-    scale = detail_scale(givens.prime_radius, givens.mu_l) if givens.adopted else None
+    scale = givens.adopted() and detail_scale(givens.prime_radius, givens.mu_l, givens.paper.ratios)
     return [adopted_enlarged(measured, scale, _named(givens))] if scale else []
 
 
@@ -206,7 +207,7 @@ def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
     cb = hand.join("CB", c, b)
     d = hand.lay_off("D", b, cb.turned(sigma), _carried(givens.integrated, "v", arm * v))
     # The plan stands clear of the mechanism: v₁ lies across the radius, v₂ across the arm.
-    pole = hand.given("p", c.place.real + abs(b[k].place) * 0.6 + 12.0)
+    pole = hand.given("p", c.place.real + abs(b[k].place) * POLE_BESIDE + 12.0)
     ab, bd = hand.join("AB", a, b), hand.join("BD", b, d)
     v1 = hand.lay_off("v₁", pole, ab[k].turned(sigma * UP), between(a, b[k]))
     v2 = hand.lay_off("v₂", pole, bd[k].turned(-sigma * UP), between(b[k], d[k]))

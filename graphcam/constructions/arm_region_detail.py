@@ -14,7 +14,7 @@ from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Region, Role
-from graphcam.drafting.scale import Scale, ratio_text, standard_scale
+from graphcam.drafting.scale import Ratios, Scale, ratio_text, standard_scale
 from graphcam.words import sequence
 
 SMALL, ENLARGED = 30.0, 60.0
@@ -24,15 +24,16 @@ ASIDE = 20.0
 """So far beside the places that it shows the region is hatched [mm]."""
 
 
-def detail_scale(prime_radius: float, mu_l: Scale) -> Scale | None:
+def detail_scale(prime_radius: float, mu_l: Scale, ratios: Ratios) -> Scale | None:
     """The scale of the detail for an adopted prime radius [mm], or None where the arm positions are large enough.
 
-    >>> [detail_scale(radius, Scale(1.0, "mm")) for radius in (12.0, 61.0)]
+    >>> from graphcam.drafting.scale import ISO_5455
+    >>> [detail_scale(radius, Scale(1.0, "mm"), ISO_5455) for radius in (12.0, 61.0)]
     [Scale(per_mm=0.2, unit='mm'), None]
     """
     if mu_l.paper(prime_radius) >= SMALL:
         return None
-    scale = standard_scale(prime_radius, ENLARGED)
+    scale = standard_scale(prime_radius, ENLARGED, ratios)
     return scale if scale.per_mm < mu_l.per_mm else None
 
 

@@ -10,7 +10,7 @@ from graphcam.constructions.curvature import curvature
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import GOST_2_302, Paper, Ratios, Scale
+from graphcam.drafting.scale import Paper, Scale
 from graphcam.given.follower import Follower, Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -146,8 +146,7 @@ class Board:
     prime_radius, roller_radius : mm, or None where the task leaves them to be found
     ordinate, poles : mm of paper; mu_phi : rad/mm, for the pressure angle's axis too
     rounding : adopted sizes are multiples of it [mm]; None for the largest power of ten below r0/10, at most 1 mm
-    profile_room : width and height of paper that the profile, or another view of its own, may take [mm]
-    ratios : the drawing scales of the sheet's standard
+    paper : what the profile, or another view of its own, finds on the sheet
     omega : of the cam [rad/s], where the task gives a speed
     refine : divides every part again, to see what finer parts would change
     """
@@ -164,15 +163,9 @@ class Board:
     poles: tuple[float, float]
     mu_phi: Scale
     rounding: float | None
-    profile_room: tuple[float, float]
+    paper: Paper
     omega: float | None = None
-    ratios: Ratios = GOST_2_302
     refine: int = 1
-
-    @property
-    def paper(self) -> Paper:
-        """What a view of its own finds on the sheet."""
-        return Paper(*self.profile_room, self.ratios)
 
     @cached_property
     def stations(self) -> Stations:

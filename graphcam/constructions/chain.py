@@ -111,7 +111,7 @@ class Chain(Drawings):
         """The least prime radius, and where the follower stands."""
         drawn = self._least_radius(self.board.follower.place)
         # Asked for only where the steps are told: the region is drawn as far as the cam centre that is adopted.
-        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted_if_any))
+        return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted_if_any, paper=self.board.paper))
 
     @DrawnOnce
     def pressure_angle(self) -> Construction:
@@ -314,10 +314,10 @@ class Chain(Drawings):
         rollers = board.roller_radius
         if rollers is None:
             rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)
-        room, ratios = min(board.profile_room), board.ratios
+        width, height, ratios = board.paper.width, board.paper.height, board.paper.ratios
         reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0))
         # The arcs of the phase angles about the curve do not grow with the scale.
-        width, height = board.profile_room
+        room = min(width, height)
         inner = max(min(width - PHASE_ANGLES.real, height - PHASE_ANGLES.imag), room / 2)
         within = board.follower.reach(r0, self.place, board.motion, 0.0)
         return coarsest(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))

@@ -446,16 +446,21 @@ def _degrees(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark,
 
 
 _SCALES = {
-    "v": say(
-        "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: the "
-        "maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
+    "v": (
+        say("The scale of v"),
+        say(
+            "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "
+            "the maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
+        ),
     ),
-    "a": say(
-        "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: the "
-        "maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
+    "a": (
+        say("The scale of a"),
+        say(
+            "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: "
+            "the maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
+        ),
     ),
 }
-_SCALE_TITLES = {"v": say("The scale of v"), "a": say("The scale of a")}
 
 
 def _scale(run: _Pass) -> Step:
@@ -464,13 +469,13 @@ def _scale(run: _Pass) -> Step:
     scales = {"mu_phi": c.givens.mu_phi.per_mm, "mu_s": c.givens.mu_s.per_mm, "unit": unit(c.givens.mu_s.unit)}
     scales |= {f"mu_{each}": c.readings[each].scale for each in "va"}
     greatest = {"pole": pole, "mm": float(c.first(f"max_{name}")), "value": float(c.value(f"max_{name}"))}
-    said = _SCALES[name].where(**scales, **greatest)
+    title, said = _SCALES[name]
+    said = said.where(**scales, **greatest)
     why = say("Because a ray cuts off H times a slope on paper, where {source} and φ have their scales.")
     end, heights = _end(c), c.acts[name].shown.imag
     upright, read = Line(end + UP * np.array(reach(heights)), Role.SCALE), c.readings[name]
     return Step(
-        _SCALE_TITLES[name],
-        *(said, _view(c, name)),
+        *(title, said, _view(c, name)),
         (upright, *graduated(heights, float(read.scale), end, read.act)),
         (f"max_{name}", name),
         why=why.where(source=run.source),

@@ -1,14 +1,15 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
 import cmath
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.constructions.arm_inversion import arm_inversion
+from graphcam.constructions.arm_limit_lines import PRODUCED
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
+from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import turning
 from graphcam.constructions.board import DrawnFollower, FollowerSize, Values, roller_given
@@ -16,7 +17,7 @@ from graphcam.constructions.sketch import bearing, edge, low_point, plain_cam, s
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, standard_scale
+from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Oscillating, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -24,6 +25,8 @@ from graphcam.given.motion import Motion
 
 ARM_ON_PAPER = 130.0
 """The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""
+BEYOND_START = 0.3
+"""So much is drawn beyond B₀ where the arm is not produced, in lengths of the arm."""
 PIVOT, ACROSS, SWING = 42 + 0j, 2.0, 0.2
 """In the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
 ROLLER = say("The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B.")
@@ -34,12 +37,12 @@ EDGE = say("The cam turns {rotation} about A and swings an arm about the pivot C
 class DrawnOscillating(DrawnFollower):
     """An arm [mm]; ``place`` is its pivot's distance from the cam centre [mm], None where it is to be found.
 
-    mu_l : scale of the arm positions [mm/mm]; None for the usual one
+    mu_l : scale of the arm positions [mm/mm]
     """
 
     arm: float
     place: float | None
-    mu_l: Scale | None = None
+    mu_l: Scale
     place_name = "distance"
     place_title = say("distance")
     unit = Oscillating.lift_unit
@@ -52,43 +55,19 @@ class DrawnOscillating(DrawnFollower):
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
         """From the arm positions."""
-        return arm_least_radius(integrated, rotation, limits, self.arm, place, self._mu_l, pencil)
+        return arm_least_radius(integrated, rotation, limits, self.arm, place, self.mu_l, pencil)
 
     def pressure_angle(
         self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
     ) -> Construction:
         """From the velocity plan, along the arm."""
-        return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, self._mu_l, pencil)
-
-    @property
-    def _mu_l(self) -> Scale:
-        """The scale of the arm positions."""
-        return self.mu_l or standard_scale(self.arm, ARM_ON_PAPER)
+        return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, self.mu_l, pencil)
 
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
         """About the pivots on their circle."""
         return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
-
-    def positions(
-        self, values: Values, rotation: Rotation, limits: Limits, centres: Iterable[tuple[float, float]]
-    ) -> complex:
-        """About how wide + i high the arm positions are [mm].
-
-        values : over the turn;  centres : prime radii and distances of the cam centres that are found in them [mm]
-        """
-        s, v, _ = values
-        outward = -np.exp(-1j * s)
-        tips = self.arm * (1 + sense(rotation) * v) * outward
-        # The arm produced lies beyond B₀, the region below the ends.
-        drawn: list[complex] = [0j, *tips.tolist()]
-        drawn.append(-self.arm * (1.3 if limits.rest else 2.3))
-        for radius, c in centres:
-            cos = (c * c + self.arm**2 - radius**2) / (2 * c * self.arm)
-            drawn.append(-cmath.rect(c, math.acos(min(1.0, max(-1.0, cos)))))
-        places: Points = np.array(drawn)
-        return complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The distances at which no line of the region cuts the cam centre off."""
@@ -130,3 +109,19 @@ class DrawnOscillating(DrawnFollower):
             *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
             *roller_given(roller_radius),
         ]
+
+
+def positions_extent(
+    arm: float, values: Values, rotation: Rotation, limits: Limits, centres: Iterable[tuple[float, float]]
+) -> complex:
+    """About how wide + i high the positions of an arm [mm] are [mm].
+
+    values : over the turn;  centres : prime radii and distances of the cam centres that are found in them [mm]
+    """
+    s, v, _ = values
+    tips = -arm * (1 + sense(rotation) * v) * np.exp(-1j * s)
+    # The arm produced lies beyond B₀, the region below the ends.
+    beyond = -arm * (1 + (BEYOND_START if limits.rest else PRODUCED))
+    found = [cam_centre(arm, distance, radius, flat=True) for radius, distance in centres]
+    places: Points = np.array([0j, *tips.tolist(), beyond, *found])
+    return complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))

@@ -84,8 +84,8 @@ WORKED = 4
 
 
 def _draw(inverted: profile_view.Inverted) -> list[Step]:
-    decided, mu_l = inverted.givens.adopted, inverted.givens.mu_l.per_mm
-    adoption = [adoption_step(decided(), "e", mu_l, PROFILE)] if decided else []
+    decided, mu_l = inverted.givens.adopted(), inverted.givens.mu_l.per_mm
+    adoption = [adoption_step(decided, "e", mu_l, PROFILE)] if decided else []
     touched, profile = profile_view.pitch_steps(
         inverted,
         _contacts(inverted),

@@ -6,15 +6,14 @@ meets the axis of s where the greatest of -(s + a) is read.  With unequal scales
 arctan(mu_a/mu_s) in place of 45 degrees.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.adoption import Adoption, nothing_adopted
+from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import OVERHANG, numbers, station_names
 from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
@@ -39,7 +38,7 @@ DOWN_LEFT = -RIGHT - UP
 
 
 @dataclass(frozen=True, eq=False)
-class FlatLeastRadiusGivens:
+class FlatLeastRadiusGivens(ToldByChain):
     """The diagrams, and the least permitted radius of curvature of the profile [mm].
 
     adopted : tells which prime radius is taken in the end, where one is: the axis of s is drawn as far as there
@@ -47,7 +46,6 @@ class FlatLeastRadiusGivens:
 
     integrated: Integrated
     least_curvature: float
-    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 FlatRegion = Construction[FlatLeastRadiusGivens]

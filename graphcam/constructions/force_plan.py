@@ -17,12 +17,13 @@ from operator import itemgetter
 import numpy as np
 
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.pressure_angle import MeasuredAngles, angle_at, moving_up, shown_station
+from graphcam.constructions.graduation import round_up
+from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -150,9 +151,7 @@ def round_scale(load: float) -> Scale:
     >>> round_scale(160).per_mm
     5.0
     """
-    least = max(load, 1e-6) / LOAD_LENGTH
-    power = 10.0 ** math.floor(math.log10(least))
-    return Scale(next(n for n in ROUND_NUMBERS if n * power >= least) * power, "N")
+    return Scale(round_up(max(load, 1e-6) / LOAD_LENGTH, ROUND_NUMBERS)[0], "N")
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Round values along the ordinate axis of a diagram: strokes, and numbers where there is room."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -47,15 +48,19 @@ def divisions(farthest: float, per_mm: float) -> tuple[float, int]:
     >>> divisions(50.0, 0.6), divisions(50.0, 1.231)
     ((10.0, 5), (20.0, 4))
     """
-    steps = [_round(apart * per_mm) for apart in NUMBERS_APART]
+    steps = [round_up(apart * per_mm, ROUND) for apart in NUMBERS_APART]
     # A low diagram would have no number at all.
     every, lead = next((step for step in steps if step[0] / per_mm <= farthest), steps[-1])
     parts = 4 if lead == 2 else 5
     return every, parts if every / per_mm / parts >= TICKS_ROOM else 1
 
 
-def _round(least: float) -> tuple[float, int]:
-    """The least round step from a value on, and its first digit."""
+def round_up(least: float, leads: Sequence[float]) -> tuple[float, float]:
+    """The least of the leads times a power of ten that is not less than a value, and its lead.
+
+    >>> round_up(0.3, (1, 2, 5, 10))
+    (0.5, 5)
+    """
     power = 10.0 ** math.floor(math.log10(least))
-    lead = next(n for n in ROUND if n * power >= least)
+    lead = next(n for n in leads if n * power >= least)
     return lead * power, lead

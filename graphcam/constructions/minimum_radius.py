@@ -5,12 +5,11 @@ motion is the pressure angle; so the tangents to the curve of the D_i at the per
 A may lie.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.adoption import Adoption, nothing_adopted
+from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, pieces_of
 from graphcam.constructions.combined_diagram import (
     aside,
@@ -47,7 +46,7 @@ from graphcam.words import joined, say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
-class LeastRadiusGivens:
+class LeastRadiusGivens(ToldByChain):
     """What lies on the board; see :func:`least_radius`.
 
     adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
@@ -57,7 +56,6 @@ class LeastRadiusGivens:
     rotation: Rotation
     limits: Limits
     offset: float | None
-    adopted: Callable[[], Adoption | None] = field(default=nothing_adopted, kw_only=True)
 
 
 LeastRadius = Construction[LeastRadiusGivens]

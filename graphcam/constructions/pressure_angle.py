@@ -6,46 +6,42 @@ sense of the cam's rotation, it ends in D; the angle of D A with the motion is t
 needed.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.adoption import Adoption, adoption_step
+from graphcam.constructions.adoption import ToldByChain, adoption_step
 from graphcam.constructions.axes import station_names, turning
 from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities, worked_station
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.acts import Act, Drawn, Setting
+from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
-from graphcam.drafting.marks import AngleMark, Arc, Line, Mark, Role
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
-class MeasuredGivens:
+class MeasuredGivens(ToldByChain):
     """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs.
 
-    adopted : tells how the prime radius came about, where it was adopted rather than tried
-    paper : for the velocity plan
     omega : of the cam [rad/s], where the task gives a speed
     """
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
-    adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
-    paper: Paper = field(default=UNLIMITED, kw_only=True)
     omega: float | None = field(default=None, kw_only=True)
 
 
@@ -137,12 +133,12 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
-    k, mu, decided = shown_station(measured), measured.readings["s0"].per_mm, measured.givens.adopted
+    k, mu, decided = shown_station(measured), measured.readings["s0"].per_mm, measured.givens.adopted()
     end, centre = measured.acts["ends"].first[k], measured.acts["centre"].first
     scale = _plan_scale(measured, k, (end.place - centre.place) * mu)
     scales = VelocityScale(scale, measured.givens.omega)
     shown = _Shown(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
-    rounding = [adoption_step(decided(), "e", mu, COMBINED)] if decided else []
+    rounding = [adoption_step(decided, "e", mu, COMBINED)] if decided else []
     return [
         *(*rounding, _cam_centre(measured)),
         *(_mechanism(shown), _velocities(shown), _normal(shown), _angle(shown)),
@@ -402,10 +398,3 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
     why = say("Because the ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
     return Step(title, said, COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why, parts=tuple(parts))
-
-
-def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Act | None) -> AngleMark:
-    """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
-    turn = (end - start + np.pi) % (2 * np.pi) - np.pi
-    first, last = sorted((start, start + turn))
-    return AngleMark(place, radius, first, last, text, of)

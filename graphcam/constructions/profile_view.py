@@ -1,13 +1,12 @@
 """What every drawing about the cam centre has: closed curves, the phases' angles, the sense of the rotation."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.adoption import Adoption
+from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, numbers, phase_angle, phase_symbol, phase_title, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
@@ -17,7 +16,7 @@ from graphcam.drafting.hand import Direction, Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
-from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
+from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
@@ -25,19 +24,13 @@ from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
-class InvertedGivens:
-    """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm].
-
-    adopted : tells how the prime radius came about, where it was adopted rather than tried
-    paper : for a detail of it
-    """
+class InvertedGivens(ToldByChain):
+    """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm]."""
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
     mu_l: Scale
-    adopted: Callable[[], Adoption] | None = field(default=None, kw_only=True)
-    paper: Paper = field(default=UNLIMITED, kw_only=True)
 
 
 Inverted = Construction[InvertedGivens]

@@ -44,7 +44,7 @@ MEANING = Meaning(
     {
         "candidates": ReadingMeaning(say("proposals"), "r", "mm", over=_terms, judged="least"),
         "roller_radius": ReadingMeaning(
-            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius"), "candidates"),)
+            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("proposed roller radius"), "candidates"),)
         ),
     },
     "report.paragraphs.roller",

@@ -9,8 +9,9 @@ from graphcam.drafting.ink import Caption, View, Words, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role
 from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import unit
+from graphcam.given.angular_velocity import MM_PER_M
+from graphcam.plane import dot
 
-MM_PER_M = 1000
 SPEED = say("{symbol} = {speed:.3g} {unit}")
 
 
@@ -84,4 +85,4 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: Velocity
 def _outwards(start: complex, end: complex, opposite: complex) -> complex:
     """Square to a side of a triangle, away from the opposite corner."""
     across = UP * (end - start)
-    return across if ((opposite - start) * across.conjugate()).real < 0 else -across
+    return across if dot(across, opposite - start) < 0 else -across

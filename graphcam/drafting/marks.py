@@ -155,4 +155,11 @@ class Region:
     index: Places | None = field(default=None, compare=False, repr=False)
 
 
+def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Origin | None) -> AngleMark:
+    """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
+    turn = (end - start + np.pi) % (2 * np.pi) - np.pi
+    first, last = sorted((start, start + turn))
+    return AngleMark(place, radius, first, last, text, of)
+
+
 Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region

@@ -47,12 +47,12 @@ class Scale:
         return value / self.per_mm
 
 
-def standard_scale(size: float, room: float, ratios: Ratios = GOST_2_302) -> Scale:
+def standard_scale(size: float, room: float, ratios: Ratios) -> Scale:
     """The largest standard drawing scale at which ``size`` mm of machine fit into ``room`` mm of paper.
 
-    >>> standard_scale(150, 310).per_mm
+    >>> standard_scale(150, 310, GOST_2_302).per_mm
     0.5
-    >>> standard_scale(100, 250).per_mm, standard_scale(100, 250, ISO_5455).per_mm
+    >>> standard_scale(100, 250, GOST_2_302).per_mm, standard_scale(100, 250, ISO_5455).per_mm
     (0.4, 0.5)
     """
     for ratio in ratios:
@@ -70,9 +70,9 @@ class Paper:
     0.2
     """
 
-    width: float = math.inf
-    height: float = math.inf
-    ratios: Ratios = GOST_2_302
+    width: float
+    height: float
+    ratios: Ratios
 
     def scale(self, size: complex, beside: complex = 0j) -> Scale:
         """The largest standard scale for a view ``size`` mm of machine wide + i high.
@@ -83,8 +83,8 @@ class Paper:
         return coarsest(across, standard_scale(size.imag, self.height - beside.imag, self.ratios))
 
 
-UNLIMITED = Paper()
-"""As much paper as one likes."""
+UNLIMITED = Paper(math.inf, math.inf, GOST_2_302)
+"""As much paper as one likes: of what is drawn for itself, on no sheet."""
 
 
 def coarsest(*scales: Scale) -> Scale:

@@ -15,6 +15,7 @@ SENSIBLE = {
     "degrees": (1e-6, 360.0),
     "degrees permitted": (0.001, 90.0),
     "rpm": (1e-3, 1e6),
+    "mm/min": (1e-3, 1e6),
     "micrometres": (1e-3, 1e3),
     "kg": (1e-6, 1e6),
     "kg/m^3": (10.0, 30000.0),

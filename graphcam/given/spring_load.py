@@ -8,10 +8,10 @@ import math
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError
+from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.ranges import bounded
 
-MM_PER_M = 1000.0
 Values = tuple[Floats, Floats, Floats, Floats]
 """(s, v, a, j)"""
 
@@ -59,7 +59,7 @@ class SpringLoad:
     @property
     def omega(self) -> float:
         """Speed of the cam [rad/s]."""
-        return self.speed_rpm * math.tau / 60
+        return omega_of(self.speed_rpm)
 
     def force(self, values: Values, direction: Floats | float = 0.0) -> Floats:
         """The force [N] that the cam must bear along the motion, from (s, v, a, j).

@@ -268,11 +268,13 @@ def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: flo
     spare = 0.0 if radius is None else ROOM
 
     def sizes(t: Floats) -> Sizes:
+        """The sizes with the free ones at parts t (n,) of their ranges."""
         x = low.copy()
         x[free] += t * (high - low)[free]
         return Sizes(*map(float, x))
 
     def left(t: Floats) -> Floats:
+        """What is left of every limit at every place, as a part of it; negative where it is not kept."""
         found = problem.margins(places, sizes(t)).values()
         return np.concatenate([margin[np.isfinite(margin)] for margin in found]) - spare
 
@@ -281,6 +283,7 @@ def _solve(problem: SizingProblem, places: TurnPlaces, start: Sizes, radius: flo
     k = int(np.count_nonzero(free[:target]))
 
     def size(t: Floats) -> float:
+        """What is to be least: the prime radius, or where that is given the face width, as a part of its range."""
         return float(t[k])
 
     bounds, kept, options = [(0, 1)] * t0.size, {"type": "ineq", "fun": left}, {"ftol": 1e-14, "maxiter": 200}
@@ -293,6 +296,7 @@ def _polished(problem: SizingProblem, sizes: Sizes) -> Sizes:
     from scipy.optimize import brentq
 
     def left(radius: float) -> float:
+        """What is left of the limit that is kept most narrowly, as a part of it, with a prime radius [mm]."""
         return min(problem.exact_margins(replace(sizes, radius=radius)).values())
 
     low, high = sizes.radius * (1 - POLISH), sizes.radius * (1 + POLISH)

@@ -122,6 +122,7 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
     kappa, steepness = kin.curvature(places.values), np.abs(across) / along
 
     def angle(permitted: float | None, direction: int) -> Floats:
+        """What is left (..., n) of a permitted pressure angle [rad] where the motion has that direction."""
         if permitted is None:
             return np.full_like(steepness, np.inf)
         return np.where(places.direction == direction, 1 - steepness / math.tan(permitted), np.inf)

@@ -6,10 +6,11 @@ from nbformat import NotebookNode
 from graphcam.drafting.units import unit
 from graphcam.notebooks.running import PYTHON
 from graphcam.report import markdown
-from graphcam.report.sheet_contents import UNNAMED, all_drawn, title_name
+from graphcam.report.sheet_contents import all_drawn
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.sheet_tables import UNNAMED
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Tell, Words, say, say_in
@@ -100,7 +101,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
 def notebook_title(task: Task | ArcsTask) -> str:
     """What the notebook of a task is called: as its sheet."""
     tell = task.drawing.tell
-    return title_name(task.title, tell) or tell(UNNAMED)
+    return task.title.told_name(tell) or tell(UNNAMED)
 
 
 def _text(source: str) -> NotebookNode:

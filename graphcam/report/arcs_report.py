@@ -1,12 +1,12 @@
 """The sheet and the note of a cam of three circular arcs."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
+from graphcam.given.angular_velocity import omega_of
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.report.markdown import blocks, number, table
@@ -84,7 +84,7 @@ def _at_speed(solution: ArcsSolution) -> list[Row]:
     rpm = solution.task.speed_rpm
     if rpm is None:
         return []
-    omega, tops = rpm * 2 * math.pi / 60, solution.drawn["arc_diagrams"]
+    omega, tops = omega_of(rpm), solution.drawn["arc_diagrams"]
     v, a = (float(tops.value(f"max_{name}")) * omega**k / PER_SPEED["mm"] for k, name in ((1, "v"), (2, "a")))
     return [
         *speed(rpm),

@@ -4,11 +4,11 @@ from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
 from graphcam.report.sheet_contents import Contents, motion_contents
-from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import compose_parts
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.runs import TooLargeError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import check_given_sizes
 
@@ -38,9 +38,8 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
     paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
     drawn = contents.parts if per_construction else [contents.whole]
-    sheet = Format(paper.format, paper.frame, paper.orientation)
     try:
-        return compose_parts(drawn, contents.title, sheet, last, paper.tell)
+        return compose_parts(drawn, contents.title, format_of(paper), last, paper.tell)
     except TooLargeError:
         # What the task gives may be to blame: then it is named.
         if isinstance(contents.solution, Solution):

@@ -10,13 +10,14 @@ from graphcam.constructions.axes import degrees, phase_title
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
+from graphcam.given.angular_velocity import omega_of
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.budget_table import budget_table
 from graphcam.report.markdown import blocks, formula, number, printed, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
-from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of, title_name
+from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
 from graphcam.sheets.tables import Table
 from graphcam.showing import from_above
@@ -70,7 +71,7 @@ def _steps(solution: AnySolution) -> Iterator[str]:
 
 def comparison_file(solution: AnySolution) -> str:
     """The table of drawn against exact values as a Markdown file of its own."""
-    title = say("{name}: drawn against exact", name=text(title_name(solution.task.title, solution.tell)))
+    title = say("{name}: drawn against exact", name=text(solution.task.title.told_name(solution.tell)))
     return printed(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
 
 
@@ -90,7 +91,7 @@ def heading(title: TitleTable, tell: Tell) -> str:
     lines = [title.organisation, title.document, title.group, title.author, title.checked]
     names = (say("Organisation"), say("Document"), say("Group"), say("Author"), say("Checked by"))
     signed = [f"{tell(name)}: {text(line)}" for name, line in zip(names, lines, strict=True) if line]
-    head = tell(say("{name}: calculation note", name=text(title_name(title, tell))))
+    head = tell(say("{name}: calculation note", name=text(title.told_name(tell))))
     return blocks(f"# {head}", "  \n".join(signed))
 
 
@@ -159,7 +160,7 @@ def _at_speed(solution: Solution) -> str:
         for k, p in enumerate(speeds)
     ]
     k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, Moving))
-    omega, law = general(2 * math.pi * rpm / 60, 5), first.normalised
+    omega, law = general(omega_of(rpm), 5), first.normalised
     values = {
         "s": unit("s"),
         "per_s": unit({"mm": "m/s", "rad": "rad/s"}[of_lift]),

@@ -1,5 +1,7 @@
 """The files of a solution: all of them in one folder, or none."""
 
+from __future__ import annotations
+
 import csv
 import json
 import math
@@ -7,7 +9,7 @@ import warnings
 from collections.abc import Callable, Collection, Mapping
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphcam.errors import DesignError, LetteringWarning, nearest
 from graphcam.files import digest, whole_folder
@@ -21,6 +23,9 @@ from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answe
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
 from graphcam.workshop.profile_files import NAMES, write_profile
+
+if TYPE_CHECKING:
+    from graphcam.workshop.part_contents import PartContents
 
 DXF = "plain", "cad"
 """Kinds of DXF."""
@@ -49,15 +54,19 @@ def check_choices(
     DesignError : there is no such step, construction, kind of DXF or kind of file, a working drawing is asked for with
         an unfinished sheet, or there can be no such part
     """
-    one_of("dxf", dxf, DXF)
+    _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
     if working_drawing:
-        if upto is not None:
+        _checked_part(solution)
+
+
+def _check_names(
+    solution: AnySolution, upto: int | str | None, dxf: str, files: Collection[str] | None, *, working_drawing: bool
+) -> None:
+    one_of("dxf", dxf, DXF)
+    if upto is not None:
+        if working_drawing:
             unfinished = "left out where the sheet is drawn up to a step", "it would give the answers away"
             raise DesignError("working_drawing", "asked for", *unfinished)
-        from graphcam.workshop.part_contents import part_contents
-
-        part_contents(solution)
-    if upto is not None:
         contents_of(solution).last_step(upto)
     # A text is a collection of letters, none of which is meant.
     if isinstance(files, str):
@@ -65,6 +74,16 @@ def check_choices(
     unknown = [kind for kind in files or () if kind not in FILES]
     if unknown:
         raise DesignError("files", unknown[0], f"a list of kinds among {', '.join(FILES)}", nearest(unknown[0], FILES))
+
+
+def _checked_part(solution: AnySolution) -> PartContents:
+    """The part, of which there can be a working drawing."""
+    # What makes the part is loaded only when it is asked for.
+    from graphcam.workshop.part_contents import PartContents
+
+    part = PartContents(solution)
+    part.check()
+    return part
 
 
 def write(
@@ -79,7 +98,8 @@ def write(
     progress: Callable[[str], None] | None = None,
 ) -> dict[str, str | None]:
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
-    check_choices(solution, upto, dxf=dxf, files=files, working_drawing=working_drawing)
+    _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
+    part = _checked_part(solution) if working_drawing else None
     finished, report = upto is None, progress or unheard
     wanted = _wanted(files, finished=finished, working_drawing=working_drawing)
     written: dict[str, str | None] = dict.fromkeys(FILES)
@@ -100,10 +120,10 @@ def write(
         if finished:
             report("writing tables and note")
         written |= _write_texts(solution, folder, wanted)
-        if working_drawing:
-            written |= _write_part(solution, folder, report)
+        if part:
+            written |= _write_part(part, folder, report)
         names, facts = _write_profiles(solution, folder, wanted)
-        written |= names
+        written |= names | _write_cutting(solution, part, folder, wanted)
         _write_list(solution, folder, written, facts, finished=finished)
     return written
 
@@ -168,24 +188,32 @@ def _write_profiles(
     solution: AnySolution, folder: Path, wanted: Collection[str]
 ) -> tuple[dict[str, str], dict[str, Any]]:
     """The files of the exact profile that are wanted: their names by kind, and what ``solution.json`` says of them."""
-    names: dict[str, str] = {}
-    facts: dict[str, Any] = {}
-    if isinstance(solution, Solution) and any(kind in NAMES for kind in wanted):
-        try:
-            spline = solution.profile_spline
-            names |= write_profile(solution.cam, spline, folder, wanted)
-            told = {"degree": spline.degree, "control_points": len(spline.control), "deviation": spline.deviation}
-            facts = {"profile_spline": told}
-        except DesignError:
-            # Where none can be cut the solution warns of it; what was asked for is refused.
-            if solution.task.part and solution.task.part.spline_control_points is not None:
-                raise
-    if any(kind in CUTTING for kind in wanted):
-        # What makes the part is loaded only when it is asked for.
-        from graphcam.workshop.cutting_files import write_cutting
+    if not isinstance(solution, Solution) or not any(kind in NAMES for kind in wanted):
+        return {}, {}
+    try:
+        spline = solution.profile_spline if "profile_dxf" in wanted else None
+        names = write_profile(solution.cam, spline, folder, wanted)
+    except DesignError as error:
+        # Where nothing can be cut the solution warns of it; what was asked for is refused.
+        if error.quantity.startswith("part."):
+            raise
+        return {}, {}
+    if spline is None:
+        return names, {}
+    told = {"degree": spline.degree, "control_points": len(spline.control), "deviation": spline.deviation}
+    return names, {"profile_spline": told}
 
-        names |= write_cutting(solution, folder, wanted)
-    return names, facts
+
+def _write_cutting(
+    solution: AnySolution, part: PartContents | None, folder: Path, wanted: Collection[str]
+) -> dict[str, str]:
+    """The files by which a machine cuts the cam, as far as they are wanted: their names by kind."""
+    if not any(kind in CUTTING for kind in wanted):
+        return {}
+    from graphcam.workshop.cutting_files import write_cutting
+    from graphcam.workshop.part_contents import PartContents
+
+    return write_cutting(part or PartContents(solution), folder, wanted)
 
 
 def _write_sheet(
@@ -213,12 +241,12 @@ def _write_sheet(
     return {kind: f"{stem}.{kind}" for kind in kinds}
 
 
-def _write_part(solution: AnySolution, folder: Path, report: Callable[[str], None]) -> dict[str, str]:
+def _write_part(part: PartContents, folder: Path, report: Callable[[str], None]) -> dict[str, str]:
     """The working drawing of the cam; its DXF has true dimensions and attributes."""
     from graphcam.workshop.working_drawing import working_drawing_of
 
     report("laying out the working drawing")
-    written = _write_sheet(working_drawing_of(solution), folder, "working-drawing", PART, "cad", report)
+    written = _write_sheet(working_drawing_of(part), folder, "working-drawing", PART, "cad", report)
     return {f"working_drawing_{kind}": name for kind, name in written.items()}
 
 

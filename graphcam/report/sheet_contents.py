@@ -25,8 +25,6 @@ from graphcam.words import Tell
 
 MOST_LIFTS = 1000
 """Of a prime radius: of more, the paper would be as long as a hall."""
-UNNAMED = say("Cam mechanism")
-"""The name that a task gives itself if its file gives none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,15 +138,10 @@ def _check_drawable(cam: Cam) -> None:
         raise DesignError("prime radius", f"{cam.prime_radius:g} mm", limit, "check the units of both")
 
 
-def title_name(title: TitleTable, tell: Tell) -> str:
-    """What the drawing is called: as in the task, or as every task is that does not say."""
-    return tell(UNNAMED) if title.name == str(UNNAMED) else title.name
-
-
 def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:
     """What the title block says: the task's table."""
     return TitleBlock(
-        name=title_name(title, tell),
+        name=title.told_name(tell),
         number=title.document,
         organisation=title.organisation,
         group=title.group,

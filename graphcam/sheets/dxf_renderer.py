@@ -22,7 +22,7 @@ from ezdxf.layouts import BaseLayout
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import pieces, width
+from graphcam.sheets.fonts import letters_of, start_of
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
@@ -209,13 +209,12 @@ def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
 
     In a program that has another its letters would else run into what stands behind.  A single letter is not fitted.
     """
-    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-    turn = cmath.rect(1.0, text.angle)
-    for piece in pieces(text.text, text.height):
+    begin, turn = start_of(text), cmath.rect(1.0, text.angle)
+    for piece in letters_of(text.text, text.height):
         letters, *ends = piece.ink
         made = space.add_text(letters)
         _set_style(made, layer, piece.height, text.angle)
-        start, end = (text.at + (end - shift) * turn + left for end in ends)
+        start, end = (text.at + (begin + end) * turn + left for end in ends)
         if len(letters) > 1:
             made.set_placement(xy(start), xy(end), align=TextEntityAlignment.FIT)
         else:

@@ -12,6 +12,7 @@ from itertools import groupby, pairwise
 from pathlib import Path
 
 from graphcam.indices import parts
+from graphcam.sheets.model import Text
 from graphcam.sheets.typefaces import BOX, capital, face_of, glyph, lettering_file
 
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0)
@@ -66,16 +67,16 @@ def index_height(height: float) -> float:
 
 
 @lru_cache(maxsize=4096)
-def pieces(text: str, height: float) -> tuple[Letters, ...]:
+def letters_of(text: str, height: float) -> tuple[Letters, ...]:
     """The pieces of a text with capitals of ``height`` mm, from left to right.
 
-    >>> [(piece.text, piece.height, piece.index) for piece in pieces("μₐ = 2", 3.5)]
+    >>> [(piece.text, piece.height, piece.index) for piece in letters_of("μₐ = 2", 3.5)]
     [('μ', 3.5, False), ('a', 2.5, True), (' = 2', 3.5, False)]
     """
-    return tuple(_pieces(text, height))
+    return tuple(_letters_of(text, height))
 
 
-def _pieces(text: str, height: float) -> Iterator[Letters]:
+def _letters_of(text: str, height: float) -> Iterator[Letters]:
     x = 0.0
     for said, index in parts(text):
         high = index_height(height) if index else height
@@ -101,7 +102,7 @@ def extent(text: str, height: float) -> tuple[float, float, float]:
     True
     """
     wide, low, high = 0.0, 0.0, float("-inf")
-    for piece in pieces(text, height):
+    for piece in letters_of(text, height):
         size, y = piece.height, piece.start.imag
         letters = [glyph(letter) for letter in piece.text]
         wide += piece.width
@@ -117,6 +118,15 @@ def width(text: str, height: float) -> float:
     (True, True)
     """
     return extent(text, height)[0]
+
+
+def start_of(text: Text) -> float:
+    """Where a text begins along its base line, from its place [mm], by its alignment.
+
+    >>> start_of(Text(8j, "H", 3.5)), start_of(Text(8j, "H", 3.5, "right")) == -width("H", 3.5)
+    (0.0, True)
+    """
+    return {"left": 0.0, "center": -0.5, "right": -1.0}[text.align] * width(text.text, text.height)
 
 
 def wrap(text: str, height: float, room: float) -> list[str]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points, Role
-from graphcam.sheets.model import ArcEntity, Circles, Entity, Source, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners, linework, pieces, within
 from graphcam.sheets.styles import THIN
 
@@ -83,10 +83,8 @@ def _parts(entity: Entity, boxes: Sequence[Points]) -> list[Entity]:
 def _segments(line: Stroke) -> Strokes:
     """The sides of a polyline; each belongs to the place of the corner to which it leads."""
     starts, ends = pieces(line)
-    source = line.source
-    if source is not None and source.index is not None:
-        source = Source(source.of, np.roll(source.index, -1)[: len(starts)])
-    return Strokes(starts, ends, line.role, source)
+    arriving = (np.arange(len(starts)) + 1) % len(line.points)
+    return Strokes(starts, ends, line.role, line.source and line.source.part(arriving, len(line.points)))
 
 
 def _without(lines: Strokes, boxes: Sequence[Points]) -> Strokes:
@@ -100,34 +98,27 @@ def _without(lines: Strokes, boxes: Sequence[Points]) -> Strokes:
             np.concatenate([ends[~cut], starts[before] + low[before] * steps[before], ends[after]]),
             np.concatenate([piece[~cut], piece[before], piece[after]]),
         )
-    source, order = lines.source, np.argsort(piece, kind="stable")
-    if source is not None and source.index is not None and len(source.index) == len(lines.starts):
-        source = Source(source.of, source.index[piece[order]])
+    order = np.argsort(piece, kind="stable")
+    source = lines.source and lines.source.part(piece[order], len(lines.starts))
     return Strokes(starts[order], ends[order], lines.role, source)
 
 
 def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
     """The circles that stay whole, and arcs of the others."""
     whole: list[int] = []
+    source, count = circles.source, len(circles.centres)
     for k, centre in enumerate(circles.centres.tolist()):
-        source = circles.source
-        if source is not None and source.index is not None and len(source.index) == len(circles.centres):
-            source = Source(source.of, source.index[k : k + 1])
-        ring = ArcEntity(centre, circles.radius, 0.0, 2 * math.pi, circles.role, source)
+        own = source and source.part(slice(k, k + 1), count)
+        ring = ArcEntity(centre, circles.radius, 0.0, 2 * math.pi, circles.role, own)
         bows = _open(ring, boxes)
         if bows == [(ring.start, ring.end)]:
             whole.append(k)
         else:
             yield from (replace(ring, start=a, end=b) for a, b in bows)
-    if whole:
-        yield circles if len(whole) == len(circles.centres) else _some(circles, whole)
-
-
-def _some(circles: Circles, kept: list[int]) -> Circles:
-    source = circles.source
-    if source is not None and source.index is not None and len(source.index) == len(circles.centres):
-        source = Source(source.of, source.index[kept])
-    return replace(circles, centres=circles.centres[kept], source=source)
+    if len(whole) == count:
+        yield circles
+    elif whole:
+        yield replace(circles, centres=circles.centres[whole], source=source and source.part(whole, count))
 
 
 def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:

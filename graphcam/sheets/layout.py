@@ -117,12 +117,16 @@ def compose_parts(
 
 
 def _with_scale(title: TitleBlock, leaf: Leaf, tell: Tell) -> TitleBlock:
-    """The title block of a page: where the task names no scale, with that of its main view, else with the only one."""
-    drawn = [panel.view for panel, _ in leaf.views.values() if panel.view.mu_l is not None]
-    scales = {view.mu_l for view in drawn if view.main} or {view.mu_l for view in drawn}
-    if title.scale is not None or len(scales) != 1:
-        return replace(title, scale=title.scale or "")
-    return replace(title, scale=tell(ratio_text(scales.pop() or 1.0)))
+    """The title block of a page: where the task names no scale, with that of its main view, else of the largest other.
+
+    Views at other scales carry them in their titles.
+    """
+    if title.scale is not None:
+        return title
+    drawn = [panel for panel, _ in leaf.views.values() if panel.view.mu_l]
+    shown = [panel for panel in drawn if panel.view.main] or drawn
+    mu_l = max(shown, key=lambda panel: panel.box.area).view.mu_l if shown else None
+    return replace(title, scale=tell(ratio_text(mu_l)) if mu_l else "")
 
 
 def profile_room(paper: str, frame: str, orientation: str | None = None) -> tuple[float, float]:

@@ -29,7 +29,7 @@ from matplotlib.textpath import TextPath
 from matplotlib.transforms import Affine2D, Transform
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import Letters, pieces, points_size, width
+from graphcam.sheets.fonts import Letters, letters_of, points_size, start_of
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.png import png_of
 from graphcam.sheets.smooth import bezier
@@ -179,10 +179,9 @@ class _GroupArtist(Artist):
 
 def _set_pieces(text: Text) -> Iterator[tuple[Letters, complex]]:
     """The pieces of a text, each with the left end of its base line, which the renderers place."""
-    shift = {"left": 0.0, "center": 0.5, "right": 1.0}[text.align] * width(text.text, text.height)
-    turn = cmath.rect(1.0, text.angle)
-    for piece in pieces(text.text, text.height):
-        yield piece, text.at + (piece.start - shift) * turn
+    begin, turn = start_of(text), cmath.rect(1.0, text.angle)
+    for piece in letters_of(text.text, text.height):
+        yield piece, text.at + (begin + piece.start) * turn
 
 
 def _draw_outlines(

@@ -21,6 +21,14 @@ class Source:
     of: Origin
     index: Places | None = None
 
+    def by_piece(self, count: int) -> bool:
+        """Whether it has a place for each of so many pieces."""
+        return self.index is not None and len(self.index) == count
+
+    def part(self, which: Places | list[int] | slice, count: int) -> Source:
+        """The source of some of ``count`` pieces, by their numbers, where each has its place; else the same."""
+        return replace(self, index=self.index[which]) if self.index is not None and self.by_piece(count) else self
+
 
 @dataclass(frozen=True, eq=False)
 class Stroke:

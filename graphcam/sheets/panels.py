@@ -51,6 +51,11 @@ class Panel:
         return self.under if self.lowest else ()
 
     @cached_property
+    def as_lowest(self) -> "Panel":
+        """The same where no view of its column stands below."""
+        return replace(self, lowest=True) if self.under else self
+
+    @cached_property
     def _drawn(self) -> list[Entity]:
         entities, writings = expand(self.marks + self.base, Placement(0j, self.factor), self.letters)
         return [*entities, *(writing.set_at(0) for writing in writings)]
@@ -160,7 +165,7 @@ def panels(steps: Iterable[Step], letters: Lettering) -> list[Panel]:
 def with_lowest(group: Sequence[Panel]) -> list[Panel]:
     """Views that stand together, the last of each column as the lowest."""
     last = {panel.view.across: panel for panel in group}
-    return [replace(panel, lowest=panel is last[panel.view.across]) if panel.under else panel for panel in group]
+    return [panel.as_lowest if panel is last[panel.view.across] else panel for panel in group]
 
 
 def clusters(views: Sequence[Panel]) -> list[list[Panel]]:

@@ -1,7 +1,8 @@
 """Symbols of part drawings: surface texture, geometrical tolerances and datums, each with the box that it needs.
 
 Roughness by ISO 1302 and GOST 2.309, tolerances by ISO 1101 and GOST 2.308: their shapes are the same.  A symbol is
-drawn with the lower left corner of its box at the origin.
+drawn with the lower left corner of its box at the origin.  The ``height`` of its letters is that of a capital; it,
+radii and places are in mm.
 """
 
 from __future__ import annotations
@@ -19,13 +20,16 @@ from graphcam.sheets.expand import head
 from graphcam.sheets.fonts import width
 from graphcam.sheets.model import ArcEntity, Entity, Heads, Strokes, Text, moved
 
-THIN = Role.DIMENSION
+LINE = Role.DIMENSION
+"""The role of all lines and letters of symbols."""
 LEGS = math.radians(60)
 """Of the roughness symbol, to the surface."""
 SHORT, LONG = 1.4, 3.0
 """Heights of its legs, in heights of the letters."""
-AIR = 0.6
+CLEAR = 0.6
 """Between a line and the letters over or under it, mm."""
+HALF_SIDE = 0.577
+"""Of the triangle of a datum, whose sides are equal, in its heights: tan 30°."""
 COMPARTMENT = 2.0
 """Height of a tolerance frame, and width of its first compartment, in heights of the letters."""
 PROFILE_OF_A_LINE, PERPENDICULAR = "profile of a line", "perpendicular"
@@ -43,7 +47,7 @@ class PartSymbol:
         return [moved(entity, corner) for entity in self.entities]
 
 
-def segments(*ends: tuple[complex, complex], role: str = THIN) -> Strokes:
+def segments(*ends: tuple[complex, complex], role: str = LINE) -> Strokes:
     """Separate straight lines."""
     starts, stops = zip(*ends, strict=True)
     return Strokes(np.array(starts), np.array(stops), role)
@@ -61,9 +65,9 @@ def roughness(text: str, height: float) -> PartSymbol:
     short = foot + SHORT * height * complex(-1 / math.tan(LEGS), 1)
     level = foot + SHORT * height * complex(1 / math.tan(LEGS), 1)
     top = foot + LONG * height * complex(1 / math.tan(LEGS), 1)
-    wide = width(text, height) + 2 * AIR + 0.4 * height
+    wide = width(text, height) + 2 * CLEAR + 0.4 * height
     lines = segments((foot, short), (short, level), (foot, top), (top, top + wide))
-    letters = Text(complex(top.real + AIR, top.imag - AIR - height), text, height)
+    letters = Text(complex(top.real + CLEAR, top.imag - CLEAR - height), text, height)
     return PartSymbol((lines, letters), Box(0, 0, top.real + wide, LONG * height))
 
 
@@ -102,7 +106,7 @@ def _characteristic(kind: str, middle: complex, height: float) -> list[Entity]:
     """The symbol of what is tolerated, in the middle of its compartment."""
     half = 0.55 * height
     if kind == PROFILE_OF_A_LINE:
-        return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, THIN)]
+        return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, LINE)]
     base = middle - 1j * half
     return [segments((base - half, base + half), (base, base + 2j * half))]
 
@@ -120,7 +124,8 @@ def datum_letter(letter: str, height: float) -> PartSymbol:
 def datum_triangle(at: complex, away: complex, height: float) -> Heads:
     """The filled triangle that stands on a line ``at`` a place and points ``away`` from it."""
     up = height * away / abs(away)
-    return Heads(np.array([[at + up, at - 0.577j * up, at + 0.577j * up]]), THIN)
+    half = HALF_SIDE * 1j * up
+    return Heads(np.array([[at + up, at - half, at + half]]), LINE)
 
 
 def nearest(box: Box, to: complex) -> complex:
@@ -132,14 +137,14 @@ def leader(symbol: Box, to: complex, *, arrowed: bool = True) -> list[Entity]:
     """A line from the nearest corner or side of a symbol's box to a place, with an arrow there."""
     beside = nearest(symbol, to)
     line = segments((beside, to))
-    return [line, head(to, to - beside, THIN)] if arrowed and to != beside else [line]
+    return [line, head(to, to - beside, LINE)] if arrowed and to != beside else [line]
 
 
 def shelf_leader(symbol: Box, to: complex) -> list[Entity]:
     """A shelf under a symbol, and from its nearer end a line with an arrow to a place."""
     ends = [complex(symbol.left, symbol.bottom), complex(symbol.right, symbol.bottom)]
     near, far = sorted(ends, key=lambda end: abs(end - to))
-    return [segments((far, near), (near, to)), head(to, to - near, THIN)]
+    return [segments((far, near), (near, to)), head(to, to - near, LINE)]
 
 
 def cutting_plane(at: complex, outwards: complex, look: complex, letter: str, height: float) -> list[Entity]:
@@ -152,7 +157,7 @@ def cutting_plane(at: complex, outwards: complex, look: complex, letter: str, he
     return [
         segments((at, end), role="frame"),
         segments((arrow_at - reach * look, arrow_at)),
-        head(arrow_at - 0.6 * look, look, THIN),
+        head(arrow_at - 0.6 * look, look, LINE),
         Text(base, letter, height, "center"),
     ]
 
@@ -164,4 +169,4 @@ def sense_arrow(centre: complex, radius: float, start: float, sweep: float) -> l
     tip = centre + cmath.rect(radius, end)
     # On the chord of its own length, so that the head does not leave the arc.
     along = 1j * math.copysign(1, sweep) * cmath.rect(1, end - math.copysign(min(1.0, 1.8 / radius), sweep))
-    return [ArcEntity(centre, radius, low, high, THIN), head(tip, along, THIN)]
+    return [ArcEntity(centre, radius, low, high, LINE), head(tip, along, LINE)]

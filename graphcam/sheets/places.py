@@ -19,8 +19,8 @@ def by_place(entity: Entity) -> Iterator[tuple[int | None, Entity]]:
     >>> [(at, chord.points.tolist()) for at, chord in by_place(curve)]
     [(1, [0j, (1+2j)]), (2, [(1+2j), (2+3j)])]
     """
-    index = entity.source.index if entity.source else None
-    if index is None:
+    source = entity.source
+    if source is None or (index := source.index) is None:
         yield None, entity
     elif isinstance(entity, Stroke | Curve):
         points = entity.points
@@ -30,10 +30,10 @@ def by_place(entity: Entity) -> Iterator[tuple[int | None, Entity]]:
         ends = [*(np.flatnonzero(np.diff(index[1:])) + 1), len(index) - 1]
         for start, end in pairwise([0, *ends]):
             yield int(index[end]), Stroke(points[start : end + 1], entity.role, False, entity.source)
-    elif isinstance(entity, Strokes) and len(index) == len(entity.starts):
+    elif isinstance(entity, Strokes) and source.by_piece(len(entity.starts)):
         for k, at in enumerate(index.tolist()):
             yield at, replace(entity, starts=entity.starts[k : k + 1], ends=entity.ends[k : k + 1])
-    elif isinstance(entity, Circles) and len(index) == len(entity.centres):
+    elif isinstance(entity, Circles) and source.by_piece(len(entity.centres)):
         for k, at in enumerate(index.tolist()):
             yield at, replace(entity, centres=entity.centres[k : k + 1])
     else:

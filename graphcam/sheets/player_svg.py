@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import pieces, points_size
+from graphcam.sheets.fonts import letters_of, points_size
 from graphcam.sheets.model import (
     ArcEntity,
     Circles,
@@ -94,7 +94,7 @@ def _text(text: Text, where: str, height: float) -> str:
 def _letters(text: Text) -> str:
     """A text as it is, its indices smaller and set lower."""
     written, lowered = "", 0.0
-    for piece in pieces(text.text, text.height):
+    for piece in letters_of(text.text, text.height):
         drop = -piece.start.imag
         size = f' font-size="{_size(piece.height)}"' if piece.index else ""
         shift = f' dy="{_number(drop - lowered)}"' if drop != lowered else ""

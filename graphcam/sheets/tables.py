@@ -19,6 +19,8 @@ LEADING = 1.5
 """From line to line in a header, in heights of its letters."""
 MARGIN = 1.5
 """Left and right of the text in a cell, in heights of its letters, both together."""
+SAME = 1e-6
+"""A text that is wider than its column by less fits it: the column was made for it, mm."""
 LONGEST = 40.0
 """A name that is longer, in heights of its letters, is broken into lines: a question, not what a quantity is called."""
 
@@ -142,8 +144,10 @@ def table_block(table: Table, height: float, room: float = math.inf, *, row_heig
     titled = broken(title, height, room) or [""]
     # The title must not stand over the edge.
     widths[-1] += max(0.0, _widest(titled, height) - sum(widths))
-    slack = 1e-6 + height * -MARGIN
-    told = [[broken(c, height, w + slack) for c in column.cells] for column, w in zip(columns, widths, strict=True)]
+    told = [
+        [broken(c, height, w - MARGIN * height + SAME) for c in column.cells]
+        for column, w in zip(columns, widths, strict=True)
+    ]
     headers, *rows = (list(row) for row in zip(*told, strict=True))
     headed = int(any(headers))
     grid = [headers, *rows][1 - headed :]

@@ -13,19 +13,17 @@ from graphcam.comparison.arc_quantities import ArcsComparison
 from graphcam.constructions.arc_chain import AROUND_CENTRES, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale
+from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
+from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Rotation
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
-from graphcam.sheets.formats import Format
-from graphcam.sheets.layout import profile_room
-from graphcam.sheets.leaves import free_rooms
+from graphcam.solving.sheet_papers import largest_drawn, profile_paper
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import diagram_room
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.words import Tell
 
 POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
@@ -139,7 +137,6 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
     roots = three_arc_cam(given.D, given.G, given.rho1, given.A, given.C1, given.C2)
     if not roots[0].sound:
         raise DesignError("three-arc cam", "not sound", "one that can be built", roots[0].why + " Move G or a centre.")
-    width, height = profile_room(drawing.format, drawing.frame, drawing.orientation)
     diagrams = diagram_room(drawing)
     extent = _extent(roots, math.hypot(*given.D) + 2 * task.follower.roller_radius)
     board = ArcBoard(
@@ -148,12 +145,11 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
         roller_radius=task.follower.roller_radius,
         divisions=drawing.divisions,
         mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
-        room=(SHARE * width, SHARE * height),
+        paper=profile_paper(drawing, SHARE),
         extent=extent,
-        page=_page(drawing, extent),
-        ratios=STANDARD_RATIOS[drawing.frame],
+        page=largest_drawn(drawing, extent, AROUND_CENTRES),
         heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
-        omega=None if task.speed_rpm is None else task.speed_rpm * math.tau / 60,
+        omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
     )
     motion = roots[0].motion(board.roller_radius, board.dwell)
     return ArcsSolution(task, ArcChain(board, pencil or Pencil()), roots, motion)
@@ -165,13 +161,6 @@ def _extent(roots: Sequence[ThreeArcCam], outer: float) -> complex:
     centres = centres[np.isfinite(centres).all(axis=1)]
     low, high = np.minimum(centres.min(axis=0), -outer), np.maximum(centres.max(axis=0), outer)
     return complex(*(high - low).tolist())
-
-
-def _page(drawing: SheetTable, extent: complex) -> Paper:
-    """The part of a page in which a view is drawn the largest."""
-    rooms = free_rooms(Format(drawing.format, drawing.frame, drawing.orientation))
-    papers = [Paper(*room, STANDARD_RATIOS[drawing.frame]) for room in rooms if min(room) > abs(AROUND_CENTRES)]
-    return min(papers, key=lambda paper: paper.scale(extent, AROUND_CENTRES).per_mm)
 
 
 AnySolution = Solution | ArcsSolution

@@ -6,17 +6,17 @@ from dataclasses import replace
 from functools import singledispatch
 
 from graphcam.constructions.board import Board, DrawnFollower
-from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating
+from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
-from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale, coarsest, standard_scale
+from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError
+from graphcam.given.angular_velocity import omega_of
+from graphcam.given.follower import Oscillating
 from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.sheets.formats import Format as SheetFormat
-from graphcam.sheets.layout import profile_room
-from graphcam.sheets.leaves import free_rooms
 from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, over_the_turn
+from graphcam.solving.sheet_papers import format_of, largest_drawn, papers, profile_paper
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task import FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
 
@@ -41,9 +41,8 @@ def board_of(task: Task) -> Board:
         poles=poles,
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
         rounding=drawing.rounding,
-        omega=None if task.speed_rpm is None else task.speed_rpm * math.tau / 60,
-        profile_room=profile_room(drawing.format, drawing.frame, drawing.orientation),
-        ratios=STANDARD_RATIOS[drawing.frame],
+        omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
+        paper=profile_paper(drawing),
     )
 
 
@@ -60,8 +59,8 @@ def _(table: TranslatingTable, task: Task) -> DrawnTranslating:
 
 @drawn_follower.register
 def _(table: OscillatingTable, task: Task) -> DrawnOscillating:
-    follower = DrawnOscillating(table.arm, table.distance)
-    return replace(follower, mu_l=_scale_of_positions(task, follower))
+    scale = _scale_of_positions(task, Oscillating(table.arm, table.distance))
+    return DrawnOscillating(table.arm, table.distance, scale)
 
 
 @drawn_follower.register
@@ -87,7 +86,7 @@ where the combined diagram, which has the same scale, would be wider than the sh
 
 def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
     """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
-    upright = _format(drawing).upright
+    upright = format_of(drawing).upright
     room = ROOMS[drawing.format, upright]
     return room if angles or drawing.format == "A4" else replace(room, s=WITHOUT_ANGLES * room.s)
 
@@ -104,15 +103,14 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    rooms = [complex(*room) for room in free_rooms(_format(task.drawing))]
     beside = heights.turn + BESIDE_POLE
-    diagram = max((room for room in rooms if room.real >= beside + POLES[0]), key=lambda room: room.imag)
+    diagram = max(papers(task.drawing, complex(beside + POLES[0], 0.0)), key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.cam.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
-    free = [room - AROUND for room in rooms if room.real > AROUND.real]
+    free = [complex(paper.width, paper.height) - AROUND for paper in papers(task.drawing, AROUND)]
     mu_s = min(max(size.real / each.real, size.imag / each.imag) for each in free)
     low = heights.motion.lift / mu_s if mu_s else math.inf
-    high, pole = diagram.imag - AROUND.imag, diagram.real - beside
+    high, pole = diagram.height - AROUND.imag, diagram.width - beside
     # Of few parts velocity and displacement are drawn higher: by so much of a cycloid, less of other laws.
     part = math.pi / max(task.drawing.divisions, 2)
     surplus = (part / math.sin(part)) ** 2
@@ -134,7 +132,7 @@ def check_given_sizes(task: Task) -> None:
     graphcam.errors.DesignError: drawing.ordinate is '2000 mm', but must be at most 149 mm on A1 landscape; take ...
     """
     drawing, board = task.drawing, board_of(task)
-    on, larger = f"on {_format(drawing).said}", "take a larger format, or leave it out"
+    on, larger = f"on {format_of(drawing).said}", "take a larger format, or leave it out"
     heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):
@@ -148,26 +146,18 @@ def check_given_sizes(task: Task) -> None:
         raise DesignError("drawing.ordinate", f"{given:g} mm", limit, larger)
 
 
-def _format(drawing: SheetTable) -> SheetFormat:
-    return SheetFormat(drawing.format, drawing.frame, drawing.orientation)
-
-
 AROUND_ARM = complex(40.0, 62.0)
 """What stands about the arm positions: letters, the region below the cam centre, the title."""
 
 
-def _scale_of_positions(task: Task, follower: DrawnOscillating) -> Scale:
+def _scale_of_positions(task: Task, arm: Oscillating) -> Scale:
     """The largest standard scale at which the arm is no longer than usual and its positions fit a page."""
-    ratios, radius, distance = STANDARD_RATIOS[task.drawing.frame], task.cam.prime_radius, follower.place
-    centres = [] if radius is None or distance is None else [(radius, distance)]
-    limits, arm = task.limits(), follower.built(distance, 0.0)
+    limits, radius = task.limits(), task.cam.prime_radius
+    centres = [] if radius is None or arm.distance is None else [(radius, arm.distance)]
     # Where the drawing will find the cam centre is computed, for no other end than to leave room for it.
     with suppress(DesignError):
         least = minimum_radius(task.motion(), arm, task.rotation, limits.rise, limits.return_, rest=limits.rest)
         centres.append((least.prime_radius, least.distance))
-    size = follower.positions(over_the_turn(task.motion()), task.rotation, limits, centres)
-    rooms = [complex(*room) for room in free_rooms(_format(task.drawing))]
-    wide = [room for room in rooms if room.real > AROUND_ARM.real and room.imag > AROUND_ARM.imag]
-    papers = [Paper(room.real, room.imag, ratios) for room in wide]
-    fitting = min((paper.scale(size, AROUND_ARM) for paper in papers), key=lambda scale: scale.per_mm)
-    return coarsest(standard_scale(follower.arm, ARM_ON_PAPER, ratios), fitting)
+    size = positions_extent(arm.arm, over_the_turn(task.motion()), task.rotation, limits, centres)
+    paper = largest_drawn(task.drawing, size, AROUND_ARM)
+    return coarsest(standard_scale(arm.arm, ARM_ON_PAPER, paper.ratios), paper.scale(size, AROUND_ARM))

@@ -7,11 +7,26 @@ from typing import Any, Literal, Self, get_args
 from graphcam.errors import DesignError
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
-from graphcam.words import Tell
+from graphcam.words import Tell, say
 
 Format = Literal["A1", "A2", "A3", "A4"]
 Frame = Literal["gost", "iso"]
 Orientation = Literal["landscape", "portrait"]
+
+
+UNNAMED = say("Cam mechanism")
+"""What a task is called whose file does not say."""
+NAMES = {
+    str(name): name
+    for name in (
+        UNNAMED,
+        say("Cam with an oscillating arm"),
+        say("Cam with a flat-faced follower"),
+        say("Cam by a measured motion"),
+        say("Cam of three circular arcs"),
+    )
+}
+"""What the built-in tasks are called, which every language knows."""
 
 
 def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
@@ -28,7 +43,7 @@ class TitleTable:
         that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
     """
 
-    name: str = "Cam mechanism"
+    name: str = str(UNNAMED)
     organisation: str = ""
     author: str = ""
     checked: str = ""
@@ -41,6 +56,10 @@ class TitleTable:
         for key in dataclasses.fields(self):
             if not ((text := getattr(self, key.name)) or "").isprintable():
                 raise DesignError(key.name, text, "printable text on one line")
+
+    def told_name(self, tell: Tell) -> str:
+        """The name as the file says it, that of a built-in task in the language of the sheet."""
+        return tell(NAMES.get(self.name, self.name))
 
 
 @dataclass(frozen=True)

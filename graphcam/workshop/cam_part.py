@@ -15,6 +15,12 @@ USUAL_WALL, LEAST_WALL = 0.3, 0.15
 """Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""
 USUAL_TOLERANCE = 0.0005
 """Of the profile, as a part of its greatest diameter."""
+ROUNDING_PART = 0.5
+"""The last decimal of a radius is at most this part of the tolerance."""
+CHAMFERS = (30, 1.6), (10, 1.0), (5, 0.5)
+"""Bores beyond such a diameter, and the size of their chamfers [mm]."""
+SMALL_CHAMFER, LARGEST_CHAMFER = 0.05, 0.2
+"""Of a smaller bore's diameter; of the bore's length at most."""
 USUAL_WIDTH = 0.8
 """Of the cam, as a part of the bore."""
 STEEL = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
@@ -59,9 +65,8 @@ class CamPart:
     @property
     def chamfer(self) -> float:
         """Of the bore's edges at 45 degrees."""
-        return next(
-            size for least, size in ((30, 1.6), (10, 1.0), (5, 0.5), (0, 0.05 * self.bore)) if self.bore > least
-        )
+        usual = next((size for least, size in CHAMFERS if self.bore > least), SMALL_CHAMFER * self.bore)
+        return min(usual, LARGEST_CHAMFER * self.length)
 
     def mass(self, profile_area: float) -> float:
         """In kg, of a cam with a profile of that area [mm^2]; chamfers are left out.
@@ -113,6 +118,15 @@ def profile_tolerance(table: PartTable, greatest_radius: float) -> float:
     decade = math.floor(usual)
     nearest = min((1, 2, 5, 10), key=lambda value: abs(math.log10(value) + decade - usual))
     return float(f"{nearest}e{decade}")
+
+
+def radius_decimals(table: PartTable, greatest_radius: float) -> int:
+    """Decimals of computed radii [mm]: the last is at most half the profile's tolerance, and two there are at least.
+
+    >>> radius_decimals(PartTable(), 56.5), radius_decimals(PartTable(), 3)
+    (2, 3)
+    """
+    return max(2, math.ceil(-math.log10(ROUNDING_PART * profile_tolerance(table, greatest_radius)) - 1e-9))
 
 
 def _standard(table: PartTable, frame: str) -> str:
@@ -167,4 +181,6 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
             keyway = f" with its keyway {part.keyway.depth:g} mm deep" if part.keyway else ""
             found = f"{part.bore:g} mm{keyway}"
             limit = f"small enough to leave a wall of {LEAST_WALL:g} of the bore inside {inside} of {outer:.4g} mm"
-            raise DesignError("part.bore", found, limit, f"take a smaller bore or a larger {larger}")
+            fitting = [d for d in standard_diameters() if _top(part.table, d) + LEAST_WALL * d <= outer]
+            smaller = f"take a smaller bore, {max(fitting):g} mm or less," if fitting else "take a smaller bore"
+            raise DesignError("part.bore", found, limit, f"{smaller} or a larger {larger}")

@@ -57,7 +57,7 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
     >>> path.contour[0].start == path.contour[-1].end, path.error < 0.005
     (True, True)
     """
-    _check_reach(outline, cutter_radius)
+    outline.check_cutter(cutter_radius)
     for count in SAMPLINGS:
         pieces = _from_the_farthest(_sampled(outline, cutter_radius, count))
         found = [arcs_along(points, tangents, tolerance) for points, tangents in pieces]
@@ -68,25 +68,6 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
             ways = _leads(start, max(cutter_radius, LEAD * abs(start)))
             return CutterPath(contour, *ways, cutter_radius, max(error for _, error in fitted))
     raise DesignError("tolerance", tolerance, "greater for this profile", "give a larger part.profile_tolerance")
-
-
-def _check_reach(outline: Outline, cutter_radius: float) -> None:
-    """Refuse a cutter that is rounder than a hollow, or that cuts elsewhere where it stands."""
-    remedy = "take a smaller cutter"
-    if not cutter_radius < outline.least_hollow:
-        limit = f"less than {outline.least_hollow:.4g} mm, the least radius of the profile's hollows"
-        raise DesignError("part.cutter_radius", cutter_radius, limit, remedy)
-    if not np.isfinite(outline.least_hollow):
-        return  # seen from every place of its way a cutter has only one nearest place of a convex cam
-    from scipy.spatial import KDTree
-
-    centres = np.concatenate([at + cutter_radius * normal for _, at, normal in outline.sampled])
-    around, ways = (np.stack([z.real, z.imag], axis=-1) for z in (outline.points, centres))
-    nearest, _ = KDTree(around).query(ways)
-    cut = cutter_radius - float(nearest.min())
-    if cut > SHORTEST * outline.greatest_radius:
-        limit = f"small enough for the hollows: it would cut {cut:.2g} mm off the other side"
-        raise DesignError("part.cutter_radius", cutter_radius, limit, remedy)
 
 
 def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples]:

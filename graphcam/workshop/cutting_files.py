@@ -7,12 +7,11 @@ from collections.abc import Collection
 from pathlib import Path
 
 from graphcam import __version__
-from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
-from graphcam.tasks.part_table import PartTable
-from graphcam.workshop.cam_part import cam_part, profile_tolerance
+from graphcam.solving.arcs_solution import ArcsSolution
+from graphcam.workshop.cam_part import profile_tolerance
 from graphcam.workshop.cutter_path import cutter_path
 from graphcam.workshop.gcode import LEAST_TOLERANCE, cutting_program
-from graphcam.workshop.outline import Outline, outline_of
+from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.plane_loops import Loop, spline_loop
 from graphcam.workshop.solid import solid_file
 
@@ -23,7 +22,7 @@ RECOVERED = 1e-6
 """How nearly the arcs of a cam of arcs are met [mm]."""
 
 
-def write_cutting(solution: AnySolution, folder: Path, kinds: Collection[str]) -> dict[str, str]:
+def write_cutting(contents: PartContents, folder: Path, kinds: Collection[str]) -> dict[str, str]:
     """Write the solid and the program of G-code into a folder, as far as they are wanted; returns their names by kind.
 
     Raises
@@ -32,51 +31,47 @@ def write_cutting(solution: AnySolution, folder: Path, kinds: Collection[str]) -
         reach into its hollows
     """
     texts = {"profile_step": solid_text, "profile_gcode": program_text}
-    written = {kind: (name, texts[kind](solution)) for kind, name in NAMES.items() if kind in kinds}
+    written = {kind: (name, texts[kind](contents)) for kind, name in NAMES.items() if kind in kinds}
     for name, text in written.values():
         (folder / name).write_text(text, encoding="ascii", newline="\n")
     return {kind: name for kind, (name, _) in written.items()}
 
 
-def solid_text(solution: AnySolution) -> str:
-    """The STEP file of a solution's cam, as the part that its task asks for.
+def solid_text(contents: PartContents) -> str:
+    """The STEP file of a cam, as the part that its task asks for.
 
     >>> import graphcam as gc
-    >>> solid_text(gc.solve(gc.builtin_arcs_task())).count("CYLINDRICAL_SURFACE")
+    >>> solid_text(PartContents(gc.solve(gc.builtin_arcs_task()))).count("CYLINDRICAL_SURFACE")
     12
     """
-    outline = outline_of(solution)
-    part = cam_part(_table(solution), solution.task.drawing.frame, outline.least_radius)
-    around, near = _around(solution, outline)
+    around, near = _around(contents)
     said = f"cam, in mm; greatest distance from the exact profile {near:.2g} mm"
-    return solid_file(around, part, outline.zero, solution.task.title.name, said, f"graphcam {__version__}")
+    name = contents.solution.task.title.name
+    return solid_file(around, contents.part, contents.outline.zero, name, said, f"graphcam {__version__}")
 
 
-def _around(solution: AnySolution, outline: Outline) -> tuple[Loop, float]:
+def _around(contents: PartContents) -> tuple[Loop, float]:
     """The outline as edges, and how near they are [mm]: of a cam of arcs these themselves, else the spline."""
+    solution = contents.solution
     if isinstance(solution, ArcsSolution):
-        path = cutter_path(outline, 0.0, RECOVERED)
+        path = cutter_path(contents.outline, 0.0, RECOVERED)
         return [move.reversed() for move in reversed(path.contour)], path.error
     return spline_loop(solution.profile_spline), solution.profile_spline.deviation
 
 
-def program_text(solution: AnySolution) -> str:
-    """The program of G-code for a solution's cam, with the cutter and the feed that its task states.
+def program_text(contents: PartContents) -> str:
+    """The program of G-code for a cam, with the cutter and the feed that its task states.
 
     >>> import graphcam as gc
-    >>> program_text(gc.solve(gc.builtin_task())).splitlines()[3]
+    >>> program_text(PartContents(gc.solve(gc.builtin_task()))).splitlines()[3]
     '(TOLERANCE 0.005 MM, GREATEST DISTANCE FROM THE EXACT WAY 0.0050 MM)'
     """
-    table, outline = _table(solution), outline_of(solution)
+    table, outline = contents.given, contents.outline
     allowed = SHARE_OF_CUTTING * profile_tolerance(table, outline.greatest_radius)
     return cutting_program(
         outline,
         cutter_radius=table.cutter_radius or 0.0,
         tolerance=max(allowed, LEAST_TOLERANCE),
         feed=table.feed,
-        name=solution.task.title.name,
+        name=contents.solution.task.title.name,
     )
-
-
-def _table(solution: AnySolution) -> PartTable:
-    return solution.task.part or PartTable()

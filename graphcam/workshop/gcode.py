@@ -72,7 +72,7 @@ def _head(path: CutterPath, tolerance: float, feed: float, name: str) -> list[st
         "ZERO AT THE CAM CENTRE, X AND Y AS IN PROFILE.CSV, MM",
         way,
         f"TOLERANCE {tolerance:g} MM, GREATEST DISTANCE FROM THE EXACT WAY {greatest:.4f} MM",
-        f"FEED {feed:g} MM/MIN, CLOCKWISE; LED ON AND OFF OUTSIDE",
+        f"FEED {_feed(feed)} MM/MIN, CLOCKWISE; LED ON AND OFF OUTSIDE",
         "I, J FROM THE START OF THE ARC; DEPTH, SPINDLE AND COOLANT ARE THE OPERATOR'S",
     ]
     return [f"({line})" for line in said]
@@ -97,8 +97,13 @@ def _moves(moves: list[Move], feed: float) -> list[str]:
         else:
             lines.append(f"{'G2' if move.clockwise else 'G3'} {at} {_at('IJ', move.centre - here)}")
         here = there
-    lines[0] += f" F{feed:g}"
+    lines[0] += f" F{_feed(feed)}"
     return lines
+
+
+def _feed(feed: float) -> str:
+    """In digits alone: controllers know no powers of ten."""
+    return f"{feed:.{DECIMALS}f}".rstrip("0").rstrip(".")
 
 
 def _rounded(point: complex) -> complex:

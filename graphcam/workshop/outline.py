@@ -14,6 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.arc_motion import ArcMotion
@@ -26,6 +27,8 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 
 SAMPLES, FEWEST = 12_000, 33
 """On the whole outline, shared by its spans, and on each of them."""
+CUT = 1e-9
+"""Less than this part of its greatest radius a cutter does not cut off an outline."""
 PARTS = 8
 """Of a span, for integration."""
 
@@ -142,12 +145,14 @@ class Outline:
     """The outline as spans in order.
 
     zero : direction of the zero mark in cam coordinates [rad]: that in which the follower meets the cam at cam angle 0
+    zero_met : whether it does: an undercut may have lost that place
     sense : in which the outline is followed and its angles are counted, +1 for anticlockwise: against the rotation
     """
 
     spans: tuple[Span, ...]
     zero: float
     sense: int
+    zero_met: bool = True
 
     def seen(self, points: Complexes) -> Complexes:
         """Points or ways of cam coordinates as seen with the zero mark to the right and the angles anticlockwise."""
@@ -210,6 +215,29 @@ class Outline:
                 least = min(least, float((way[hollow] / -turn[hollow]).min()))
         return least
 
+    def check_cutter(self, radius: float) -> None:
+        """Refuse a cutter of a radius [mm] that is rounder than a hollow, or that cuts elsewhere where it stands.
+
+        Raises
+        ------
+        DesignError : it does not reach into a hollow of the profile
+        """
+        if not math.isfinite(self.least_hollow):
+            return  # seen from every place of its way a cutter has only one nearest place of a convex cam
+        remedy = "take a smaller cutter, or leave it out"
+        if not radius < self.least_hollow:
+            limit = f"less than {self.least_hollow:.4g} mm, the least radius of the profile's hollows"
+            raise DesignError("part.cutter_radius", radius, limit, remedy)
+        from scipy.spatial import KDTree
+
+        centres = np.concatenate([at + radius * normal for _, at, normal in self.sampled])
+        around, ways = (np.stack([z.real, z.imag], axis=-1) for z in (self.points, centres))
+        nearest, _ = KDTree(around).query(ways)
+        cut = radius - float(nearest.min())
+        if cut > CUT * self.greatest_radius:
+            limit = f"small enough for the hollows: it would cut {cut:.2g} mm off the other side"
+            raise DesignError("part.cutter_radius", radius, limit, remedy)
+
 
 def outline_of(solution: AnySolution) -> Outline:
     """The outline of the cam of a solution.
@@ -247,7 +275,7 @@ def of_cam(cam: Cam) -> Outline:
             spans.append(_corner(envelope, lost[k], sense))
     first = envelope.edges[0] + (-envelope.edges[0]) % FULL_TURN
     met = complex(envelope.point(first, envelope.piece(first)))
-    return Outline(tuple(spans), float(np.angle(met)), sense)
+    return Outline(tuple(spans), float(np.angle(met)), sense, not any(part.begin < first < part.end for part in lost))
 
 
 def _corner(envelope: Envelope, lost: Lost, sense: int) -> CornerSpan:

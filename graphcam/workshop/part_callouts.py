@@ -62,7 +62,8 @@ def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entit
     found: dict[str, list[Entity]] = {}
     for asked in _callouts(contents, layout):
         symbol, wanted = asked.symbol, asked.wanted
-        by = room.find([symbol.box.grown(1.0)], _near((wanted - room.corner) / MESH)) or wanted
+        found_room = room.find([symbol.box.grown(1.0)], _near((wanted - room.corner) / MESH))
+        by = wanted if found_room is None else found_room
         box = symbol.box.moved(by)
         room.take(box.grown(2))
         middle = complex((box.left + box.right) / 2, (box.bottom + box.top) / 2)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import TitleTable
+from graphcam.tasks.sheet_tables import UNNAMED
 from graphcam.words import Tell, say
 from graphcam.workshop.cam_part import CamPart, cam_part
 from graphcam.workshop.outline import Outline, outline_of
@@ -18,15 +19,52 @@ from graphcam.workshop.polar_table import PolarTable, polar_table
 
 @dataclass(frozen=True, eq=False)
 class PartContents:
-    """What the drawing tells, before it finds its place.
+    """What drawing and files tell of the cam of a solution as a part, before it finds its place.
 
-    table : the polar table;  outline : the exact profile
+    Each is found when it is first asked for, since the program of G-code takes no bore, and the solid no table.
+
+    >>> import graphcam as gc
+    >>> contents = PartContents(gc.solve(gc.builtin_task()))
+    >>> contents.part.bore, contents.table.bound
+    (28.0, 0.0125)
     """
 
     solution: AnySolution
-    part: CamPart
-    outline: Outline
-    table: PolarTable
+
+    @property
+    def given(self) -> PartTable:
+        """What the task says of the part."""
+        return self.solution.task.part or PartTable()
+
+    @cached_property
+    def outline(self) -> Outline:
+        """The exact profile.
+
+        Raises
+        ------
+        DesignError : no profile can be told that could be cut
+        """
+        return outline_of(self.solution)
+
+    @cached_property
+    def part(self) -> CamPart:
+        """Its sizes, as :func:`~graphcam.workshop.cam_part.cam_part` settles them.
+
+        Raises
+        ------
+        DesignError : the part cannot be
+        """
+        return cam_part(self.given, self.frame, self.outline.least_radius)
+
+    @cached_property
+    def table(self) -> PolarTable:
+        """The polar table.
+
+        Raises
+        ------
+        DesignError : as for :func:`~graphcam.workshop.polar_table.polar_table`
+        """
+        return polar_table(self.outline, self.given)
 
     @property
     def frame(self) -> str:
@@ -38,6 +76,15 @@ class PartContents:
         """Says texts in the language of the task."""
         return self.solution.tell
 
+    def check(self) -> None:
+        """Refuse a part of which there can be no working drawing.
+
+        Raises
+        ------
+        DesignError : as for what it tells
+        """
+        _ = self.part, self.table
+
     def title(self, scale: float) -> TitleBlock:
         """The title block of the part."""
         given, tell = self.solution.task.title, self.tell
@@ -46,7 +93,7 @@ class PartContents:
         decimals = max(0, 2 - math.floor(math.log10(mass)))
         told = say("{mass:.{decimals}f}") if self.frame == "gost" else say("{mass:.{decimals}f} kg")
         return TitleBlock(
-            name=tell(say("Cam")) if given.name == TitleTable().name else given.name,
+            name=tell(say("Cam")) if given.name == str(UNNAMED) else given.told_name(tell),
             number=given.document,
             organisation=given.organisation,
             group=given.group,
@@ -56,15 +103,3 @@ class PartContents:
             mass=tell(told.where(mass=mass, decimals=decimals)),
             scale=tell(ratio_text(1 / scale)),
         )
-
-
-def part_contents(solution: AnySolution) -> PartContents:
-    """The part of a solution, with its exact outline and its polar table.
-
-    Raises
-    ------
-    DesignError : the part cannot be, or no profile can be cut
-    """
-    table, outline = solution.task.part or PartTable(), outline_of(solution)
-    part = cam_part(table, solution.task.drawing.frame, outline.least_radius)
-    return PartContents(solution, part, outline, polar_table(outline, table))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import takewhile
 
 from graphcam.errors import DesignError
@@ -19,10 +20,10 @@ from graphcam.sheets.model import Entity
 from graphcam.sheets.packing import MESH, Room, least, top_left
 from graphcam.sheets.part_symbols import PartSymbol, other_faces
 from graphcam.sheets.tables import Block, notes_block, table_block
-from graphcam.words import say
+from graphcam.words import Tell, say
 from graphcam.workshop.bore_view import bore_box
 from graphcam.workshop.part_contents import PartContents
-from graphcam.workshop.part_notes import cam_data, requirements, told_table
+from graphcam.workshop.part_notes import beside_each_other, cam_data, polar_rows, requirements
 from graphcam.workshop.part_views import ShownPart, front_box, section_box
 
 BORDER = 5.0
@@ -66,6 +67,48 @@ class PartLayout:
     room: Room
 
 
+@dataclass(frozen=True, eq=False)
+class PartTables:
+    """The tables in letters of ``height`` mm.
+
+    data : of the cam;  rows : of the polar table, the head first, in the language of the drawing
+    """
+
+    data: Block
+    rows: list[tuple[str, ...]]
+    tell: Tell
+    height: float
+
+    @property
+    def count(self) -> int:
+        """Of the rows without the head."""
+        return len(self.rows) - 1
+
+    def polar(self, first: int, last: int, columns: int) -> Block:
+        """The polar table from row ``first`` to before ``last``, in so many columns side by side."""
+        rows = [self.rows[0], *self.rows[first + 1 : last + 1]]
+        return table_block(beside_each_other(rows, columns, self.tell), self.height, row_height=ROW)
+
+    def capacity(self, free: Box) -> tuple[int, int]:
+        """How many columns of the polar table a box has room for, and how many lines in each."""
+        column, head = self._sizes
+        return max(1, int(free.width / column)), int((free.height - head) / (ROW * self.height))
+
+    @cached_property
+    def _sizes(self) -> tuple[float, float]:
+        """Width of a column and height of title and head, mm on paper."""
+        # A column alone is as wide as the title of the table.
+        one, two = (self.polar(0, self.count, columns).box for columns in (1, 2))
+        return two.width / 2, one.height - self.count * ROW * self.height
+
+
+def part_tables(contents: PartContents, sheet: Format) -> PartTables:
+    """The tables of a part as a sheet letters them."""
+    tell, height = contents.tell, sheet.lettering.small
+    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
+    return PartTables(data, polar_rows(contents.table, tell), tell, height)
+
+
 def standard_ratios(most: float) -> Iterator[float]:
     """Paper over part, by the standards, from ``most`` or the next lower one downwards, without end.
 
@@ -79,22 +122,23 @@ def standard_ratios(most: float) -> Iterator[float]:
         decade -= 1
 
 
-def laid_out(contents: PartContents) -> tuple[Format, PartLayout, Placed | None]:
-    """The sheet, the places of the views, and those of the tables; None where the polar table has no room on it."""
-    first: tuple[Format, PartLayout] | None = None
+def laid_out(contents: PartContents) -> tuple[PartLayout, Placed | None]:
+    """The places of the views on a sheet, and those of the tables; None where the polar table has no room on it."""
+    first: PartLayout | None = None
     for name, least_profile in SHEETS:
         sheet = Format(name, contents.frame)
+        tables = part_tables(contents, sheet)
         for views in _scaled_views(contents, sheet, least_profile):
-            first = first or (sheet, views)
-            if (tables := _tables(contents, views)) is not None:
-                return sheet, views, tables
+            first = first or views
+            if (placed := _placed(tables, views)) is not None:
+                return views, placed
         if first and least_profile < LEAST_PROFILE:
             break
     if first is None:
         found = f"{contents.part.length:g} mm wide"
         limit = "narrow enough to be drawn beside its profile"
         raise DesignError("part", found, limit, "give a smaller part.width or part.hub_length")
-    return *first, None
+    return first, None
 
 
 def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -> Iterator[PartLayout]:
@@ -161,16 +205,12 @@ def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Pla
 # --- tables ----------------------------------------------------------------------------------------------------------
 
 
-def _tables(contents: PartContents, views: PartLayout) -> Placed | None:
+def _placed(tables: PartTables, views: PartLayout) -> Placed | None:
     """The polar table, in as many columns as it takes, and the data, in what the views leave free."""
-    tell, height = contents.tell, views.sheet.lettering.small
-    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
-    rows = contents.table.angles.size
-    most, lines = _capacity(contents, views.sheet.content, height)
-    for columns in range(math.ceil(rows / lines), most + 1):
+    most, lines = tables.capacity(views.sheet.content)
+    for columns in range(math.ceil(tables.count / lines), most + 1):
         room, placed = views.room.copy(), Placed()
-        polar = table_block(told_table(contents.table, 0, rows, columns).told(tell), height, row_height=ROW)
-        for block, where in ((polar, AT_RIGHT), (data, top_left)):
+        for block, where in ((tables.polar(0, tables.count, columns), AT_RIGHT), (tables.data, top_left)):
             box = block.box.grown(1.5)
             by = room.find([box], where)
             if by is None:
@@ -184,32 +224,20 @@ def _tables(contents: PartContents, views: PartLayout) -> Placed | None:
 
 def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
     """The data with the first part of the polar table, and the rest of it, over the title blocks of further pages."""
-    tell, height, inside = contents.tell, sheet.lettering.small, sheet.content.grown(-BORDER)
-    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
+    tables, inside = part_tables(contents, sheet), sheet.content.grown(-BORDER)
+    data, rows = tables.data, tables.count
     top = inside.top - (UNDER_NUMBER if sheet.frame == "gost" else 0.0)
     free = Box(inside.left, title_box(sheet).top + BORDER, inside.right, top)
-    rows, first, pages = contents.table.angles.size, 0, list[Placed]()
+    first, pages = 0, list[Placed]()
     while first < rows:
         placed: Placed = [] if pages else [(data, complex(inside.left, top - data.box.height))]
         beside = free if pages else replace(free, left=free.left + data.box.width + BORDER)
-        columns, lines = _capacity(contents, beside, height)
+        columns, lines = tables.capacity(beside)
         last = min(rows, first + columns * lines)
-        table = told_table(contents.table, first, last, math.ceil((last - first) / lines))
-        block = table_block(table.told(tell), height, row_height=ROW)
+        block = tables.polar(first, last, math.ceil((last - first) / lines))
         pages.append([*placed, (block, complex(beside.left, beside.top - block.box.height))])
         first = last
     return pages
-
-
-def _capacity(contents: PartContents, free: Box, height: float) -> tuple[int, int]:
-    """How many columns of the polar table a box has room for, and how many lines in each."""
-    rows = contents.table.angles.size
-    one = table_block(told_table(contents.table, 0, rows, 1).told(contents.tell), height, row_height=ROW).box
-    line = ROW * height
-    head = one.height - rows * line
-    # A column alone is as wide as the title of the table.
-    two = table_block(told_table(contents.table, 0, rows, 2).told(contents.tell), height, row_height=ROW).box
-    return max(1, int(free.width / (two.width / 2))), int((free.height - head) / line)
 
 
 def drawn_blocks(placed: Placed) -> tuple[Entity, ...]:

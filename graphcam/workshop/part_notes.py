@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,8 +11,9 @@ from graphcam.constructions.axes import degrees, turning
 from graphcam.given.follower import Rotation
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
-from graphcam.words import Caption, Words, say
-from graphcam.workshop.cam_part import CamPart
+from graphcam.tasks.part_table import PartTable
+from graphcam.words import Caption, Tell, Words, say
+from graphcam.workshop.cam_part import CamPart, radius_decimals
 from graphcam.workshop.outline import Outline
 from graphcam.workshop.part_views import size
 from graphcam.workshop.polar_table import PolarTable
@@ -21,6 +23,8 @@ GENERAL = {
     "gost": say("General tolerances GOST 30893.1: H14, h14, ±IT14/2."),
 }
 """What holds for sizes without a tolerance, by the frame."""
+MOST_PHASES = 8
+"""Of a motion, that the table of data names."""
 PHASES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
 """What kinds of phases are called."""
 
@@ -37,7 +41,7 @@ def requirements(
         else say("Break sharp edges 0.3 × 45°."),
         *_keyway(part),
         say("Both ends of the bore are chamfered {chamfer} × 45°.", chamfer=size(part.chamfer)),
-        _zero(part),
+        _zero(part, outline),
         say("θ is counted against the rotation, so that the follower meets the profile in the order of the table."),
         say(
             "The radii of the table are exact: computed, not measured on a drawing. Interpolated linearly they are "
@@ -61,7 +65,12 @@ def _keyway(part: CamPart) -> list[Caption]:
     return [say("Keyway {standard} for a key {b} × {h}.", standard=part.key_standard, b=b, h=h)]
 
 
-def _zero(part: CamPart) -> Caption:
+def _zero(part: CamPart, outline: Outline) -> Caption:
+    if not outline.zero_met:
+        return say(
+            "The zero mark, θ = 0°, is scribed on the face, over the middle of a keyway; the place at which the "
+            "follower would meet the cam at cam angle 0 is lost to the undercut."
+        )
     if part.keyway is None:
         return say("The zero mark, θ = 0°, is scribed on the face; there the follower meets the cam at cam angle 0.")
     return say(
@@ -94,15 +103,12 @@ def cam_data(solution: AnySolution, outline: Outline) -> Table:
     rows += [(say("lift"), _lift(solution)), (say("rotation"), turning(_rotation(solution)))]
     if solution.task.speed_rpm:
         rows.append((say("speed"), say("{rpm:g} rpm", rpm=solution.task.speed_rpm)))
-    rows.append((say("minimum radius of the profile"), _mm(outline.least_radius)))
-    rows.append((say("maximum radius of the profile"), _mm(outline.greatest_radius)))
+    decimals = radius_decimals(solution.task.part or PartTable(), outline.greatest_radius)
+    rows.append((say("minimum radius of the profile"), _mm(round(outline.least_radius, decimals))))
+    rows.append((say("maximum radius of the profile"), _mm(round(outline.greatest_radius, decimals))))
     timing = solution.motion.timing if isinstance(solution, ArcsSolution) else solution.cam.motion.timing
     rows += [(PHASES[kind], degrees(round(end - start, 9))) for kind, start, end in timing[:MOST_PHASES]]
     return Table(say("Data of the cam"), ("", ""), tuple(rows))
-
-
-MOST_PHASES = 8
-"""Of a motion, that the table of data names."""
 
 
 def _mm(length: float) -> Caption:
@@ -131,19 +137,22 @@ def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
     return [(say("prime radius r₀"), _mm(solution.cam.prime_radius)), *told]
 
 
-def told_table(table: PolarTable, first: int, last: int, columns: int) -> Table:
-    """Rows ``first`` to ``last`` of the polar table, in so many columns side by side."""
-    heads: tuple[Words, ...] = ("θ", "r")
-    values = [[_angle(angle) for angle in table.angles], [_radius(r, table.decimals) for r in table.radii]]
-    if table.cutter is not None:
-        heads = (*heads, "R")
-        values.append([_radius(r, table.decimals) for r in table.cutter])
-    cells = list(zip(*(column[first:last] for column in values), strict=True))
+def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
+    """The head of the polar table and its rows, in the language of the drawing."""
+    columns = [table.radii] if table.cutter is None else [table.radii, table.cutter]
+    told = [[tell(_angle(angle)) for angle in table.angles]]
+    told += [[tell(_radius(radius, table.decimals)) for radius in radii] for radii in columns]
+    head = tuple(tell(name) for name in ("θ", "r", "R")[: len(told)])
+    return [head, *zip(*told, strict=True)]
+
+
+def beside_each_other(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
+    """Some of the rows, the head first, as a table in so many columns."""
+    head, *cells = rows
     high = math.ceil(len(cells) / columns)
-    blank = ("",) * len(heads)
-    cells += [blank] * (high * columns - len(cells))
-    rows = [tuple(cell for k in range(columns) for cell in cells[k * high + j]) for j in range(high)]
-    return Table(say("Polar table (θ in °, radii in mm)"), heads * columns, tuple(rows))
+    cells += [("",) * len(head)] * (high * columns - len(cells))
+    parted = (tuple(cell for k in range(columns) for cell in cells[k * high + j]) for j in range(high))
+    return Table(tell(say("Polar table (θ in °, radii in mm)")), head * columns, tuple(parted))
 
 
 def _angle(angle: float) -> Caption:

@@ -24,7 +24,7 @@ from graphcam.sheets.part_symbols import cutting_plane, segments, sense_arrow
 from graphcam.sheets.sampling import around
 from graphcam.sheets.writing import Writing, along
 from graphcam.words import Caption, Tell, say, say_in
-from graphcam.workshop.cam_part import CamPart
+from graphcam.workshop.cam_part import CamPart, radius_decimals
 from graphcam.workshop.outline import Outline
 
 BESIDE, BETWEEN = 9.0, 8.0
@@ -99,12 +99,12 @@ class ShownPart:
 
 
 def size(length: float) -> Caption:
-    """A length as drawings say it: to hundredths, without needless zeros.
+    """A given length [mm] as drawings say it, without needless zeros.
 
-    >>> str(size(22.800000000000001)), str(size(27.0))
-    ('22.8', '27')
+    >>> str(size(22.800000000000001)), str(size(27.0)), str(size(12.345))
+    ('22.8', '27', '12.345')
     """
-    return say("{length:g}", length=round(length, 2))
+    return say("{length:g}", length=round(length, 9))
 
 
 # --- the true view ---------------------------------------------------------------------------------------------------
@@ -169,14 +169,14 @@ def bore_marks(part: CamPart, scale: float) -> list[Mark]:
 
 def told_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
     """Where on the profile its least and its greatest radius are dimensioned."""
-    radii = np.abs(shown.outline.points)
+    radii, decimals = np.abs(shown.outline.points), radius_decimals(shown.part.table, shown.outline.greatest_radius)
     told: list[tuple[complex, Caption]] = []
     for extreme, name in ((radii.min(), say("R{radius} min")), (radii.max(), say("R{radius} max"))):
         at = shown.profile[np.abs(radii - extreme) * shown.scale <= SAME_RADIUS]
         # Away from the centre lines, where the text has most room, and from the arrow of the rotation.
         oblique = np.abs(np.sin(2 * np.angle(at))) - 2.0 * ((at.real > 0) & (at.imag < 0))
         way = np.angle(at[np.argmax(oblique.round(6))])
-        told.append((cmath.rect(shown.scale * extreme, way), name.where(radius=size(float(extreme)))))
+        told.append((cmath.rect(shown.scale * extreme, way), name.where(radius=size(round(float(extreme), decimals)))))
     return told
 
 

@@ -20,7 +20,7 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.roots import roots
 from graphcam.tasks.part_table import PartTable
-from graphcam.workshop.cam_part import profile_tolerance
+from graphcam.workshop.cam_part import profile_tolerance, radius_decimals
 from graphcam.workshop.outline import Outline
 
 PART_OF_TOLERANCE = 0.25
@@ -31,8 +31,6 @@ MOST_ROWS = 1500
 """Of a table that somebody reads."""
 CORNER_DECIMALS = 3
 """Of the angle of a corner [deg]."""
-ROUNDING_PART = 0.5
-"""The last decimal of a radius is at most this part of the tolerance."""
 FILES_REMEDY = "give a larger one; the files of the profile have the curve itself"
 TURNS_BACK = 1e-12
 """Less than this [rad] a curve does not turn back, but is rounded."""
@@ -133,7 +131,7 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
     """
     curves = [PolarCurve(outline)]
     if table.cutter_radius is not None:
-        _check_cutter(outline, table.cutter_radius)
+        outline.check_cutter(table.cutter_radius)
         curves.append(PolarCurve(outline, table.cutter_radius))
     allowed = profile_tolerance(table, outline.greatest_radius)
     bound = PART_OF_TOLERANCE * allowed
@@ -143,15 +141,8 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
         limit = f"large enough for a table of at most {MOST_ROWS} rows, not {angles.size}"
         raise DesignError("part.profile_tolerance", allowed, limit, FILES_REMEDY)
     radii = [curve.radius(np.radians(angles)) for curve in curves]
-    decimals = max(2, math.ceil(-math.log10(ROUNDING_PART * allowed) - 1e-9))
+    decimals = radius_decimals(table, outline.greatest_radius)
     return PolarTable(angles, radii[0], radii[1] if radii[1:] else None, bound, decimals)
-
-
-def _check_cutter(outline: Outline, cutter_radius: float) -> None:
-    hollow = outline.least_hollow
-    if not cutter_radius <= hollow:
-        limit = f"at most {hollow:.4g} mm, the least radius of the profile's hollows"
-        raise DesignError("part.cutter_radius", cutter_radius, limit, "take a smaller cutter, or leave it out")
 
 
 def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) -> Floats:

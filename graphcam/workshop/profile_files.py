@@ -21,11 +21,11 @@ NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xy
 
 
 def write_profile(
-    cam: Cam, spline: ProfileSpline, folder: Path, kinds: Collection[str] = tuple(NAMES)
+    cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(NAMES)
 ) -> dict[str, str]:
     """Write those of the three files into a folder that are wanted; returns their names by kind.
 
-    spline : of the profile that can be cut
+    spline : of the profile that can be cut, for the DXF; None where that is not wanted
 
     Raises
     ------
@@ -34,14 +34,16 @@ def write_profile(
     from graphcam.sheets.dxf_renderer import write_spline
 
     wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
-    if "profile_dxf" in wanted:
+    if spline and "profile_dxf" in wanted:
         told = {"greatest distance from the exact profile, mm": f"{spline.deviation:.2g}"}
         write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile", told=told)
-    cut = trimmed_profile(cam.envelope, POINTS)
-    if "profile_csv" in wanted:
-        _write_csv(cut, folder / wanted["profile_csv"])
-    if "profile_xyz" in wanted:
-        _write_xyz(cut, folder / wanted["profile_xyz"])
+    tables = {
+        kind: write for kind, write in (("profile_csv", _write_csv), ("profile_xyz", _write_xyz)) if kind in kinds
+    }
+    if tables:
+        cut = trimmed_profile(cam.envelope, POINTS)
+        for kind, write in tables.items():
+            write(cut, folder / wanted[kind])
     return wanted
 
 

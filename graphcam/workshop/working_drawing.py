@@ -11,10 +11,9 @@ from graphcam.sheets.expand import Drawn
 from graphcam.sheets.frame import frame as empty_sheet
 from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
-from graphcam.solving.arcs_solution import AnySolution
 from graphcam.workshop.bore_view import bore_box, bore_view
 from graphcam.workshop.part_callouts import called_out
-from graphcam.workshop.part_contents import PartContents, part_contents
+from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.part_layout import PartLayout, Placed, drawn_blocks, laid_out, table_pages
 from graphcam.workshop.part_views import (
     DETAIL,
@@ -25,20 +24,20 @@ from graphcam.workshop.part_views import (
 )
 
 
-def working_drawing_of(solution: AnySolution) -> Drawing:
-    """The working drawing of the cam of a solution.
+def working_drawing_of(contents: PartContents) -> Drawing:
+    """The working drawing of a cam.
 
     Raises
     ------
     DesignError : the part cannot be, or no profile can be cut
 
     >>> import graphcam as gc
-    >>> drawing = working_drawing_of(gc.solve(gc.builtin_task()))
+    >>> drawing = working_drawing_of(PartContents(gc.solve(gc.builtin_task())))
     >>> len(drawing.pages), drawing.pages[0].width
     (1, 420.0)
     """
-    contents = part_contents(solution)
-    sheet, views, tables = laid_out(contents)
+    views, tables = laid_out(contents)
+    sheet = views.sheet
     further = table_pages(contents, sheet) if tables is None else []
     count = 1 + len(further)
     title = contents.title(views.shown.scale)

@@ -10,10 +10,10 @@ import numpy as np
 
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import AdoptedSizes
-from graphcam.constructions.drawn_arm import DrawnOscillating
+from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import GOST_2_302, Paper, Scale, standard_scale
 from graphcam.given.limits import Limits
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
@@ -47,7 +47,7 @@ def board_of(motion: Motion, offset: float | None = -10.0, **changes: Any) -> Bo
     choices: dict[str, Any] = {
         "rotation": "cw", "limits": limits(30), "prime_radius": None, "roller_radius": None,
         "roller_rule": roller_rule(DEFAULT_RULE), "divisions": 12, "ordinate": 50.0, "poles": (40.0, 40.0),
-        "mu_phi": Scale(radians(1), "rad"), "rounding": None, "profile_room": (330.0, 330.0),
+        "mu_phi": Scale(radians(1), "rad"), "rounding": None, "paper": Paper(330.0, 330.0, GOST_2_302),
     }  # fmt: skip
     return Board(motion=motion, follower=DrawnTranslating(offset), **(choices | changes))
 
@@ -81,7 +81,8 @@ def arm_motion(law: str, lift: float = 20.0, ratio: float = 1.0) -> Motion:
 def arm_board(motion: Motion, distance: float | None = 120.0, arm: float = ARM, **changes: Any) -> Board:
     """A board for an arm at the usual limit of 45 degrees, and other ``changes``."""
     board = board_of(motion, **({"rotation": "ccw", "limits": limits(45)} | changes))
-    return replace(board, follower=DrawnOscillating(arm, distance))
+    mu_l = standard_scale(arm, ARM_ON_PAPER, board.paper.ratios)
+    return replace(board, follower=DrawnOscillating(arm, distance, mu_l))
 
 
 def flat_motion(law: str, ratio: float = 1.0) -> Motion:

@@ -16,18 +16,18 @@ import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Caption
 from graphcam.drafting.marks import Arc, Dots
-from graphcam.drafting.scale import GOST_2_302, Scale
+from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.mechanism.arcs import three_arc_cam
 
 ROUNDING = 1e-11
 """Of lengths, as a part of the largest one."""
-DEGREE_A_MM = Scale(math.radians(1), "rad")
+DEGREE_A_MM, PAPER = Scale(math.radians(1), "rad"), Paper(370.0, 370.0, GOST_2_302)
 every_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hand", "hands"])
 
 
 def board_of(data: dict, roller: float = 10.0, dwell: float = 40.0, divisions: int = 4) -> ArcBoard:
-    return ArcBoard(ThreeArcs(**data), math.radians(dwell), roller, divisions, DEGREE_A_MM, (370.0, 370.0))
+    return ArcBoard(ThreeArcs(**data), math.radians(dwell), roller, divisions, DEGREE_A_MM, PAPER)
 
 
 @pytest.mark.parametrize("roller", [0.0, 10.0, 60.0])

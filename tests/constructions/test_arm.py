@@ -19,7 +19,7 @@ from graphcam.constructions.region import nearest_of_many
 from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.marks import Arc, Arrow, Line, Role
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
@@ -420,7 +420,7 @@ def region_by(pencil: Pencil):
 def test_the_scale_of_the_drawing_changes_no_angle_and_no_size():
     """Similar figures: at 1:2 and at 2:1 the same cam is read."""
     board = arm_board(arm_motion("3-4-5"))
-    small, large = (Chain(replace(board, profile_room=(room, room))) for room in (150.0, 700.0))
+    small, large = (Chain(replace(board, paper=Paper(room, room, GOST_2_302))) for room in (150.0, 700.0))
     assert small["inversion"].givens.mu_l.per_mm >= 2 * large["inversion"].givens.mu_l.per_mm
     for name in ("minimum_radius", "pressure_angle", "inversion", "curvature", "working_profile"):
         for key, read in small[name].readings.items():

@@ -12,6 +12,7 @@ from boards import SIZES, board_of, coursework, coursework_motion, limits, motio
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.minimum_radius import active
+from graphcam.drafting.scale import GOST_2_302, Paper
 from graphcam.errors import DesignError
 from graphcam.given.roller_rule import roller_rule
 
@@ -209,7 +210,7 @@ def test_a_roller_smaller_than_the_rounding_is_kept_as_proposed():
 def test_the_profile_is_drawn_at_the_largest_standard_scale_that_fits():
     scales = []
     for room in (1000, 330, 150, 60, 20):
-        chain = Chain(coursework(profile_room=(room, room + 50)))
+        chain = Chain(coursework(paper=Paper(room, room + 50, GOST_2_302)))
         reach = 2 * np.abs(chain["inversion"].points["pitch"]).max() + 2 * 17 / chain.profile_scale.per_mm
         assert reach <= room
         scales.append(chain.profile_scale.per_mm)

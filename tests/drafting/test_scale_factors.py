@@ -73,7 +73,7 @@ def test_a_view_fits_its_paper_both_ways():
 
 @pytest.mark.parametrize("size", [1.5e5, 3e6, 1e9])
 def test_beyond_the_standard_series_powers_of_ten_go_on(size):
-    mu = standard_scale(size, 100).per_mm
+    mu = standard_scale(size, 100, GOST_2_302).per_mm
     assert math.log10(mu) == round(math.log10(mu))
     assert size / mu <= 100 < size / mu * 10
 

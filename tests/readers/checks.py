@@ -18,7 +18,7 @@ from pdf_paths import PdfPage, pages
 from programs import count, program
 from scipy.spatial import cKDTree
 
-from graphcam.sheets.fonts import pieces, width
+from graphcam.sheets.fonts import letters_of, width
 from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.styles import STYLES
 
@@ -73,7 +73,7 @@ def check_words(pdf: Path, drawing: Drawing) -> None:
     ).stdout
     # A reader may part or join words that stand close together; the letters must all be there.
     found = Counter(re.sub(r"\s", "", text))
-    letters = "".join(piece.text for t in texts(drawing) for piece in pieces(t.text, t.height))
+    letters = "".join(piece.text for t in texts(drawing) for piece in letters_of(t.text, t.height))
     written = Counter("".join(letters.split()))
     assert found == written
 

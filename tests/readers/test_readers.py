@@ -17,6 +17,7 @@ from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.matplotlib_renderer import write_pdf
 from graphcam.sheets.model import Drawing
+from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.working_drawing import working_drawing_of
 
 TASKS = Path(graphcam.__file__).parent / "data" / "tasks"
@@ -36,7 +37,7 @@ SHEETS = [
 @pytest.fixture(params=SHEETS)
 def drawing(request: pytest.FixtureRequest) -> Drawing:
     if request.param == "part":
-        return working_drawing_of(graphcam.solve(graphcam.builtin_task()))
+        return working_drawing_of(PartContents(graphcam.solve(graphcam.builtin_task())))
     return scene() if request.param == "scene" else sheet(request.param)
 
 

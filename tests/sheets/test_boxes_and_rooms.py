@@ -117,7 +117,7 @@ def test_room_is_found_about_all_that_was_taken_in_whatever_order():
     assert lowest(other) is None
 
 
-@settings(max_examples=15)
+@settings(max_examples=15, deadline=None)
 @given(st.integers(0, 10**6))
 def test_the_room_that_is_found_is_the_best_that_is_free(seed):
     """Every move on the grid is tried."""

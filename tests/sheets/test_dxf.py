@@ -13,7 +13,7 @@ from programs import count
 from scene import drawing, oval
 
 from graphcam.sheets.dxf_renderer import BETWEEN_PAGES, write_dxf
-from graphcam.sheets.fonts import pieces
+from graphcam.sheets.fonts import letters_of
 from graphcam.sheets.model import Curve, Drawing, Page, Text
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
@@ -54,7 +54,7 @@ def test_texts_keep_their_letters_and_height(tmp_path: Path) -> None:
     drawn = drawing()
     document = written(drawn, tmp_path / "sheet.dxf")
     texts = [e for g in drawn.pages[0].groups for e in g.entities if isinstance(e, Text)]
-    model = Counter((piece.text.strip(), piece.height) for e in texts for piece in pieces(e.text, e.height))
+    model = Counter((piece.text.strip(), piece.height) for e in texts for piece in letters_of(e.text, e.height))
     assert Counter((t.dxf.text, t.dxf.height) for t in document.modelspace().query("TEXT")) == model
     # An index is a text of its own, a size smaller.
     assert {("φ", 3.5), ("1", 2.5), ("= 80°", 3.5)} <= set(model)

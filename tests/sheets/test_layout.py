@@ -13,7 +13,8 @@ from scene import DRAWN_AT, TABLE, TITLE, drawing, steps
 import graphcam as gc
 from graphcam.drafting.ink import Step, View, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.report.documents import sheet_of
+from graphcam.drafting.scale import ratio_text
+from graphcam.report.documents import contents_of, sheet_of
 from graphcam.sheets.formats import MARGINS, SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import Drawing, Stroke, Strokes, Text
@@ -199,14 +200,32 @@ def scaled(name: str, size: complex, mu_l: float | None, *, main: bool = False) 
 
 
 def test_the_title_block_bears_the_scale_of_what_is_drawn_on_its_sheet() -> None:
-    """That of the cam where it stands, or the only one; views of several and a sheet of diagrams have none."""
+    """That of the cam where it stands, or of the largest other view; a sheet of diagrams has none."""
     own, given = replace(TITLE, scale=None), replace(TITLE, scale="as shown")
     cam, plan, detail = (
         scaled("cam", 100 + 60j, 0.5, main=True), scaled("plan", 160 + 80j, 2.0), scaled("detail", 50 + 40j, 0.1)
     )  # fmt: skip
     assert scales(compose([plan, cam, detail], [], own, "A2")) == ["2:1"]
-    assert scales(compose([plan, detail], [], own, "A2")) == [""]
+    assert scales(compose([plan, detail], [], own, "A2")) == ["1:2"]
+    assert scales(compose([detail, plan], [], own, "A2")) == ["1:2"]
     diagram = scaled("diagram", 240 + 80j, None)
     assert scales(compose([diagram], [], own, "A4", "iso")) == [""]
     assert scales(compose([diagram, plan, cam], [], own, "A4", "iso")) == ["", "1:2", "2:1"]
     assert scales(compose([diagram, plan], [], given, "A4", "iso")) == ["as shown"] * 2
+
+
+@pytest.mark.parametrize("name", ["arm", "coursework"])
+def test_a_view_at_another_scale_than_the_title_block_says_carries_its_own(name: str) -> None:
+    task = builtin_task(name)
+    solution = gc.solve(replace(task, drawing=task.drawing.on("A3")))
+    views = {step.view.name: step.view for _, _, step in contents_of(solution).steps}
+    drawn = sheet_of(solution)
+    differing = 0
+    for page, said in zip(drawn.pages, scales(drawn), strict=True):
+        ratios = {name: str(ratio_text(mu_l)) for name in page.origins if (mu_l := views[name].mu_l)}
+        assert said in (ratios.values() or [""])
+        texts = [e for group in page.groups for e in group.entities if isinstance(e, Text)]
+        for view, ratio in ratios.items():
+            assert ratio in " ".join(text.text for text in texts if text.view == view)
+            differing += ratio != said
+    assert differing > 0

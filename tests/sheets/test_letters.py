@@ -21,7 +21,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.image import imread
 from matplotlib.path import Path as Outline
 from matplotlib.textpath import TextPath
-from programs import program
+from programs import missing, program
 from typer.testing import CliRunner
 
 import graphcam as gc
@@ -32,7 +32,7 @@ from graphcam.report.markdown import FORMULA
 from graphcam.sheets import typefaces
 from graphcam.sheets.box import Box
 from graphcam.sheets.dxf_renderer import write_dxf
-from graphcam.sheets.fonts import extent, index_height, pieces, points_size, width
+from graphcam.sheets.fonts import extent, index_height, letters_of, points_size, width
 from graphcam.sheets.matplotlib_renderer import svg, write_pdf, write_png
 from graphcam.sheets.model import Drawing, Group, Page, Text
 from graphcam.sheets.sampling import corners
@@ -116,7 +116,10 @@ def shown() -> str:
             task = gc.builtin_task(name)
             solution = gc.solve(replace(task, drawing=replace(task.drawing, language=language, format="A3")))
             found |= {
-                letter for text in texts_of(sheet_of(solution)) for piece in pieces(text, 3.5) for letter in piece.text
+                letter
+                for text in texts_of(sheet_of(solution))
+                for piece in letters_of(text, 3.5)
+                for letter in piece.text
             }
     return "".join(sorted(found - {" "}))
 
@@ -185,7 +188,7 @@ def forgotten():
     """Nothing that was looked up with other faces stays known."""
 
     def forget() -> None:
-        for known in (typefaces.face_of, typefaces.glyph, pieces, extent):
+        for known in (typefaces.face_of, typefaces.glyph, letters_of, extent):
             known.cache_clear()
 
     forget()
@@ -203,7 +206,7 @@ def test_what_no_face_has_is_a_box_of_its_width_and_named_in_one_warning(monkeyp
         gc.solve(TITLED).write(tmp_path / "out", files=["pdf", "svg"])
     assert len(warned) == 1
     assert width("凸轮", 3.5) == 2 * width("□", 3.5)
-    assert "□□ mechanism" in letters_of(tmp_path / "out" / "sheet.pdf")
+    assert "□□ mechanism" in letters_in(tmp_path / "out" / "sheet.pdf")
 
 
 @pytest.mark.usefixtures("forgotten")
@@ -221,9 +224,7 @@ def test_the_command_tells_in_one_line_what_is_a_box(monkeypatch, tmp_path):
 @pytest.mark.usefixtures("forgotten")
 def test_chinese_is_drawn_by_a_face_of_the_machine_and_stays_in_its_field(tmp_path):
     if typefaces.face_of("凸") is None:
-        if os.environ.get("CI"):
-            pytest.fail("no font with Chinese is installed")
-        pytest.skip("no font with Chinese is installed")
+        missing("no font with Chinese is installed")
     page = page_of("凸轮")
     write_pdf(Drawing("", (page,)), tmp_path / "chinese.pdf")
     alike = [
@@ -245,7 +246,7 @@ def test_the_machines_faces_are_asked_only_for_what_the_shipped_ones_lack(monkey
     assert all(typefaces.face_of(letter) for letter in LETTERS + "√→∆")
 
 
-def letters_of(pdf: Path) -> str:
+def letters_in(pdf: Path) -> str:
     return subprocess.run(
         [program("pdftotext"), "-enc", "UTF-8", "-raw", pdf, "-"], check=True, capture_output=True, text=True
     ).stdout
@@ -256,14 +257,14 @@ def letters_of(pdf: Path) -> str:
 
 def test_an_index_is_a_size_smaller_and_stands_half_below_the_line():
     for text, said in (("μₐ = 2", ["μ", "a", " = 2"]), ("φ_д.с = 45°", ["φ", "д.с", " = 45°"]), ("v₂₁", ["v", "21"])):
-        first, index, *_ = found = pieces(text, 3.5)
+        first, index, *_ = found = letters_of(text, 3.5)
         assert [piece.text for piece in found] == said
         assert (first.height, index.height) == (3.5, 2.5)
         assert (first.start.imag, index.start.imag) == (0, -1.25)
         assert all(b.start.real == pytest.approx(a.start.real + a.width) for a, b in pairwise(found))
     assert [index_height(height) for height in (2.5, 3.5, 5.0, 7.0)] == [1.8, 2.5, 3.5, 5.0]
     # Names of files and of users have none.
-    assert [piece.text for piece in pieces("my_cam.toml, a_b", 3.5)] == ["my_cam.toml, a_b"]
+    assert [piece.text for piece in letters_of("my_cam.toml, a_b", 3.5)] == ["my_cam.toml, a_b"]
 
 
 @pytest.mark.parametrize("language", ["en", "ru"])

@@ -25,7 +25,7 @@ from graphcam.sheets import sampling
 from graphcam.sheets.box import Box
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf, write_spline
-from graphcam.sheets.fonts import pieces, points_size, width
+from graphcam.sheets.fonts import letters_of, points_size, width
 from graphcam.sheets.matplotlib_renderer import _figure, draw_on, svg, write_png
 from graphcam.sheets.model import (
     Angle,
@@ -490,7 +490,7 @@ def test_the_whole_scene_is_on_the_same_places_in_dxf_and_model(tmp_path: Path):
         for group in page.groups:
             for text in group.entities if group.key == "tables" else ():
                 if isinstance(text, Text):
-                    first, *_ = pieces(text.text, text.height)
+                    first, *_ = letters_of(text.text, text.height)
                     at = complex(*xy(found[first.text].dxf.insert))
                     assert at.imag == pytest.approx(text.at.imag)
                     if text.align == "left":

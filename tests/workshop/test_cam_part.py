@@ -16,7 +16,7 @@ from graphcam.tasks.task_file import builtin_text
 from graphcam.tasks.task_writer import task_files
 from graphcam.workshop.cam_part import LEAST_WALL, cam_part
 from graphcam.workshop.limits_and_fits import standard_diameters
-from graphcam.workshop.part_contents import part_contents
+from graphcam.workshop.part_contents import PartContents
 
 
 @pytest.mark.parametrize("least_radius", [0.4, 3.0, 17.0, 27.0, 46.0, 200.0, 1e5])
@@ -45,7 +45,7 @@ WRONG = {
     "hub_diameter = 60\nhub_length = 40": "part.hub_diameter is 60.0, but must be less than twice the least radius",
     "bore = 20\nhub_diameter = 24\nhub_length = 40": "inside the hub's radius of 12 mm; take a smaller bore",
     "bore = 20\nhub_diameter = 40\nhub_length = 10": "part.hub_length is 10.0, but must be greater than the cam's",
-    "cutter_radius = 80": "part.cutter_radius is 80.0, but must be at most 47.97 mm",
+    "cutter_radius = 80": "part.cutter_radius is 80.0, but must be less than 47.97 mm",
     "profile_tolerance = 1e-6": "part.profile_tolerance is 1e-06, but must be large enough",
 }
 
@@ -55,7 +55,7 @@ def test_a_part_that_cannot_be_is_one_message(tmp_path: Path, said: str) -> None
     (tmp_path / "cam.toml").write_text(f"{builtin_text('coursework')}\n[part]\n{said}\n", encoding="utf-8")
     task = gc.load_task(tmp_path / "cam.toml")
     with pytest.raises(DesignError) as caught:
-        part_contents(gc.solve(task))
+        PartContents(gc.solve(task)).check()
     assert WRONG[said] in str(caught.value)
     assert "\n" not in str(caught.value)
 
@@ -96,7 +96,7 @@ def test_mass_by_a_sum_over_a_fine_grid() -> None:
     """Cells of the plane that lie in the profile and not in bore or keyway, times the thickness there."""
     table = PartTable(bore=20, width=12, hub_diameter=40, hub_length=25, density=2700)
     solution = gc.solve(replace(gc.builtin_task(), part=table))
-    contents = part_contents(solution)
+    contents = PartContents(solution)
     outline, part = contents.outline, contents.part
     step = 0.05
     axis = np.arange(-60, 60, step) + step / 2
@@ -117,3 +117,11 @@ def test_the_least_wall_is_just_allowed() -> None:
     assert cam_part(PartTable(bore=20), "iso", least).bore == 20
     with pytest.raises(DesignError, match="bore is"):
         cam_part(PartTable(bore=20), "iso", least - 0.001)
+
+
+@pytest.mark.parametrize("bore", [2.0, 7.0, 20.0, 40.0])
+@pytest.mark.parametrize("width", [0.1, 1.5, 3.0, 20.0])
+def test_both_chamfers_leave_most_of_the_bore(bore: float, width: float) -> None:
+    part = cam_part(PartTable(bore=bore, width=width, keyway="none"), "iso", 60)
+    assert 0 < part.chamfer <= 0.2 * width
+    assert part.chamfer <= {2.0: 0.1, 7.0: 0.5, 20.0: 1.0, 40.0: 1.6}[bore]

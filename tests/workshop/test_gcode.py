@@ -278,3 +278,11 @@ def test_the_replay_sees_a_wrong_sense_and_a_wrong_centre():
     assert greatest_distance(xy(contour("\n".join(wrong))), exact) > 1
     moved = [*lines[:k], lines[k].replace(" I", " I1"), *lines[k + 1 :]]
     assert greatest_distance(xy(contour("\n".join(moved))), exact) > 0.1
+
+
+@pytest.mark.parametrize(("feed", "said"), [(1234567.0, "1234567"), (0.001, "0.001"), (80.0, "80"), (12.5, "12.5")])
+def test_a_feed_is_told_in_digits_alone(feed, said):
+    """RS274 knows no powers of ten."""
+    text = cutting_program(outline_of(gc.solve(gc.builtin_task())), feed=feed)
+    assert re.findall(r"F([\d.e+-]+)$", text, re.MULTILINE) == [said]
+    assert f"(FEED {said} MM/MIN," in text

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-import os
 import re
-import shutil
-import subprocess
 from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from programs import library
+from programs import freecad, library
 from test_gcode import CAMS
 from test_spline import along, greatest_distance, sized
 
@@ -23,10 +20,10 @@ from graphcam.tasks.part_table import PartTable
 from graphcam.workshop.cam_part import CamPart, cam_part
 from graphcam.workshop.cutting_files import solid_text
 from graphcam.workshop.outline import of_cam
+from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.plane_loops import spline_loop
 from graphcam.workshop.solid import solid_file
 
-FREECAD = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
 ENTITY = re.compile(r"#(\d+)=(.*);")
 PARTS = {
     "keyway": PartTable(),
@@ -92,11 +89,11 @@ def test_the_shell_is_closed_and_has_one_hole(kind):
 
 def test_it_is_a_product_of_ap214_in_millimetres_and_its_bytes_repeat():
     solution = gc.solve(gc.builtin_task())
-    text = solid_text(solution)
+    text = solid_text(PartContents(solution))
     assert "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));" in text
     assert "SI_UNIT(.MILLI.,.METRE.)" in text
     assert re.search(r"greatest distance from the exact profile 0\.0004\d mm", text)
-    assert text == solid_text(gc.solve(gc.builtin_task()))
+    assert text == solid_text(PartContents(gc.solve(gc.builtin_task())))
     assert text.isascii()
 
 
@@ -223,7 +220,7 @@ def test_the_kernels_outline_is_the_exact_profile(kernel, tmp_path, cam):
 
 def test_a_cam_of_arcs_has_the_faces_of_its_arcs(kernel, tmp_path):
     solution = gc.solve(gc.builtin_arcs_task())
-    solid = found(kernel, solid_text(solution), tmp_path)
+    solid = found(kernel, solid_text(PartContents(solution)), tmp_path)
     motion = solution.cam.motion(0.0, solution.motion.dwell)
     phi = np.linspace(0, 2 * math.pi, 400_000, endpoint=False)
     exact = motion.pitch_curve(phi)
@@ -242,23 +239,12 @@ print("\\nFOUND", shape.ShapeType, shape.isValid(), shape.isClosed(), len(shape.
 """
 
 
-@pytest.mark.slow
-# Large, and in no other way needed: it is not among the programs that CI installs.
-@pytest.mark.skipif(FREECAD is None, reason="FreeCAD is not installed")
 @pytest.mark.parametrize("kind", PARTS)
 def test_freecad_finds_one_valid_closed_solid(tmp_path, kind):
     cam = sized(1.0, Translating(8.0, 10.0))
     text, part = made(cam, PARTS[kind])
     (tmp_path / "a.step").write_text(text)
-    (tmp_path / "read.py").write_text(SCRIPT.format(path=str(tmp_path / "a.step")))
-    # Its own Python must not meet ours.
-    clean = {key: value for key, value in os.environ.items() if key not in ("VIRTUAL_ENV", "PYTHONPATH")}
-    out = subprocess.run(
-        [str(FREECAD), tmp_path / "read.py"], check=False, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-        timeout=300, env=clean | {"QT_QPA_PLATFORM": "offscreen"},
-    ).stdout  # fmt: skip
-    (line,) = (line for line in out.splitlines() if line.startswith("FOUND"))
-    kind_of, valid, closed, solids, faces, *sizes = line.split()[1:]
+    kind_of, valid, closed, solids, faces, *sizes = freecad(SCRIPT.format(path=str(tmp_path / "a.step")), tmp_path)
     assert [kind_of, valid, closed, solids] == ["Solid", "True", "True", "1"]
     assert int(faces) == len(read(text).of("ADVANCED_FACE"))
     across = np.ptp(cam.trimmed_profile(100_000), axis=0)

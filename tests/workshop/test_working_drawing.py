@@ -19,13 +19,16 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.drafting.marks import Role
 from graphcam.errors import DesignError
+from graphcam.language import language
 from graphcam.report.output_folder import write
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.model import Curve, Drawing, Heads, Length, Stroke, Strokes, Text
 from graphcam.solving.arcs_solution import AnySolution
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.part_table import PartTable
+from graphcam.tasks.task import TranslatingTable
 from graphcam.workshop.outline import outline_of
-from graphcam.workshop.part_contents import part_contents
+from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.part_layout import standard_ratios
 from graphcam.workshop.working_drawing import working_drawing_of
 
@@ -42,7 +45,7 @@ def solved(name: str, frame: str = "gost", language: str = "en", part: PartTable
 
 @cache
 def drawn(name: str, frame: str = "gost", language: str = "en", part: PartTable | None = None) -> Drawing:
-    return working_drawing_of(solved(name, frame, language, part))
+    return working_drawing_of(PartContents(solved(name, frame, language, part)))
 
 
 def texts(drawing: Drawing) -> list[str]:
@@ -77,7 +80,7 @@ def test_small_and_large_cams_have_a_standard_scale(size: float) -> None:
     limits = replace(task.limits, min_curvature_radius=None)
     motion, cam = replace(task.motion, phases=phases), replace(task.cam, prime_radius=20 * size)
     changed = replace(task, motion=motion, cam=cam, limits=limits)
-    drawing = working_drawing_of(gc.solve(changed))
+    drawing = working_drawing_of(PartContents(gc.solve(changed)))
     assert overlaps(drawing) == []
     scale = next(text for text in texts(drawing) if re.fullmatch(r"[\d.e+]+:[\d.e+]+", text))
     over, under = map(float, scale.split(":"))
@@ -132,7 +135,7 @@ def test_dxf_has_dimensions_and_blocks_and_is_clean(tmp_path: Path, name: str) -
     auditor = document.audit()
     assert (len(auditor.errors), len(auditor.fixes)) == (0, 0)
     said = {d.dxf.text: d.get_measurement() for d in document.modelspace().query("DIMENSION")}
-    part = part_contents(solved(name)).part
+    part = PartContents(solved(name)).part
     width = next(measured for text, measured in said.items() if text == f"{part.width:g}")
     assert any(
         width == pytest.approx(part.width * ratio) for ratio, _ in zip(standard_ratios(10), range(9), strict=False)
@@ -142,12 +145,12 @@ def test_dxf_has_dimensions_and_blocks_and_is_clean(tmp_path: Path, name: str) -
     assert any(text.endswith("max") for text in said)
     (block,) = document.modelspace().query("INSERT")
     entries = {attribute.dxf.tag: attribute.dxf.text for attribute in block.attribs}
-    assert float(entries["MASS"]) == pytest.approx(part.mass(part_contents(solved(name)).outline.area), rel=0.005)
+    assert float(entries["MASS"]) == pytest.approx(part.mass(PartContents(solved(name)).outline.area), rel=0.005)
     assert " ".join(text for tag, text in entries.items() if tag.startswith("MATERIAL")) == "Steel 45 GOST 1050-2013"
 
 
 def test_every_row_of_the_table_is_on_the_drawing() -> None:
-    rows = part_contents(solved("coursework")).table
+    rows = PartContents(solved("coursework")).table
     said = texts(drawn("coursework"))
     assert {f"{angle:g}" for angle in rows.angles} <= set(said)
     assert sum(text == "27.00" for text in said) == np.count_nonzero(rows.radii.round(2) == 27)
@@ -157,7 +160,7 @@ def test_a_long_table_goes_on_on_further_pages() -> None:
     drawing = drawn("coursework", "iso", "en", PartTable(profile_tolerance=0.002, table_step=1, cutter_radius=5))
     assert len(drawing.pages) > 1
     assert overlaps(drawing) == []
-    rows = part_contents(
+    rows = PartContents(
         solved("coursework", "iso", "en", PartTable(profile_tolerance=0.002, table_step=1, cutter_radius=5))
     )
     said = texts(drawing)
@@ -165,7 +168,7 @@ def test_a_long_table_goes_on_on_further_pages() -> None:
 
 
 def test_an_undercut_cam_says_so_and_keeps_its_corner() -> None:
-    drawing = working_drawing_of(gc.solve(undercut_task()))
+    drawing = working_drawing_of(PartContents(gc.solve(undercut_task())))
     assert overlaps(drawing) == []
     assert any("undercut leaves a corner" in text for text in texts(drawing))
 
@@ -194,7 +197,8 @@ def strokes(drawing: Drawing, group: str, role: str) -> np.ndarray:
 
 @pytest.mark.parametrize("seed", [None, 1, 4])
 def test_lines_to_the_profile_cross_no_radius(seed: int | None) -> None:
-    drawing = drawn("flat", "iso") if seed is None else working_drawing_of(gc.solve(random_flat_task(seed)))
+    solution = solved("flat", "iso") if seed is None else gc.solve(random_flat_task(seed))
+    drawing = working_drawing_of(PartContents(solution))
     lines = strokes(drawing, "front", Role.DIMENSION)
     origin = drawing.pages[0].origins["front"]
     of_radius = np.abs(lines[:, 0] - origin) < 1e-9
@@ -216,7 +220,7 @@ def test_the_section_shows_all_four_ends_of_the_chamfers(part: PartTable | None)
 
 def test_lines_to_the_side_of_an_undercut_cam_end_on_what_is_seen_of_it() -> None:
     """Of the half in front of the cutting plane, which is cut away, nothing is seen, however far it reaches."""
-    drawing = working_drawing_of(gc.solve(undercut_task()))
+    drawing = working_drawing_of(PartContents(gc.solve(undercut_task())))
     origin = drawing.pages[0].origins["section"]
     (section,) = [g for g in drawing.pages[0].groups if g.name == "section"]
     heads = np.concatenate([e.corners for e in section.entities if isinstance(e, Heads)]) - origin
@@ -228,9 +232,9 @@ def test_lines_to_the_side_of_an_undercut_cam_end_on_what_is_seen_of_it() -> Non
 
 
 def test_masses_have_no_powers_of_ten() -> None:
-    contents = part_contents(solved("coursework"))
     for width, told in ((0.0023, "0.0000675"), (230000.0, "6751")):
-        assert replace(contents, part=replace(contents.part, width=width)).title(1.0).mass == told
+        contents = PartContents(solved("coursework", part=PartTable(bore=28.0, width=width)))
+        assert contents.title(1.0).mass == told
 
 
 def test_a_cam_that_is_not_hardened_has_no_note_of_it() -> None:
@@ -266,5 +270,38 @@ def test_a_part_that_cannot_be_ends_the_command_with_one_message(tmp_path: Path)
 
 
 def test_two_runs_draw_the_same() -> None:
-    first, second = (working_drawing_of(solved("coursework")) for _ in range(2))
+    first, second = (working_drawing_of(PartContents(solved("coursework"))) for _ in range(2))
     assert texts(first) == texts(second)
+
+
+def test_a_given_size_is_told_as_it_is_given() -> None:
+    part = PartTable(bore=12.345, width=7.125, keyway="none", cutter_radius=3.125)
+    told = texts(drawn("coursework", part=part))
+    assert any(text.startswith("⌀12.345 H7") for text in told)
+    assert "7.125" in told
+    assert any("cutter of radius 3.125 mm" in text for text in told)
+
+
+def test_a_zero_mark_in_an_undercut_is_not_said_to_be_met() -> None:
+    phases = (ReturnTable(20.0, 30.0, "cosine"), DwellTable(300.0), RiseTable(40.0, 30.0, "cosine"))
+    task = gc.builtin_task()
+    sized = replace(
+        task,
+        motion=MotionTable(phases),
+        follower=TranslatingTable(offset=0.0, roller_radius=40.0),
+        cam=replace(task.cam, prime_radius=50.0),
+    )
+    contents = PartContents(gc.solve(sized))
+    assert not contents.outline.zero_met
+    notes = " ".join(texts(working_drawing_of(contents)))
+    assert "lost to the undercut" in notes
+    assert "there the follower meets" not in notes
+    assert all(PartContents(solved(name)).outline.zero_met for name in NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_built_in_task_is_called_in_the_language_of_the_sheet(name: str) -> None:
+    """What a Russian sheet says in its title block has no Latin letter."""
+    title = solved(name, language="ru").task.title
+    assert re.fullmatch(r"[А-Яа-яё ]+", title.told_name(language("ru").text))
+    assert title.told_name(str) == title.name
