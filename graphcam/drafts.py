@@ -33,7 +33,7 @@ def draft_folder(place: Path) -> Generator[Path]:
     ...     list(Path(place).iterdir())
     []
     """
-    _clear_drafts(place)
+    clear_drafts(place)
     draft, lock = _new_draft(place)
     try:
         yield draft
@@ -76,7 +76,7 @@ def _hold(lock: int) -> bool:
     return True
 
 
-def _clear_drafts(place: Path) -> None:
+def clear_drafts(place: Path) -> None:
     """Remove the drafts in a place whose runs are no more."""
     with suppress(OSError):
         for path in list(place.glob(f"{PREFIX}*")):

@@ -11,7 +11,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain, islice
@@ -26,8 +26,8 @@ BATCH = 16
 """Short jobs that travel together: less talk between processes, and still an even load."""
 BATCHES_AHEAD = 3
 """Batches a worker that are on their way: none waits, and not all jobs are in memory."""
-JOBS_AHEAD = 32
-"""Jobs that wait for an executor at a time where they come in order: they bound the memory."""
+JOBS_AHEAD = 128
+"""Jobs that wait for an executor at a time where they come in order: they bound the memory, and feed a cluster."""
 ANSWERED_WITHIN = 5.0
 """Seconds in which a scheduler must answer."""
 FEWEST_EXPECTED = 32
@@ -86,9 +86,22 @@ def worker_pool(workers: int, address: str, *preloaded: str) -> WorkerPool:
     return cluster(address) if address else processes(workers, *preloaded)
 
 
-def executor_of(workers: int) -> AbstractContextManager[Executor | None]:
-    """An executor of processes for :func:`in_order`; None for a single worker, whose jobs are done here."""
-    return processes(workers).executor() if workers > 1 else nullcontext()
+@contextmanager
+def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
+    """An executor for :func:`in_order`: of processes, or of the dask scheduler at an address that is not empty.
+
+    None for a single worker, whose jobs are done here.
+
+    Raises
+    ------
+    OSError : no scheduler answers at the address
+    TaskError : there is no dask
+    """
+    if not address and workers == 1:
+        yield None
+        return
+    with closing(worker_pool(workers, address)) as pool, pool.executor() as executor:
+        yield executor
 
 
 def in_order(executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[R]:

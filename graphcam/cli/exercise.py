@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
+Cluster = Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")]
 SECRET = b"simulation"
 """Of the simulated course."""
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
@@ -46,6 +47,8 @@ def simulate(
     hands: Annotated[int, Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
     as_json: Annotated[bool, Option("--json", help="Print the figures as JSON alone.")] = False,
     out: Annotated[Path | None, Option(parser=named, metavar="FILE", help="Write the JSON into a new file.")] = None,
+    workers: Annotated[int, Option(min=1, metavar="N", help="Processes; the figures are the same.")] = 1,
+    cluster: Cluster = "",
 ) -> None:
     """Let simulated students do an exercise: careful ones, and some with every catalogued mistake.
 
@@ -63,7 +66,12 @@ def simulate(
     with one_message():
         if out:
             check_new(out)
-        found = run(find_exercise(name), SECRET, variants, hands, lambda k, n: progress(f"variant {k} of {n}"))
+
+        def step(done: int, total: int) -> None:
+            """Tell which variant is done."""
+            progress(f"variant {done} of {total}")
+
+        found = run(find_exercise(name), SECRET, variants, hands, step, workers=workers, cluster=cluster)
         text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
         if out:
             write_new(out, text + "\n")
@@ -83,9 +91,12 @@ def _print_matrix(found: Simulation) -> None:
     print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
     for counted, value in (
         (f"careful students who lose any point, of {found.careful}", f"{found.false_rejections:.2%}"),
-        ("careful students remarked on as too exact", str(found.too_exact)),
+        ("careful students remarked on as exact as a program", str(found.too_exact)),
         ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
         ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
+        ("mistakes that are not looked for, taken for another", f"{found.outside_named:.2%}"),
+        (f"marks earned at most by a copy of another variant, of {found.copies.pairs}", f"{found.copies.best:.0%}"),
+        ("copies of another variant that earn more than half", f"{found.copies.part_above_half:.1%}"),
         (f"draws a variant, all {found.variants} separable", f"{found.draws:.2f}, at most {len(found.issued)}"),
     ):
         typer.echo(f"{counted}: {value}")
@@ -104,6 +115,7 @@ def make(
     / "exercise",
     language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
+    cluster: Cluster = "",
 ) -> None:
     """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
 
@@ -120,14 +132,16 @@ def make(
         progress(f"student {done} of {total}")
 
     with one_message():
-        count = run(name, roster, secret_file, out, language=language, workers=workers, step=step)
+        count = run(name, roster, secret_file, out, language=language, workers=workers, cluster=cluster, step=step)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 
 
 @exercise.command()
 def grade(
-    folder: Annotated[Path, Argument(parser=named, metavar="DIR", help="The folder with a folder for every student.")],
+    folder: Annotated[
+        Path, Argument(parser=named, metavar="DIR", help="The folder with a folder for every student, or a zip.")
+    ],
     secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
     out: Annotated[Path, Option(parser=named, metavar="CSV", help="The grades; reports of that name go beside it.")],
     exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
@@ -136,11 +150,31 @@ def grade(
     workers: Annotated[
         int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
     ] = os.cpu_count() or 1,
-    cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
+    cluster: Cluster = "",
     feedback: Annotated[
         Path | None, Option(parser=named, metavar="DIR", help="A page for every student goes there.")
     ] = None,
     gradebook: Annotated[str, Option(metavar="URL", help="Also enter the scores here, sqlite:///gradebook.db.")] = "",
+    trusted: Annotated[
+        bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
+    ] = False,
+    roster: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),
+    ] = None,
+    overrides: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."),
+    ] = None,
+    follow_through: Annotated[
+        float | None, Option(metavar="PART", help="Of its marks, for what follows from a student's own answers.")
+    ] = None,
+    near: Annotated[
+        float | None, Option(metavar="K", help="An answer earns a part of its marks up to K tolerances off.")
+    ] = None,
+    cap: Annotated[
+        list[str] | None, Option(metavar="MISTAKE=PART", help="Part of all marks left with a mistake; again for more.")
+    ] = None,
 ) -> None:
     """Grade what a course handed in: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
 
@@ -151,11 +185,19 @@ def grade(
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv
 
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv --level L2 --feedback pages
+
+    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --near 2 --cap offset-sign=0.5
     """
+    from graphcam.exercises.definition.marks_policy import caps_of
     from graphcam.exercises.grading.course_grading import Course, grade_course
 
     with one_message(), progress_bar("hand-ins") as step:
-        course = Course(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook)
+        said = {"follow_through": follow_through, "near": near, "caps": caps_of(cap or ())}
+        marks = {name: value for name, value in said.items() if value is not None}
+        course = Course(
+            *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
+            *(roster, overrides, marks),
+        )
         said = grade_course(course, step)
     typer.echo(said)
 
@@ -181,17 +223,19 @@ def export(
 
     graphcam exercise export whole-cam --format moodle --count 20 --out moodle
 
+    graphcam exercise export whole-cam --format moodle-cloze --count 20 --out cloze
+
     graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
     """
     from graphcam.exercises.course.course_folder import read_secret
-    from graphcam.exercises.course.roster import read_roster
+    from graphcam.exercises.course.roster import Student, read_roster
     from graphcam.exercises.exports.export import export as write
 
     with one_message(), progress_bar("variants") as step:
         secret = read_secret(secret_file) if secret_file else None
-        students = [f"variant-{k:0{len(str(count))}d}" for k in range(1, count + 1)]
+        students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
         if roster:
-            students = [student.id for student in read_roster(roster)]
+            students = read_roster(roster)
         write(name, target, students, out, secret, step, language)
     variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
     typer.echo(f"{variants} of {name} for {target} in {out}")
@@ -203,7 +247,9 @@ def speed(
         list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
     ] = None,
 ) -> None:
-    """Measure how many hand-ins one core reads and marks in a second, simulated students' as answers.toml.
+    """Measure how long papers take to make, and how many hand-ins one core grades in a second.
+
+    Read and marked alone, and as a whole course with its files; simulated students hand in answers.toml.
 
     [bold]Examples[/bold]
 
@@ -213,6 +259,7 @@ def speed(
     """
     from graphcam.bench.timing import Timer
     from graphcam.exercises.definition.exercise_file import find_exercise, library
+    from graphcam.exercises.grading.course_speed import course_speed
     from graphcam.exercises.grading.marking_speed import marking_speed
 
     progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
@@ -220,6 +267,8 @@ def speed(
     with one_message():
         for name in names or library():
             progress(name)
-            found = marking_speed(find_exercise(name), timer)
-            rows.append([found.exercise, f"{found.careful:.0f}", f"{found.wrong:.0f}"])
-    print_table(("hand-ins a second, one core", "careful", "with a mistake"), rows)
+            found, course = marking_speed(find_exercise(name), timer), course_speed(name)
+            rates = (found.careful, found.wrong, course.graded)
+            rows.append([found.exercise, *(f"{rate:.0f}" for rate in rates), f"{course.papers:.2f}"])
+    heads = ("hand-ins a second, one core", "careful", "with a mistake", "with files", "papers, s")
+    print_table(heads, rows)

@@ -48,7 +48,7 @@ _SETTINGS: dict[Any, Any] = {
 }
 
 
-def write_pdf(drawing: Drawing, path: str | os.PathLike[str]) -> None:
+def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> None:
     """All pages of a drawing in one PDF, 1 mm of the drawing 1 mm of paper."""
     about = {"Title": drawing.title, "Creator": "graphcam", "CreationDate": None}
     with mpl.rc_context(_SETTINGS), PdfPages(path, metadata=about) as pdf:

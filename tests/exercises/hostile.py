@@ -1,17 +1,16 @@
-"""Hand-ins that mean harm or mean nothing, built in a folder: data that breaks readers, and code that breaks out."""
+"""Hand-ins that mean harm or mean nothing, built in a folder: data that breaks readers.  Code stands elsewhere."""
 
 from __future__ import annotations
 
 import json
 import os
+import socket
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
 import ezdxf
 from ezdxf.document import Drawing
-
-from graphcam.exercises.running.launcher import MIME
 
 Build = Callable[[Path], object]
 
@@ -71,6 +70,71 @@ def _spline_through(count: int) -> Build:
     return drawing(lambda document: document.modelspace().add_spline([(k % 7, k % 5) for k in range(count)]))
 
 
+def cells(*contents: object, **top: object) -> Build:
+    """A notebook of cells as they are, with further entries at its top."""
+    return raw("answers.ipynb", json.dumps({"cells": contents, "metadata": {}, "nbformat": 4, **top}).encode())
+
+
+def tagged(**changed: object) -> dict[str, object]:
+    """An answer cell, but for what is changed."""
+    return {"cell_type": "code", "metadata": {"tags": ["answers"]}, "source": "{0} = []", "outputs": [], **changed}
+
+
+def dxf(*groups: object) -> Build:
+    """A drawing of nothing but group codes and values."""
+    return raw("answers.dxf", "".join(f"{group}\n" for group in groups).encode("utf-8", "surrogatepass"))
+
+
+def entities(*groups: object) -> Build:
+    """A drawing whose section of entities is made of group codes and values."""
+    return dxf(0, "SECTION", 2, "ENTITIES", *groups, 0, "ENDSEC", 0, "EOF")
+
+
+def _hard_link(folder: Path) -> None:
+    (folder / "answers.ipynb").write_bytes(b"[1]")
+    os.link(folder / "answers.ipynb", folder / "answers.toml")
+
+
+def _long_chain(folder: Path) -> None:
+    for k in range(60):
+        (folder / f"link{k}").symlink_to(f"link{k + 1}")
+    (folder / "answers.csv").symlink_to("link0")
+
+
+def _at_time(seconds: int) -> Build:
+    def build(folder: Path) -> None:
+        (folder / "answers.toml").write_text("{0} = []")
+        os.utime(folder / "answers.toml", (seconds, seconds))
+
+    return build
+
+
+def _socket(folder: Path) -> None:
+    place = os.open(folder, os.O_RDONLY)
+    with socket.socket(socket.AF_UNIX) as server:
+        # The path of a socket may be 107 bytes long.
+        server.bind(f"/proc/self/fd/{place}/answers.toml")
+    os.close(place)
+
+
+def _closed(folder: Path) -> None:
+    (folder / "answers.toml").write_text("{0} = []")
+    (folder / "answers.toml").chmod(0)
+
+
+def _blocks_in_blocks(document: Drawing) -> None:
+    for k in range(40):
+        block = document.blocks.new(f"B{k}")
+        for _ in range(2 if k else 0):
+            block.add_blockref(f"B{k - 1}", (0, 0))
+    document.modelspace().add_blockref("B39", (0, 0))
+
+
+def _block_of_itself(document: Drawing) -> None:
+    document.blocks.new("SELF").add_blockref("SELF", (0, 0))
+    document.modelspace().add_blockref("SELF", (0, 0))
+
+
 DATA: dict[str, Build] = {
     "infinite": toml("{0} = inf"),
     "not a number": toml("{0} = nan"),
@@ -124,50 +188,121 @@ DATA: dict[str, Build] = {
     "a DXF of a million lines": raw("answers.dxf", b"0\nLINE\n" * 500_000),
     "a block a billion times": drawing(_empty_blocks),
     "a spline through ten thousand points": _spline_through(10_000),
+    # Encodings.
+    "TOML in UTF-16": raw("answers.toml", "{0} = 1".encode("utf-16")),
+    "TOML in UTF-32": raw("answers.toml", "{0} = 1".encode("utf-32")),
+    "TOML in UTF-7": raw("answers.toml", b"+AHM- +AD0- 1"),
+    "TOML in EBCDIC": raw("answers.toml", "{0} = 1".encode("cp500")),
+    "half a surrogate": raw("answers.toml", b"{0} = '\xed\xa0\x80'"),
+    "an overlong NUL": raw("answers.toml", b"{0} = '\xc0\x80'"),
+    "Latin letters in CSV": raw("answers.csv", "{0},\xe9\xff\n".encode("latin-1")),
+    "CSV in UTF-16": raw("answers.csv", "{0},1\n".encode("utf-16")),
+    "a notebook in UTF-16": raw("answers.ipynb", '{{"cells": []}}'.encode("utf-16-le")),
+    "a notebook of half surrogates": raw(
+        "answers.ipynb", b'{{"cells": [{{"cell_type": "code", "source": "\\ud800"}}]}}'
+    ),
+    # TOML.
+    "a control character": raw("answers.toml", b"{0} = '\x01'"),
+    "a bare carriage return": raw("answers.toml", b"{0} = 1\r{0} = 2"),
+    "an offset of time": toml("{0} = 1979-05-27T07:32:00-99:99"),
+    "a time of the day": toml("{0} = 23:59:59.999999999999"),
+    "a hexadecimal of ten thousand digits": toml("{0} = 0x" + "f" * 10_000),
+    "ten thousand tables": toml("".join(f"[t{k}]\n" for k in range(7_000))),
+    "an array of tables twice": toml("[[answers]]\n{0} = 1\n[[answers]]\n{0} = 2"),
+    "a table over a value": toml("{0} = 1\n[{0}]\na = 1"),
+    "an inline table that grows": toml("a = {{}}\na.b = 1"),
+    "a text that never ends in TOML": toml('{0} = """' + "x" * 60_000),
+    "an escape beyond Unicode": toml('{0} = "\\UFFFFFFFF"'),
+    "nested inline tables": toml("{0} = " + "{{a=" * 12_000),
+    "an empty key": toml('"" = 1'),
+    "an answer under an answer": toml("[{0}]\n{0} = 1"),
+    # Names that look like others.
+    "full-width letters": raw("answers.toml", '"\uff53_max" = 1'.encode()),
+    "a name turned round": raw("answers.toml", '"\u202e{0}" = 1'.encode()),
+    "a name with nothing in it": raw("answers.toml", '"{0}\u200b" = 1'.encode()),
+    "a hundred accents": raw("answers.toml", ('"{0}' + "\u0301" * 5_000 + '" = 1').encode()),
+    "terminal codes in a name": raw("answers.toml", b'"\\u001b]0;x\\u0007\\u001b[2J" = 1'),
+    "a line break in a name": raw("answers.toml", b'"a\\nTOML: CSV" = 1'),
+    "HTML in a name": raw("answers.toml", b'"<a href=//x>" = 1'),
+    "a template in a name": raw("answers.toml", b'"{{{{ 7 * 7 }}}}%s%n" = 1'),
+    "a command for a spreadsheet": raw("answers.csv", b"=cmd|' /C calc'!A0,1\n@SUM(1),2\n+1,3\n-1,4\n\t=1,5\n"),
+    "a thousand unknown names": toml("".join(f"x{k} = 1\n" for k in range(3_000))),
+    # CSV.
+    "three columns": raw("answers.csv", b"{0},1,2\n{0},1,3\n"),
+    "one column": raw("answers.csv", b"{0}\n"),
+    "decimal commas without quotes": raw("answers.csv", b"{0},1,5,7\n{0};1,5\n"),
+    "a decimal comma that hides a thousand": raw("answers.csv", b'{0},"1,234,5"\n'),
+    "a hundred thousand lines": raw("answers.csv", b"\n" * 190_000),
+    "a field of 199 kB": raw("answers.csv", b"{0}," + b"9" * 199_000),
+    "digits of another script": raw("answers.csv", "{0},\u0967\u0968\u00b2\n".encode()),
+    "underscores in a number": raw("answers.csv", b"{0},1_0__0\n"),
+    "an infinite number spelled out": raw("answers.csv", b"{0},-Infinity\n"),
+    "a number and a formula": raw("answers.csv", b'{0},"=1+1"\n'),
+    "a file over its limit": raw("answers.csv", b"{0},1\n" * 100_000),
+    # Notebooks.
+    "a cell that is a list": cells([[]], [tagged()]),
+    "tags that are no list": cells(tagged(metadata={"tags": {"answers": 1}})),
+    "a source of numbers": cells(tagged(source=[1, 2, 3])),
+    "a source of lists": cells(tagged(source=[["{0} = 1"]])),
+    "cells that are a table": raw("answers.ipynb", b'{{"cells": {{"0": 1}}}}'),
+    "a notebook of version 2": raw("answers.ipynb", b'{{"worksheets": [{{"cells": []}}], "nbformat": 2}}'),
+    "NaN in JSON": raw("answers.ipynb", b'{{"cells": [NaN, Infinity]}}'),
+    "JSON with a huge integer": raw("answers.ipynb", b'{{"cells": ' + b"9" * 10_000 + b"}}"),
+    "a hundred thousand cells": cells(*[{"cell_type": "code"}] * 100_000),
+    "two tagged cells that disagree": cells(tagged(source="{0} = 'a'"), tagged(source="{0} = 'b'")),
+    "a list of itself in a cell": cells(tagged(source="{0} = [...]")),
+    "bytes for a literal": cells(tagged(source="{0} = b'12'")),
+    "a complex number": cells(tagged(source="{0} = 1e999j")),
+    "a set for a literal": cells(tagged(source="{0} = {{1, 2}}")),
+    "a lambda for a literal": cells(tagged(source="{0} = (lambda: 1)()")),
+    "a comprehension for a literal": cells(tagged(source="{0} = [0 for _ in range(10 ** 9)][0]")),
+    "a walrus": cells(tagged(source="({0} := 1)")),
+    "an f-string": cells(tagged(source="{0} = f'{{9 ** 9 ** 9}}'")),
+    "a NUL in a cell": cells(tagged(source="{0} = 1\0")),
+    "an octal integer of old": cells(tagged(source="{0} = 0777")),
+    "a literal times a literal": cells(tagged(source="{0} = 'x' * 10 ** 10")),
+    "a starred target": cells(tagged(source="*{0}, = 1,")),
+    "other scripts' letters in a cell": cells(tagged(source="\u0455_max = 1")),
+    # DXF.
+    "a section that never ends": dxf(0, "SECTION", 2, "ENTITIES", 0, "LINE", 8, "PITCH"),
+    "group codes that are no numbers": entities("zero", "LINE", "eight", "PITCH"),
+    "a coordinate of text": entities(0, "LINE", 8, "PITCH", 10, "ten", 20, "twenty"),
+    "a coordinate of 1e999": entities(0, "LINE", 8, "PITCH", 10, "1e999", 20, "nan", 11, "inf", 21, 0),
+    "a polyline that promises a billion": entities(0, "LWPOLYLINE", 8, "PITCH", 90, 10**9, 10, 0, 20, 0),
+    "a polyline that promises less than nothing": entities(0, "LWPOLYLINE", 8, "PITCH", 90, -1, 10, 0, 20, 0),
+    "a spline without knots": entities(0, "SPLINE", 8, "PITCH", 71, 3, 72, 0, 73, 0),
+    "a spline of degree a million": entities(0, "SPLINE", 8, "PITCH", 71, 10**6, 72, 3, 73, 1, 40, 0, 10, 0, 20, 0),
+    "a circle of negative radius": entities(0, "CIRCLE", 8, "PITCH", 10, 0, 20, 0, 40, -5),
+    "an arc of a million turns": entities(0, "ARC", 8, "PITCH", 10, 0, 20, 0, 40, 1, 50, 0, 51, 1e300),
+    "an ellipse of no ratio": entities(0, "ELLIPSE", 8, "PITCH", 10, 0, 20, 0, 11, 0, 21, 0, 40, 0),
+    "a layer of 100 kB": entities(0, "POINT", 8, "L" * 100_000, 10, 0, 20, 0),
+    "an odd number of lines": raw("answers.dxf", b"0\nSECTION\n2\nENTITIES\n0\nLINE\n8"),
+    "blocks in blocks in blocks": drawing(_blocks_in_blocks),
+    "a block of itself": drawing(_block_of_itself),
+    "an attribute that leads outside": entities(0, "IMAGE", 8, "PITCH", 1, "/etc/passwd"),
+    # What lies in the folder.
+    "a hard link to another kind": _hard_link,
+    "links to links": _long_chain,
+    "before the epoch": _at_time(-(1 << 31)),
+    "far in the future": _at_time(1 << 33),
+    "a socket": _socket,
+    "a file that nobody may read": _closed,
+    "an endless file of the system": lambda folder: (folder / "answers.csv").symlink_to("/proc/self/mem"),
+    "a link out by a descriptor": lambda folder: (folder / "answers.dxf").symlink_to("/proc/self/fd/0"),
+    "names of another case": raw("Answers.TOML ", b"{0} = 1"),
+    "an empty folder": lambda folder: None,
 }
 """What is read and never run; "{0}" stands for the name of an answer."""
 
-CODE: dict[str, str] = {
-    "an endless loop": "while True: pass",
-    "a loop that ignores being interrupted": """
-import signal
-for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM, signal.SIGXCPU):
-    signal.signal(number, signal.SIG_IGN)
-while True:
-    try:
-        while True: pass
-    except BaseException: pass""",
-    "20 GB": "x = bytearray(20 << 30)",
-    "memory bit by bit": "x = []\nwhile True: x.append(bytearray(10 << 20))",
-    "a fork bomb": "import os\nwhile True:\n    try: os.fork()\n    except OSError: pass",
-    "threads without end": "import threading as t, time\nwhile True: t.Thread(target=time.sleep, args=(60,)).start()",
-    "60 MB of output": "for _ in range(60): print('x' * 1_000_000)",
-    "sys.exit": "import sys\nsys.exit(0)",
-    "os._exit": "import os\nos._exit(0)",
-    "a crash of the interpreter": "import ctypes\nctypes.string_at(0)",
-    "a process that stays": """
-import os, time
-if os.fork() == 0:
-    os.setsid()
-    if os.fork() == 0:
-        time.sleep(300)
-    os._exit(0)""",
-    "abs redefined": "import builtins, math\nbuiltins.abs = lambda x: 0.0\nmath.isclose = lambda *a, **k: True",
-    "reading the key": "{0} = open({key!r}).read()",
-    "reading the secret": "{0} = open({secret!r}).read()",
-    "reading a neighbour": "{0} = open({neighbour!r}).read()",
-    "looking for the key": """
-import os
-{0} = [os.path.join(a, f) for a, _, fs in os.walk('/') if not a.startswith(('/proc', '/sys', '/usr')) for f in fs
-       if 'secret' in f or 'certificate' in f and f.endswith('.json')]""",
-    "writing the grade book": "open({grades!r}, 'w').write('all right')",
-    "the network": "import socket\nsocket.create_connection(('127.0.0.1', {port}), 2).send(b'hello')",
-    "path traversal": "open('../../../../../../tmp/graphcam-owned', 'w')",
-    "infinite answers": "{0} = float('inf')",
-    "answers that are no JSON": "import os\nos.write({pipe}, b'{{not json\\n')",
-    "answers without end": "import os\nwhile True: os.write({pipe}, b'[' * 65536)",
-    "answers twice in one": 'import os\nos.write({pipe}, b\'{{"{0}": 1, "{0}": 2}}\\n\')',
-    "deep answers": "import os\nos.write({pipe}, b'[' * 100000 + b'\\n')",
-    "a display of nonsense": "display({{'" + MIME + "': {{'{0}': 'all right', 'total': 100}}}}, raw=True)",
+NUMBERS = {
+    "the largest number": "1.7976931348623157e308",
+    "the least number": "5e-324",
+    "a number below the least": "1e-400",
+    "a zero with a sign": "-0.0",
+    "the largest negative number": "-1.7976931348623157e308",
+    "more digits than a number holds": "0." + "9" * 5_000,
+    "the largest whole number": str((1 << 63) - 1),
+    "a whole number that no double holds": str((1 << 53) + 1),
+    "an octal number": "0o777",
 }
-"""What is run; the names in braces are filled in."""
+"""Numbers that are read, in TOML, and are wrong."""

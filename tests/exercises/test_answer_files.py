@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import tomllib
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings, strategies as st
+from issued_variants import issued
 
 from graphcam.exercises.reading.answer_tables import DECIMAL_COMMA, toml_values
 from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.submission_files import from_files, read_files
 
 NUMBERS = st.recursive(
     st.integers(-(10**20), 10**20).map(str) | st.floats(allow_nan=False, allow_infinity=False).map(repr),
@@ -29,8 +32,11 @@ def agree(text: str) -> None:
     try:
         meant = repr(tomllib.loads(DECIMAL_COMMA.sub(r"\1.\2", text)))
     except ValueError:
-        with pytest.raises(UnreadableError):
-            toml_values("answers.toml", text.encode())
+        try:
+            found = toml_values("answers.toml", text.encode())
+        except UnreadableError:
+            return
+        assert any(isinstance(value, UnreadableError) for value in found.values())
     else:
         assert repr(toml_values("answers.toml", text.encode())) == meant
 
@@ -40,3 +46,77 @@ def agree(text: str) -> None:
 )
 def test_a_number_is_one_of_toml_not_of_json(number: str):
     agree(f"a = {number}")
+
+
+FILE = """# by Anna
+a = 1.5
+b = {bad}
+c = [[1, 2],
+     [3, 4]]
+d = 2,5
+"""
+
+
+@pytest.mark.parametrize("bad", ["2 mm", "", "1.2.3", "[1, 2", "1 # one\nhello", "1\nb = 2", "[" * 5000, "9" * 5000])
+def test_a_bad_line_loses_its_own_answer_only(bad: str):
+    found = toml_values("answers.toml", FILE.format(bad=bad).encode())
+    assert (found["a"], found["d"]) == (1.5, 2.5)
+    assert found["c"] == [[1, 2], [3, 4]]
+    lost = [name for name, value in found.items() if isinstance(value, UnreadableError)]
+    assert lost == (["hello"] if "hello" in bad else ["b"])
+
+
+def test_a_bad_line_of_the_table_of_answers_is_told_with_its_number():
+    found = toml_values("answers.toml", b"note = 3\n[answers]\na = 1\nb = 2 mm\n")
+    assert found.pop("b").why.values["line"] == 4
+    assert found == {"a": 1}
+
+
+def test_a_dotted_key_that_a_text_hid_is_not_read_by_itself():
+    """It takes tomllib minutes; in the whole file it stands in a text, by itself it would be a key."""
+    hidden = "x" + ".x" * 15_000 + " = 1"
+    found = toml_values("answers.toml", f'a = """\n{hidden}\n"""\nb = 2 mm\nc = 3'.encode())
+    assert found["c"] == 3
+    assert isinstance(found["x" + ".x" * 15_000], UnreadableError)
+
+
+@pytest.mark.parametrize(
+    ("there", "read", "said"),
+    [
+        ({"Answers.toml": "1"}, "1", "Answers.toml is read as answers.toml"),
+        ({"answers.toml.txt": "1"}, "1", "answers.toml.txt is read as answers.toml"),
+        ({"answers (1).toml": "1"}, "1", "answers (1).toml is read as answers.toml"),
+        ({"answers.toml": "1", "answers-1.toml": "2"}, "1", "answers-1.toml is not read, since there is answers.toml"),
+        (
+            {"answers (1).toml": "1", "answers (2).toml": "2"},
+            None,
+            "none of answers (1).toml, answers (2).toml is read: call the right one answers.toml",
+        ),
+        ({"my answers.toml": "1"}, None, "there is none of answers.toml, answers.csv, answers.ipynb, answers.dxf"),
+    ],
+)
+def test_a_file_that_is_called_otherwise_is_read_or_told(
+    tmp_path: Path, there: dict[str, str], read: str | None, said: str
+):
+    for name, text in there.items():
+        (tmp_path / name).write_text(text)
+    files, notes = read_files(tmp_path)
+    assert files == ({} if read is None else {"answers.toml": read.encode()})
+    assert [str(note) for note in notes] == [said]
+
+
+def test_a_link_that_is_called_otherwise_is_not_followed(tmp_path: Path):
+    (tmp_path / "key").write_text("1")
+    (tmp_path / "Answers.toml").symlink_to("key")
+    files, notes = read_files(tmp_path)
+    assert files == {}
+    assert "Answers.toml is a link; hand in the file itself" in map(str, notes)
+
+
+def test_a_bad_line_that_names_no_answer_is_told():
+    asked = issued("acceleration-and-scales")[0].answers
+    text = f"{asked[0].name} = 1.5\nhello there\n{asked[1].name} = 2 mm\n"
+    answers = from_files(asked, {"answers.toml": text.encode()})
+    assert answers.values == {asked[0].name: 1.5}
+    assert list(answers.problems) == [asked[1].name]
+    assert any("line 2 is not valid TOML" in str(note) for note in answers.notes)

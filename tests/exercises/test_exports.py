@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import base64
+import csv
+import email
+import hashlib
+import io
 import json
 import math
+import os
 import subprocess
 import sys
+import zipfile
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import nbformat
@@ -15,14 +23,16 @@ import pytest
 from issued_variants import SECRET, issued, key, marked
 from russian import english_words
 
+from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.exports import LearningSystem, gradescope
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.moodle import moodle_xml
+from graphcam.exercises.exports.package_wheel import write_wheel
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
@@ -81,7 +91,7 @@ def russian_texts(folder: Path) -> list[str]:
 
 @pytest.mark.parametrize("target", [LearningSystem.MOODLE, LearningSystem.NBGRADER])
 def test_an_export_is_in_the_language_of_the_course(target: LearningSystem, tmp_path: Path):
-    export("inversion-translating", target, ["Анна"], tmp_path / "out", SECRET, language="ru")
+    export("inversion-translating", target, [Student("Анна")], tmp_path / "out", SECRET, language="ru")
     exercise = find_exercise("inversion-translating", "ru")
     names = [asked.name for asked in exercise.answers]
     texts = russian_texts(tmp_path / "out")
@@ -145,7 +155,7 @@ def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it
     mine.parent.mkdir()
     mine.write_bytes(exercise_path(NAME).read_bytes())
     source = tmp_path / "autograder" / "source"
-    export(str(mine), LearningSystem.GRADESCOPE, ["anna@example.org"], source)
+    export(str(mine), LearningSystem.GRADESCOPE, [Student("anna@example.org")], source)
     mine.unlink()
     answer_key = AnswerKey.from_json(AnswerKeys(source / TEACHER).find("anna@example.org"))
     root = source.parent
@@ -176,9 +186,99 @@ def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it
     assert (root / "source" / "run_autograder").stat().st_mode & 0o111
 
 
+def gradescope_of(tmp_path: Path) -> Path:
+    """An autograder's folder, exported for a roster with addresses."""
+    roster = tmp_path / "roster.csv"
+    roster.write_text("id,email,name\n7,Anna@Example.org,Anna\n8,ben@example.org,Ben\n", encoding="utf-8")
+    root = tmp_path / "autograder"
+    export(NAME, LearningSystem.GRADESCOPE, read_roster(roster), root / "source", SECRET)
+    (root / "submission").mkdir()
+    values = key(issued(NAME, "7")[1])
+    text = "".join(f"{name} = {float(str(value))!r}\n" for name, value in values.items())
+    (root / "submission" / "answers.toml").write_text(text)
+    return root
+
+
+def hand_in_as(root: Path, email: str) -> None:
+    (root / "submission_metadata.json").write_text(json.dumps({"users": [{"email": email}]}))
+
+
+def test_gradescope_grades_by_the_rosters_addresses_and_gives_a_stranger_no_variant(tmp_path: Path):
+    root = gradescope_of(tmp_path)
+    kept = root / "source" / TEACHER / "certificates"
+    certificates = {path.name for path in kept.iterdir()}
+    assert certificates == {"7.json", "8.json"}
+    for address, share in (("anna@example.org", 1.0), ("BEN@example.org", None), ("stranger@example.org", 0.0)):
+        hand_in_as(root, address)
+        gradescope.main(root)
+        found = json.loads((root / "results" / "results.json").read_text())
+        assert set(found) <= RESULTS
+        if share is None:
+            # Another one's answers are not right for the own variant.
+            assert len(found["tests"]) > 0
+            assert found["score"] < issued(NAME)[0].marks
+        else:
+            assert found["score"] == share * issued(NAME)[0].marks
+    assert found["tests"] == []
+    assert "stranger@example.org" in found["output"]
+    assert {path.name for path in kept.iterdir()} == certificates
+
+
+def test_two_students_of_one_address_are_refused(tmp_path: Path):
+    students = [Student("7", email="a@example.org"), Student("8", email="A@example.org")]
+    with pytest.raises(TaskError, match=r"email.*a@example\.org.*'7'"):
+        export(NAME, LearningSystem.GRADESCOPE, students, tmp_path / "out", SECRET)
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_autograder_installs_the_wheel_that_lies_in_it_and_grades_with_that(tmp_path: Path):
+    root = gradescope_of(tmp_path)
+    hand_in_as(root, "anna@example.org")
+    assert "pip3 install /autograder/source/graphcam-*.whl" in (root / "source" / "setup.sh").read_text()
+    (wheel,) = (root / "source").glob("graphcam-*.whl")
+    elsewhere = tmp_path / "installed"
+    pip = ("-m", "pip", "install", "--no-deps", "--no-index", "--no-compile", "--target", str(elsewhere), str(wheel))
+    run(*pip)
+    # The folder stands before every other graphcam that is installed here.
+    environment = os.environ | {"PYTHONPATH": str(elsewhere)}
+    where = run("-c", "import graphcam; print(graphcam.__file__)", cwd=tmp_path, env=environment)
+    assert Path(where.strip()).is_relative_to(elsewhere)
+    run("-m", "graphcam.exercises.exports.gradescope", str(root), cwd=tmp_path, env=environment)
+    found = json.loads((root / "results" / "results.json").read_text())
+    assert found["score"] == issued(NAME)[0].marks
+    names = run("-m", "graphcam", "exercise", "list", cwd=tmp_path, env=environment)
+    assert NAME in names
+
+
+def test_every_file_of_the_wheel_is_recorded_with_its_digest(tmp_path: Path):
+    wheel = zipfile.ZipFile(write_wheel(tmp_path))
+    names = wheel.namelist()
+    assert len(names) == len(set(names))
+    (record,) = (name for name in names if name.endswith(".dist-info/RECORD"))
+    rows = list(csv.reader(io.StringIO(wheel.read(record).decode())))
+    assert [row[0] for row in rows] == names
+    for name, digest, size in rows[:-1]:
+        data = wheel.read(name)
+        coded = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode().rstrip("=")
+        assert (digest, int(size)) == (f"sha256={coded}", len(data))
+    assert rows[-1][1:] == ["", ""]
+    about = email.message_from_bytes(wheel.read(record.replace("RECORD", "METADATA")))
+    assert about["Name"] == "graphcam"
+    assert any(one.startswith("numpy") for one in about.get_all("Requires-Dist", []))
+    assert "graphcam/data/fonts/osifont.ttf" in names
+    assert "graphcam/exercises/library/whole-cam.toml" in names
+
+
+def run(*command: str, **settings: Any) -> str:
+    """What a Python of its own prints."""
+    done = subprocess.run([sys.executable, *command], capture_output=True, text=True, check=False, **settings)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
-    export(NAME, LearningSystem.NBGRADER, list(IDS), tmp_path / "course", SECRET)
+    export(NAME, LearningSystem.NBGRADER, [Student(name) for name in IDS], tmp_path / "course", SECRET)
     (tmp_path / "secret").write_bytes(SECRET)
     return tmp_path / "course"
 
@@ -243,6 +343,37 @@ def test_nbgrader_takes_the_course_and_its_grade_book_the_scores(course: Path):
                 assert book.find_grade(*where).score == answer["marks"]
                 assert not book.find_grade(*where).needs_manual_grade
                 assert (book.find_comment(*where).comment or "").startswith(f"{answer['name']}: ")
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of nbgrader's own use of its database
+def test_what_was_changed_in_the_grade_book_stays_and_is_told(course: Path):
+    """Marks that were found anew are entered where nobody changed those before."""
+    from nbgrader.api import Gradebook
+
+    submission(course, course / "source" / NAME / "answers.ipynb")
+    order = Course(course, course.parent / "secret", course / "grades.csv", gradebook=f"sqlite:///{course / 'book.db'}")
+    first, second = (asked.name for asked in issued(NAME)[0].answers[:2])
+    assert "grade book" not in grade_course(order)
+    with Gradebook(order.gradebook, NAME) as book:
+        changed = book.find_grade(first, "answers", NAME, "Anna")
+        changed.manual_score = 0.25
+        book.find_comment(second, "answers", NAME, "Anna").manual_comment = "well drawn"
+        book.db.commit()
+    (course / "teacher" / "overrides.csv").write_text(
+        f"student,answer,marks,comment\nAnna,{first},0.5,\nAnna,{second},0.75,see me\n{IDS[1]},{first},0.75,\n"
+    )
+    for _ in range(2):
+        told = grade_course(order).splitlines()[1:]
+        assert told == [
+            f"Anna, {first}: the grade book keeps 0.25, not 0.5",
+            f"Anna, {second}: the grade book keeps its comment",
+        ]
+        with Gradebook(order.gradebook, NAME) as book:
+            scores = [book.find_grade(name, "answers", NAME, "Anna").manual_score for name in (first, second)]
+            assert scores == [0.25, 0.75]
+            assert book.find_comment(second, "answers", NAME, "Anna").manual_comment == "well drawn"
+            assert book.find_grade(first, "answers", NAME, IDS[1]).manual_score == 0.75
 
 
 def nbgrader(course: Path, *command: str) -> str:

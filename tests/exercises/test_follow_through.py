@@ -52,7 +52,7 @@ def three(
     hypotheses = {name: Hypothesis.of(Expected(each, scatter) for each in values) for name, values in mistakes.items()}
     dependences = {"second": rule or Rule(twice), "third": Rule(lambda own: 2 * own["second"])}
     return replace(exercise, answers=(FIRST, replace(SECOND, unit=unit), THIRD)), replace(
-        answer_key, bound=2.0, keys=keys, hypotheses=hypotheses, dependences=dependences, too_exact=0.25
+        answer_key, bound=2.0, keys=keys, hypotheses=hypotheses, dependences=dependences
     )
 
 
@@ -133,33 +133,6 @@ def test_a_mistake_costs_where_it_shows_first_and_nothing_after():
     assert outcomes(mark(*of, Answers(answers))) == {"first": "right", "second": "wrong", "third": "follow-through"}
     # What the mistake does not bring is a slip of its own.
     assert outcome(answers | {"third": 72.0}, of, "third") == "wrong"
-
-
-def test_the_answers_are_too_exact_below_the_root_mean_square_that_no_hand_reaches():
-    exercise, answer_key = three()
-
-    def too_exact(*off: float, drawn: tuple[bool, ...] = (True, True, True)) -> bool:
-        keys = {
-            name: replace(key, drawn=by_hand)
-            for (name, key), by_hand in zip(answer_key.keys.items(), drawn, strict=True)
-        }
-        answers = {
-            name: key.expected.value + 0.5 * each
-            for (name, key), each in zip(answer_key.keys.items(), off, strict=False)
-        }
-        return mark(exercise, replace(answer_key, keys=keys), Answers(answers)).too_exact
-
-    # Of 0.25 deviations it is not too exact, of less it is.
-    assert not too_exact(0.25, -0.25, 0.25)
-    assert too_exact(0.25, -0.25, 0.24)
-    # One that is far off makes the others credible; the signs do not cancel.
-    assert too_exact(0.43, 0.0, 0.0)
-    assert not too_exact(0.44, 0.0, 0.0)
-    assert not too_exact(0.43, -0.43, 0.0)
-    # Three it takes, and only what is drawn counts.
-    assert not too_exact(0.0, 0.0)
-    assert not too_exact(0.0, 0.0, 0.0, drawn=(True, True, False))
-    assert not too_exact(0.0, 0.0, 0.0, drawn=(False, False, False))
 
 
 def test_an_answer_that_stands_there_and_cannot_be_read_is_not_a_missing_one():

@@ -20,6 +20,7 @@ from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
 from graphcam.exercises.course.handouts import answer_file, instructions, key_sheet, notebook, worksheet
+from graphcam.exercises.course.make import make
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain
@@ -181,6 +182,27 @@ def test_a_course_is_made_whole(tmp_path):
     again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert again.exit_code == 2
     assert "there already" in again.output
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of the cluster's own closing
+def test_processes_and_a_cluster_make_the_same_files(tmp_path):
+    from distributed import LocalCluster
+
+    (tmp_path / "secret").write_bytes(SECRET)
+    (tmp_path / "roster.csv").write_text("id\nAnna\n../x\nАнна\n", encoding="utf-8")
+
+    def made(name: str, workers: int = 1, cluster: str = "") -> dict[str, bytes]:
+        out = tmp_path / name
+        people, secret = tmp_path / "roster.csv", tmp_path / "secret"
+        assert make("integration", people, secret, out, workers=workers, cluster=cluster) == 3
+        return {str(path.relative_to(out)): path.read_bytes() for path in sorted(out.rglob("*")) if path.is_file()}
+
+    one = made("one")
+    assert len([name for name in one if name.endswith("worksheet.pdf")]) == 3
+    assert made("two", workers=2) == one
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        assert made("cluster", cluster=cluster.scheduler_address) == one
 
 
 @pytest.mark.parametrize("name", [name for name in library() if name != "differentiation"])

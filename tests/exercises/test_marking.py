@@ -155,7 +155,7 @@ def test_every_mistake_is_named_and_costs_something(name):
         record = mark(exercise, answer_key, Answers(answers))
         assert record.diagnosis is not None
         assert record.diagnosis.misconception == mistake
-        assert record.diagnosis.confidence > 0.99
+        assert record.diagnosis.confidence > 0.95
         assert record.total < record.of
         assert str(misconception(mistake).said) in record.feedback
 
@@ -246,12 +246,43 @@ def test_a_curve_is_marked_by_its_distance_and_shows_the_worst_place():
     bent[7] *= 1.1
     record = marked("inversion-translating", pitch=bent)
     answer = next(each for each in record.answers if each.name == "pitch")
-    assert answer.outcome == "wrong"
+    assert answer.outcome == "partial"
     assert answer.station == 7
     assert answer.given == [[z.real, z.imag] for z in bent]
     assert answer.off_paper == pytest.approx(0.1 * abs(pitch[7]), rel=0.5)
-    # Half of the curve is not the curve.
-    assert outcomes(marked("inversion-translating", pitch=pitch[:13]))["pitch"] == "wrong"
+
+
+def test_a_curve_without_its_dwells_earns_the_part_that_is_drawn():
+    # The stations of the moving phases, joined by chords: those across the dwells lie far off the arcs.
+    exercise, answer_key = issued("inversion-translating")
+    chain = board_chain(drawn(exercise, "Anna", SECRET, answer_key.draw).task)
+    chords, whole = chain.inversion.points["pitch"], key(answer_key)["pitch"]
+    record = marked("inversion-translating", pitch=chords)
+    pitch = next(each for each in record.answers if each.name == "pitch")
+    assert pitch.outcome == "partial"
+    assert pitch.off_paper > 20
+    # Of the true curve as much is there as does not belong to a dwell.
+    stations = chain.board.stations
+    inside = np.delete(np.abs(np.diff(chords)), stations.last[:-1]).sum()
+    share = inside / np.abs(np.diff(np.append(whole, whole[0]))).sum()
+    assert 0 <= 4 * share - pitch.marks < 0.1
+    # And every place on a dwell's arc is looked at: one arc alone missing is a loss as well.
+    arc = np.flatnonzero(np.isin(whole, chords))[stations.last[0]]
+    assert (
+        outcomes(marked("inversion-translating", pitch=np.delete(whole, slice(arc + 1, arc + 5))))["pitch"] == "partial"
+    )
+
+
+def test_an_open_curve_earns_the_part_that_is_drawn():
+    whole = key(issued("inversion-translating")[1])["pitch"]
+    length = np.abs(np.diff(np.append(whole, whole[0])))
+    for count in (20, 25, 30):
+        record = marked("inversion-translating", pitch=whole[:count])
+        pitch = next(each for each in record.answers if each.name == "pitch")
+        assert pitch.outcome == "partial"
+        assert 0 <= 4 * length[: count - 1].sum() / length.sum() - pitch.marks < 0.1
+    # Less than half earns nothing: with the offset to the wrong side the dwells lie on the right circles as well.
+    assert outcomes(marked("inversion-translating", pitch=whole[:10]))["pitch"] == "wrong"
 
 
 def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
@@ -275,12 +306,12 @@ def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
         "drawn backwards": (closed[::-1], "right"),
         "drawn twice": (np.concatenate([closed, closed]), "right"),
         "begun elsewhere": (np.roll(smooth, 50), "right"),
-        "scribbled through everything": (scribble, "wrong"),
+        "scribbled through everything": (scribble, "partial"),
         "a line ruled back and forth over the sheet": (zigzag(1.3 * float(np.abs(points).max()), 0.5), "wrong"),
-        "one spike": (out_and_back, "wrong"),
-        "a line drawn across": (across, "wrong"),
-        "a dwell bulging out": (np.concatenate([smooth, 1.2 * dwell(smooth, points)]), "wrong"),
-        "half of it": (points[:half], "wrong"),
+        "one spike": (out_and_back, "partial"),
+        "a line drawn across": (across, "partial"),
+        "a dwell bulging out": (np.concatenate([smooth, 1.2 * dwell(smooth, points)]), "partial"),
+        "half of it": (points[:half], "partial"),
         "a single point": (points[:1], "wrong"),
         "one point many times": (np.repeat(points[:1], 30), "wrong"),
         "as far as numbers go": (np.append(points, 1e15 + 0j), "wrong"),

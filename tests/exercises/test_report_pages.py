@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +15,18 @@ from russian import english_words
 
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, per_mm
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.definition.variant import drawn, fill_in
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.reports.first_step_off import PASSED_ON, first_step_off, shown_by
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
+from graphcam.exercises.reports.unrolled_drawings import HEIGHT, PLACES, bundle, deviations_along, key_line
+from graphcam.plots.step_board import StepBoard
 
 NAME = "inversion-translating"
 HOSTILE = "<img src=http://127.0.0.1/x onerror=alert(1)>"
@@ -132,11 +140,14 @@ def test_the_pages_of_a_russian_course_are_russian(pages: Path):
     answer_keys = {student: AnswerKey.from_json(kept.find(student)) for student in IDS}
     # The sentences of a record were said when it was marked; here the pages' own words are looked at.
     records = [record | {"feedback": [], "notes": []} for record in records if record["student"] != HOSTILE]
-    html = [group_page(exercise, records, answer_keys)]
+    alike = [AlikePair(IDS[1], IDS[2], kind, ("s_4",), 1e-4) for kind in ("variant", "wrong numbers")]
+    html = [group_page(exercise, records, answer_keys, alike)]
+    assert html[0].count("0,0001") == 2
     html += [student_page(exercise, record, answer_keys[record["student"]]) for record in records]
     for page in html:
         text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)
-        assert english_words(text, (*IDS, *(asked.name for asked in exercise.answers))) == set()
+        names = (*IDS, *(asked.name for asked in exercise.answers), *exercise.parameters)
+        assert english_words(text, names) == set()
         assert not re.search(r"\d\.\d", text)
 
 
@@ -152,3 +163,141 @@ def test_a_bump_is_circled_where_it_is(pages: Path):
     assert spot is not None
     place = key(issued(NAME, "Clara")[1])["pitch"][9]
     assert abs(complex(float(spot[1]), -float(spot[2])) - place) == pytest.approx(4.0, abs=0.6)
+
+
+def words_of(html: str) -> str:
+    return re.sub(r"\s+", " ", re.sub(r"<style>.*?</style>|<[^>]*>", " ", html, flags=re.DOTALL))
+
+
+def test_a_student_reads_every_sentence_once_and_in_the_row_of_its_answer(pages: Path):
+    for record in json.loads((pages / "grades.json").read_text()):
+        html = unescape(page_of(pages, record["student"]).read_text())
+        rows = re.findall(r"<tr><td>.*?</tr>", html, flags=re.DOTALL)
+        assert len(rows) == len(record["answers"])
+        for answer, row in zip(record["answers"], rows, strict=True):
+            begin = f"{answer['name']}: "
+            said = next(each.removeprefix(begin) for each in record["feedback"] if each.startswith(begin))
+            tail = said[1:]
+            if answer["outcome"] not in ("right", "missing"):
+                assert tail in words_of(row)
+                assert words_of(html).count(tail) == sum(each.endswith(tail) for each in record["feedback"])
+        remarks = record["feedback"][len(record["answers"]) :]
+        assert re.findall(r"<li>(.*?)</li>", html, flags=re.DOTALL) == [*remarks, *record["notes"]]
+
+
+def test_a_drawing_has_a_scale_and_its_worst_place_stands_enlarged(pages: Path):
+    html = page_of(pages, "Clara").read_text()
+    whole, detail = re.findall(r'<svg class="paper.*?</svg>', html, flags=re.DOTALL)
+    for picture in (whole, detail):
+        assert re.search(r'class="bar" d="M[-\d. ]+h10"', picture)
+        assert "10 mm" in picture
+    boxes = [[float(x) for x in re.search(r'viewBox="(.*?)"', one)[1].split()] for one in (whole, detail)]
+    widths = [float(re.search(r' width="(\d+)"', one)[1]) for one in (whole, detail)]
+    # The detail shows a millimetre at least twice as long, and the circled place is its middle.
+    assert widths[1] / boxes[1][2] > 2 * widths[0] / boxes[0][2]
+    spot = re.search(r'class="spot" cx="(-?[\d.]+)" cy="(-?[\d.]+)"', whole)
+    left, top, width, height = boxes[1]
+    assert (left + width / 2, top + height / 2) == pytest.approx((float(spot[1]), float(spot[2])), abs=0.06)
+    assert html.count('class="paper') == 2
+    assert page_of(pages, "Anna").read_text().count('class="paper') == 1
+
+
+def test_the_teacher_sees_all_drawings_unrolled_along_their_keys(pages: Path):
+    """Of the three that were drawn Anna's lies on the key, and Boris' goes out and in; of three the median is there."""
+    html = (pages / "grades.html").read_text()
+    assert html.count('<polyline class="each"') == 3
+    assert html.count('<polyline class="median"') == 1
+    assert "pitch: all 3 drawings" in html
+
+
+@pytest.mark.parametrize(("turn", "name"), [(1, "outwards"), (-1, "outwards, drawn the other way round")])
+def test_a_drawing_that_lies_outside_its_arcs_deviates_outwards_by_as_much(turn: int, name: str):
+    stations = np.exp(1j * turn * np.arange(24) * np.pi / 12) * 40
+    circle = Expected(stations, np.ones(24), np.full(24, turn * np.tan(np.pi / 48)))
+    assert np.abs(key_line(circle)) == pytest.approx(np.full(key_line(circle).size, 40.0))
+    outside = 43 * np.exp(1j * np.linspace(0, 2 * np.pi, 400))
+    # Between the places of the key its arc is a chord, of little rise.
+    assert deviations_along(circle, outside, "curve") == pytest.approx(np.full(PLACES, 3.0), abs=0.05), name
+    assert deviations_along(circle, outside / 43 * 38, "curve") == pytest.approx(np.full(PLACES, -2.0), abs=0.05), name
+
+
+def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_bounded_number_of_lines():
+    drawings = [np.full(PLACES, 0.01 * k) for k in range(401)]
+    shown = bundle(drawings, 1.0)
+    assert (shown.count, len(shown.lines)) == (401, 300)
+    most = shown.ticks[-1][1]
+
+    def deviations_of(line: str) -> set[float]:
+        return {round((HEIGHT / 2 - float(point.split(",")[1])) * 2 * most / HEIGHT, 1) for point in line.split()}
+
+    assert deviations_of(shown.median) == {2.0}
+    assert deviations_of(shown.quartiles) == {1.0, 3.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        # The ordinates of v and s stand on paper long before their scales are found.
+        ("integration", {"v_2": 1, "v_max_paper": 1, "s_2": 4, "s_max": 4, "mu_v": 1, "v_max": 1}),
+        ("inversion-translating", {"s_4": 4, "radius_4": 2, "x_4": 2, "y_4": 2, "angle_4": 2, "pitch": 2}),
+        ("inversion-arm", {"psi_4": 4, "pivot_4": 1, "pivot_y_4": 1, "radius_8": 3, "angle_8": 3, "rollers": 3}),
+        ("pressure-angle", {"s0": 1, "v_4": 1, "D_4": 1, "alpha_4": 1, "alpha_8": 1}),
+    ],
+)
+def test_the_step_that_shows_an_answer_is_known(name: str, shown: dict[str, int]):
+    exercise = find_exercise(name)
+    chain = board_chain(drawn(exercise, "Anna", SECRET, 0).task)
+    found = {asked.name: shown_by(construction_of(chain, asked.construction), asked) for asked in exercise.answers}
+    assert found == shown
+
+
+def test_a_line_is_named_by_its_own_step_though_its_ends_are_hidden_too():
+    exercise = find_exercise("pressure-angle")
+    chain = board_chain(drawn(exercise, "Anna", SECRET, 0).task)
+    construction = construction_of(chain, "pressure_angle")
+    alpha = next(asked for asked in exercise.answers if asked.name == "alpha_4")
+    assert (
+        str(construction.steps()[shown_by(construction, alpha, PASSED_ON)].title)
+        == "The pressure angle at every station"
+    )
+
+
+def test_a_page_draws_the_construction_up_to_the_first_step_that_is_off_and_no_farther(pages: Path):
+    exercise = find_exercise(NAME)
+    records = {record["student"]: record for record in json.loads((pages / "grades.json").read_text())}
+    for student in ("Boris", "Clara"):
+        found = first_step_off(exercise, records[student])
+        assert found is not None
+        off = next(answer for answer in records[student]["answers"] if answer["outcome"] in ("wrong", "partial"))
+        assert found.answer == off["name"]
+        assert str(found.step) == "Displacements laid off"
+        assert found.notebook == 5
+        html = page_of(pages, student).read_text()
+        assert "go through “Displacements laid off” again" in html
+        assert found.picture is not None
+        assert ('class="mine"' in html) == bool(found.picture.own)
+        # A place of the pitch curve, which the next step finds, is the end of no line and no dot's place.
+        chain = board_chain(fill_in(exercise, records[student]["parameters"]))
+        steps = construction_of(chain, "inversion").steps()
+        board = StepBoard((), steps[:2])
+        places = board.origin + board.factor * key(issued(NAME, student)[1])["pitch"]
+        drawn_places = [
+            complex(float(x), found.picture.height - float(y))
+            for x, y in re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", found.picture.drawn)
+        ]
+        near = [min(abs(place - other) for other in drawn_places) < 0.15 for place in places]
+        assert np.mean(near) < 0.5
+    # Boris' x is a line across the view, as far to the right of the centre as he said.
+    found = first_step_off(exercise, records["Boris"])
+    assert found is not None
+    assert found.picture is not None
+    chain = board_chain(fill_in(exercise, records["Boris"]["parameters"]))
+    board = StepBoard((), construction_of(chain, "inversion").steps()[:2])
+    asked = next(asked for asked in exercise.answers if asked.name == "x_4")
+    given = next(answer["given"] for answer in records["Boris"]["answers"] if answer["name"] == "x_4")
+    at = board.origin.real + board.factor * given / per_mm(chain, asked)
+    assert float(found.picture.own.split(",")[0]) == pytest.approx(at, abs=0.06)
+    assert first_step_off(exercise, records["Anna"]) is None
+    assert "The first step that is off" not in page_of(pages, "Anna").read_text()
+    # What was never read has no variant either where the record knows none.
+    assert first_step_off(exercise, records["Boris"] | {"parameters": {}}) is None

@@ -6,14 +6,19 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from issued_variants import issued
+from issued_variants import issued, key
+from typer.testing import CliRunner
 
+from graphcam.cli import app
+from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.marking import simulate as module
+from graphcam.exercises.marking.copy_gain import CopyGain, copy_gain
+from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.simulate import SimulatedRow, Simulation, simulate
 
 MISTAKES = ("offset-sign", "base-circle")
 CAREFUL = [(8, None, True), (8, None, True), (8, None, False), (7, "base-circle", False), (8, None, False)]
-"""Marks of 8, the mistake named, and whether it is remarked on as too exact: of five hands on each variant."""
+"""Marks of 8, the mistake named, and whether it is remarked on as exact as a program: of five hands on each variant."""
 SLIPS = {
     "offset-sign": [(8, None, False)] * 2 + [(5, "base-circle", True)] + [(3, "offset-sign", False)] * 2,
     "base-circle": [(3, "base-circle", False)] * 4 + [(8, "base-circle", False)],
@@ -49,6 +54,9 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     original = module._Tally.mark
     monkeypatch.setattr(module._Tally, "mark", counted)
     monkeypatch.setattr(module, "answers_of", answers_of)
+    monkeypatch.setattr(module, "unlisted", lambda *_: ())
+    monkeypatch.setattr(module, "copy_gain", lambda _, done: CopyGain(len(done)))
+    monkeypatch.setattr(module, "without", lambda *_: None)
     monkeypatch.setattr(module, "mark", mark)
     monkeypatch.setattr(module, "issue", lambda *_: (SimpleNamespace(draw=next(students), task=None), None))
     monkeypatch.setattr(module, "board_chain", lambda task, pencil: chain(CAREFUL, pencil.seed))
@@ -75,7 +83,7 @@ def test_every_record_is_counted_once(figures):
     }
     assert found.issued == (1, 0, 2)
     assert progress == [(1, 3), (2, 3), (3, 3)]
-    assert len(marked) == 3 * 15
+    assert len(marked) == 3 * 25  # the ten wrong ones again, their mistake left out of the key
     first, points = marked[2], marked[2]["p"]
     assert [first[name] for name in "abcd"] == [2.0, 12.0, 22.0, 32.0]
     assert {type(first[name]) for name in "abcd"} == {float}
@@ -87,8 +95,12 @@ def test_the_rates_are_parts_of_the_hands(figures):
     assert found.false_rejections == 3 / 15
     assert found.false_acceptances == 9 / 30
     assert found.right_diagnoses == 21 / 30
+    # Marked once more without their mistake: six of thirty earn all marks and are told nothing.
+    assert found.left_out == module.OutsideCount(24, 24)
+    assert found.outside_named == 1.0
     assert found.draws == (1 * 1 + 3 + 3) / 3
     said = found.to_dict()
+    assert said["copies"] == {"pairs": 3, "best": 0.0, "above_half": 0}
     assert [said[rate] for rate in ("false_rejections", "right_diagnoses", "draws")] == [0.2, 0.7, 7 / 3]
     assert found.rows["offset-sign"].right("offset-sign") == 6 / 15
     assert found.rows["offset-sign"].right("polar-angle") == 0.0
@@ -109,3 +121,22 @@ def test_real_hands_are_all_marked():
     exercise, _ = issued("integration")
     found = simulate(exercise, b"any", 1, 4)
     assert (found.careful, [row.hands for row in found.rows.values()]) == (4, [4] * len(exercise.misconceptions))
+
+
+def test_every_variant_is_marked_by_every_others_key():
+    exercise, first = issued("integration")
+    second = issued("integration", "Boris")[1]
+    right = [(each, Answers(key(each))) for each in (first, second)]
+    parts = [mark(exercise, each, Answers(key(other))).total / exercise.marks for each, other in
+             ((first, second), (second, first))]  # fmt: skip
+    found = copy_gain(exercise, right)
+    assert found == CopyGain(2, max(parts), sum(part > 0.5 for part in parts))
+    assert found.best < 1.0
+    # Who copies from the same variant has all marks, and one alone has nobody to copy from.
+    assert copy_gain(exercise, [right[0], right[0]]) == CopyGain(2, 1.0, 2)
+    assert copy_gain(exercise, right[:1]) == CopyGain()
+
+
+def test_the_share_of_copies_is_simulated_and_printed():
+    result = CliRunner().invoke(app, ["exercise", "simulate", "integration", "--variants", "2", "--hands", "2"])
+    assert "by a copy of another variant, of 2:" in " ".join(result.output.split())

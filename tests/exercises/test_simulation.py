@@ -13,6 +13,8 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise_file import find_exercise, library
+from graphcam.exercises.grading import course_speed
+from graphcam.exercises.grading.course_grading import grade_course
 from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.grading.marking_speed import HANDS, SECRET as SPEED_SECRET, simulated
 from graphcam.exercises.marking.simulate import simulate
@@ -107,6 +109,19 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
     assert simulate(find_exercise("integration"), SECRET, 1, 20).false_rejections == 1.0
 
 
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")  # of the cluster's own closing
+def test_processes_and_a_cluster_count_the_same():
+    from distributed import LocalCluster
+
+    exercise = find_exercise("integration")
+    one = simulate(exercise, SECRET, 3, 10)
+    assert one.careful == 30
+    assert simulate(exercise, SECRET, 3, 10, workers=2) == one
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        assert simulate(exercise, SECRET, 3, 10, cluster=cluster.scheduler_address) == one
+
+
 def test_what_is_timed_is_the_work_that_hand_ins_make():
     """Careful ones are read and earn their marks, curves too; in the others the mistake is found."""
     exercise = find_exercise("inversion-translating")
@@ -122,5 +137,20 @@ def test_what_is_timed_is_the_work_that_hand_ins_make():
 def test_the_speed_of_marking_is_printed():
     result = CliRunner().invoke(app, ["exercise", "speed", "acceleration-and-scales"])
     row = next(line for line in result.stdout.splitlines() if "acceleration-and-scales" in line)
-    careful, wrong = (float(cell) for cell in re.findall(r"\d+", row))
-    assert min(careful, wrong) > 0
+    careful, wrong, course, papers = (float(cell) for cell in re.findall(r"[\d.]+", row))
+    assert min(careful, wrong, course, papers) > 0
+
+
+def test_the_course_that_is_timed_is_graded_as_any_other(tmp_path, monkeypatch):
+    """Every folder has its record, with the marks of careful students."""
+    monkeypatch.setattr(course_speed, "GRADED", 70)
+    exercise = find_exercise("integration")
+    course = course_speed.course_at(tmp_path, "integration", exercise)
+    kept = sorted(path.read_bytes() for path in (tmp_path / "teacher" / "certificates").iterdir())
+    grade_course(course)
+    records = json.loads(course.out.with_suffix(".json").read_text(encoding="utf-8"))
+    assert len(records) == 70
+    assert not any(record["notes"] for record in records)
+    assert sum(record["total"] == exercise.marks for record in records) >= 0.9 * 70
+    # No answer key was made anew, which would take longer than all else.
+    assert sorted(path.read_bytes() for path in (tmp_path / "teacher" / "certificates").iterdir()) == kept

@@ -154,7 +154,7 @@ ISSUED = {
     "differentiation": [1, 2, 0],
     "integration": [3, 1, 1],
     "inversion-arm": [0, 2, 0],
-    "inversion-translating": [44, 12, 0],
+    "inversion-translating": [44, 23, 1],
     "least-radius": [0, 1, 0],
     "least-radius-offset": [4, 6, 7],
     "pressure-angle": [0, 0, 0],

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.roster import folder_name, is_cut, student_of
+from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
 from graphcam.language import ENGLISH
 
 STUDENTS, TEACHER = "students", "teacher"
@@ -21,6 +21,8 @@ COURSE = "course.json"
 """In the teacher's folder, what the course is about."""
 KEPT = "certificates"
 """In the teacher's folder, or the hidden one, the answer keys."""
+ROSTER = "roster.csv"
+"""In the teacher's folder, the roster that the course was made for."""
 HIDDEN = ".graphcam"
 """Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
 
@@ -39,7 +41,8 @@ class AnswerKeys:
             if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():
                 return course / submissions, AnswerKeys(course / TEACHER)
         beside = course.resolve().parent / TEACHER
-        if course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir():
+        # What a learning system packed may have any name.
+        if (beside / COURSE).is_file() or (course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir()):
             return course, AnswerKeys(beside)
         return course, AnswerKeys(course / HIDDEN)
 
@@ -59,6 +62,20 @@ class AnswerKeys:
         except (OSError, ValueError, TypeError, KeyError):
             return student_of(place)
         return student if folder_name(student) == place else student_of(place)
+
+    def students(self) -> list[Student]:
+        """The students of the course: of the roster that was kept, or else those who have an answer key.
+
+        Raises
+        ------
+        TaskError : the roster that was kept cannot be used any more
+        """
+        if (self.folder / ROSTER).is_file():
+            return read_roster(self.folder / ROSTER)
+        emails = self.course().get("emails", {})
+        addresses = {student: email for email, student in emails.items()} if isinstance(emails, dict) else {}
+        found = sorted(self.student(path.stem) for path in (self.folder / KEPT).glob("*.json"))
+        return [Student(student, email=str(addresses.get(student, ""))) for student in found]
 
     def keep(self, student: str, answer_key: str) -> None:
         """Keep an answer key; it is there whole or not at all."""

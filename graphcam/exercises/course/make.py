@@ -5,8 +5,9 @@ import math
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.course_folder import ROSTER, STUDENTS, TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.course.handouts import key_rows, key_sheet, write_handouts
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
@@ -28,15 +29,18 @@ def make(
     *,
     language: str = "en",
     workers: int = 1,
+    cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
 ) -> int:
     """Make every student's handouts; how many students there are.
 
     language : of all handouts, and noted for the feedback
+    workers, cluster : processes here, or the address of a dask scheduler, whose machines share no files with this one
 
     Raises
     ------
     GraphcamError : the exercise, the roster or the secret is not there, or the folder cannot be written
+    OSError : no scheduler answers at the address
     """
     one_of("language", language, languages())
     exercise, students, secret = find_exercise(name, language), read_roster(roster), read_secret(secret_file)
@@ -44,31 +48,39 @@ def make(
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
             raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
-    with whole_folder(out) as draft, executor_of(workers) as executor:
+    with whole_folder(out) as draft, executor_of(workers, cluster) as executor:
         answer_keys: list[AnswerKey] = []
-        for text in in_order(executor, partial(_made, exercise, secret, draft), students):
+        for text, files in in_order(executor, partial(papers, exercise, secret), students):
             answer_keys.append(AnswerKey.from_json(text))
+            for name_in_draft, data in files.items():
+                path = draft / name_in_draft
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(data)
             step(len(answer_keys), len(students))
         kept = AnswerKeys(draft / TEACHER)
         kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
+        # Who hands in is told by it, whatever a learning system calls the folders.
+        (draft / TEACHER / ROSTER).write_bytes(Path(roster).read_bytes())
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
 
 
-def _made(exercise: Exercise, secret: bytes, draft: Path, student: Student) -> str:
-    """All handouts of one student; the answer key as text."""
+def papers(exercise: Exercise, secret: bytes, student: Student) -> tuple[str, dict[str, bytes]]:
+    """One student's answer key as text, and the bytes of all files about the student by their paths in the course."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
     variant, answer_key = issue(exercise, student.id, secret)
-    name = folder_name(student.id)
-    theirs, key_sheets = draft / STUDENTS / name, draft / TEACHER / "keys"
-    for folder in (theirs, key_sheets):
-        folder.mkdir(parents=True, exist_ok=True)
-    write_handouts(variant, student, theirs)
-    write_pdf(key_sheet(variant, student, answer_key), key_sheets / f"{name}.pdf")
-    text = answer_key.to_json()
-    AnswerKeys(draft / TEACHER).keep(student.id, text)
-    return text
+    name, text = folder_name(student.id), answer_key.to_json()
+    with TemporaryDirectory(prefix="graphcam-") as scratch:
+        place = Path(scratch)
+        theirs, key_sheets = place / STUDENTS / name, place / TEACHER / "keys"
+        for folder in (theirs, key_sheets):
+            folder.mkdir(parents=True)
+        write_handouts(variant, student, theirs)
+        write_pdf(key_sheet(variant, student, answer_key), key_sheets / f"{name}.pdf")
+        AnswerKeys(place / TEACHER).keep(student.id, text)
+        files = sorted(path for path in place.rglob("*") if path.is_file())
+        return text, {path.relative_to(place).as_posix(): path.read_bytes() for path in files}
 
 
 def _write_keys(path: Path, exercise: Exercise, answer_keys: list[AnswerKey]) -> None:

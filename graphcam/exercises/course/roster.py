@@ -68,14 +68,15 @@ def _escaped(character: re.Match[str]) -> str:
 
 @dataclass(frozen=True)
 class Student:
-    """One line of the roster; ``name`` is for the title block and may be empty."""
+    """One line of the roster; ``name`` is for the title block, ``email`` for other systems; both may be empty."""
 
     id: str
     name: str = ""
+    email: str = ""
 
 
 def read_roster(path: str | Path) -> list[Student]:
-    """The students of a CSV file with a header: the column "id" and, if there is one, "name".
+    """The students of a CSV file with a header: the column "id" and, if there are such, "name" and "email".
 
     Without these headings every line is a student, the first column the id, the second the name.
 
@@ -117,6 +118,12 @@ def _students(rows: list[list[str]]) -> list[Student]:
     heading = [cell.strip().lower() for cell in rows[0]] if rows else []
     if "id" not in heading:
         return [Student(row[0], row[1] if len(row) > 1 else "") for row in rows]
-    at, named = heading.index("id"), heading.index("name") if "name" in heading else None
+    at = heading.index("id")
     full = [row for row in rows[1:] if len(row) > at]
-    return [Student(row[at], row[named] if named is not None and len(row) > named else "") for row in full]
+    return [Student(row[at], _found(heading, "name", row), _found(heading, "email", row).strip()) for row in full]
+
+
+def _found(heading: list[str], name: str, row: list[str]) -> str:
+    """What a row has in the column of that name; empty where there is none."""
+    place = heading.index(name) if name in heading else len(row)
+    return row[place] if place < len(row) else ""

@@ -1,11 +1,15 @@
 """Cells of a table that is opened in a spreadsheet: no text of a stranger is taken for a formula."""
 
+import csv
+import io
 import re
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
-_AFTER_SEPARATOR = re.compile(r"([;\t][\s\"']*)(?=[=+\-@＝＋－＠])")
-"""A formula behind what separates the cells where the comma is decimal: there the same file opens with other cells."""
+_AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
+"""A formula behind what separates cells or rows where the comma is decimal: there the file opens with other cells."""
 
 
 def cell(value: object) -> str:
@@ -24,9 +28,30 @@ def cell(value: object) -> str:
         return "yes" if value else "no"
     if isinstance(value, int | float):
         return f"{value:.10g}"
+    return _guarded(str(value))
+
+
+# A table says the same few names and outcomes in every row.
+@lru_cache(maxsize=4096)
+def _guarded(text: str) -> str:
+    """A text such that no spreadsheet takes it for a formula."""
     # Surrogates that a folder's name may hold cannot be written.
-    text = str(value).encode("utf-8", "backslashreplace").decode()
+    text = text.encode("utf-8", "backslashreplace").decode()
     text = _AFTER_SEPARATOR.sub(r"\1'", text)
     # What is not seen may stand before it: spaces of all kinds, marks of the direction of writing.
     seen = next((letter for letter in text if letter.isprintable() and not letter.isspace()), "")
     return f"'{text}" if seen in FORMULA or text.startswith(FORMULA) else text
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A CSV file's text: all cells in quotes, and none a formula.
+
+    >>> print(table(("id", "marks"), [("=1", 2.5)]), end="")
+    "id","marks"
+    "'=1","2.5"
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_ALL)
+    writer.writerow([cell(name) for name in head])
+    writer.writerows([cell(value) for value in row] for row in rows)
+    return text.getvalue()

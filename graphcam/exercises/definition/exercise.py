@@ -12,7 +12,8 @@ import numpy as np
 from graphcam.drafting.marks import Points
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.units import UNITS
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, nearest
+from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.given.ranges import positive
 from graphcam.language import ENGLISH, language, languages
 from graphcam.tasks.sheet_tables import one_of
@@ -170,6 +171,7 @@ class Exercise:
         each construction, which are then given
     hand : the careful student
     careful : part of the careful students who may lose any point
+    policy : what answers that are not right earn, the table ``[marks]``
     """
 
     title: str
@@ -182,6 +184,8 @@ class Exercise:
     sheet: Mapping[str, int] = field(default_factory=dict[str, int])
     hand: HandTable = field(default_factory=HandTable)
     careful: float = 0.03
+    # Its table in the file has a name that is taken here.
+    policy: MarksPolicy = field(default_factory=MarksPolicy, metadata={"alias": "marks"})
     version: int = 1
     name: str = ""
     language: str = ENGLISH.name
@@ -198,6 +202,10 @@ class Exercise:
             raise DesignError("answers", doubled[0], "named once each")
         for asked in self.answers:
             one_of("kind", asked.kind, ("number", "points", "curve"))
+        for name in self.policy.caps:
+            if name not in self.misconceptions:
+                remedy = nearest(name, self.misconceptions) if self.misconceptions else "list it there"
+                raise DesignError("marks.caps", name, "one of the misconceptions of this exercise", remedy)
 
     @property
     def tell(self) -> Tell:

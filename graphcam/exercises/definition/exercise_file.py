@@ -9,6 +9,7 @@ from typing import Any
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.exercises.definition.drawn_answers import ask, board_chain
 from graphcam.exercises.definition.exercise import Asked, Exercise, HandTable, Parameter
+from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
@@ -90,7 +91,7 @@ def _classes(data: dict[str, Any]) -> Classes:
     parameters = data.get("parameters")
     named = parameters if isinstance(parameters, dict) else {}
     tables: Classes = {("parameters", str(name)): Parameter for name in named}
-    return {(): Exercise, ("answers",): Asked, ("hand",): HandTable, **tables}
+    return {(): Exercise, ("answers",): Asked, ("hand",): HandTable, ("marks",): MarksPolicy, **tables}
 
 
 def _check(path: str, exercise: Exercise) -> None:

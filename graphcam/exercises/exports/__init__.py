@@ -7,5 +7,6 @@ class LearningSystem(StrEnum):
     """A system that keeps questions, courses or scores."""
 
     MOODLE = "moodle"
+    MOODLE_CLOZE = "moodle-cloze"
     NBGRADER = "nbgrader"
     GRADESCOPE = "gradescope"

@@ -1,23 +1,29 @@
 """Gradescope's ``results.json`` (otter's too), and an autograder that writes it.
 
-The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.
+The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.  graphcam
+comes along as a wheel: an index of packages may have something else by that name.
 """
 
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import sentence
+from graphcam.exercises.exports.package_wheel import write_wheel
 from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.reports.student_page import OUTCOMES
+from graphcam.words import say
 
 SETUP = """#!/usr/bin/env bash
 set -e
-pip3 install graphcam
+pip3 install /autograder/source/graphcam-*.whl
 """
 RUN = """#!/usr/bin/env bash
 cd /autograder/source && python3 -m graphcam.exercises.exports.gradescope /autograder
@@ -47,15 +53,52 @@ def _test(exercise: Exercise, asked: Asked, answer: dict[str, Any], parameters: 
         "name": asked.name,
         "score": answer["marks"],
         "max_score": answer["of"],
-        "status": "passed" if answer["marks"] == answer["of"] else "failed",
+        "status": "passed" if answer["outcome"] == "right" or answer["marks"] == answer["of"] else "failed",
         "output": f"{text} {exercise.tell(OUTCOMES[answer['outcome']])}",
         "output_format": "text",
         "visibility": "visible",
     }
 
 
+def _nothing(exercise: Exercise, email: str) -> dict[str, Any]:
+    """What somebody gets who was given no variant: no marks, and a sentence that says why."""
+    why = say("No variant was handed out to {email}. Tell your teacher, who has the list of addresses.", email=email)
+    shown = {"output_format": "text", "visibility": "visible", "stdout_visibility": "hidden"}
+    return {"score": 0.0, "output": exercise.tell(why), "tests": [], **shown}
+
+
+def student_by_email(students: Sequence[Student]) -> dict[str, str]:
+    """Who has which address, by the roster's e-mail; an id that is an address counts too.
+
+    >>> student_by_email([Student("7", email="Anna@example.org"), Student("ben@example.org")])
+    {'7': '7', 'anna@example.org': '7', 'ben@example.org': 'ben@example.org'}
+
+    Raises
+    ------
+    TaskError : two students have the same
+    """
+    found: dict[str, str] = {}
+    for student in students:
+        for name in filter(None, (_plain(student.id), _plain(student.email))):
+            if found.setdefault(name, student.id) != student.id:
+                expected = f"another one than that of {found[name]!r}"
+                raise TaskError("the roster", "email", name, expected, "give each student an address of their own")
+    return found
+
+
+def _plain(email: str) -> str:
+    """Addresses that differ in capitals are one mailbox."""
+    return email.strip().casefold()
+
+
 def write_autograder(folder: Path, secret: bytes) -> None:
-    """The files of an autograder; packed as a zip they are what Gradescope asks for."""
+    """The files of an autograder; packed as a zip they are what Gradescope asks for.
+
+    Raises
+    ------
+    TaskError : graphcam is not installed, so that there is no wheel of it
+    """
+    write_wheel(folder)
     for name, program in (("setup.sh", SETUP), ("run_autograder", RUN)):
         (folder / name).write_text(program, encoding="utf-8")
         (folder / name).chmod(0o755)
@@ -66,13 +109,18 @@ def main(root: Path) -> None:
     """Grade the one submission of an autograder's container."""
     source = root / "source"
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
-    student = str(metadata["users"][0]["email"])
+    email = str(metadata["users"][0]["email"])
     kept = AnswerKeys(source / TEACHER)
     exercise = find_exercise(kept.exercise(), kept.language())
-    assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
-    graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
+    student = kept.course().get("emails", {}).get(_plain(email))
+    if student is None:
+        found = _nothing(exercise, email)
+    else:
+        assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
+        graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
+        found = results(exercise, graded.record.to_dict())
     (root / "results").mkdir(exist_ok=True)
-    text = json.dumps(results(exercise, graded.record.to_dict()), indent=1, allow_nan=False)
+    text = json.dumps(found, indent=1, allow_nan=False)
     (root / "results" / "results.json").write_text(text, encoding="utf-8")
 
 

@@ -5,7 +5,8 @@ with no marks and the feedback that belongs to them.  Moodle takes the first tha
 they are read back exactly.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphcam.exercises.course.roster import folder_name
@@ -13,7 +14,7 @@ from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.words import say
+from graphcam.words import Caption, say
 
 ONE_DXF = {
     "responseformat": "noinline",
@@ -23,6 +24,17 @@ ONE_DXF = {
     "filetypeslist": ".dxf",
 }
 """What an essay's question takes."""
+RIGHT = say("Right.")
+FAR_OFF = say("Farther off than a careful hand draws or calculates.")
+"""Of an answer that is neither right nor a catalogued mistake's."""
+
+
+class Mistaken(NamedTuple):
+    """What a student with a catalogued mistake answers, how far about it, and what the student is told."""
+
+    value: float
+    tolerance: float
+    said: Caption
 
 
 def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
@@ -34,8 +46,7 @@ def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
     """
     quiz = Element("quiz")
     for answer_key in answer_keys:
-        category = SubElement(quiz, "question", type="category")
-        _text(category, "category", f"$course$/{exercise.title}/{folder_name(answer_key.student)}")
+        add_category(quiz, exercise.title, folder_name(answer_key.student))
         told = sentence(exercise.text, answer_key.parameters, exercise.tell)
         _question(quiz, "description", exercise.title, told, defaultgrade="0")
         for asked in exercise.answers:
@@ -55,24 +66,45 @@ def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked)
     text += f" [{tell(asked.unit_said)}]" if asked.unit else ""
     question = _question(quiz, "numerical", title, text, defaultgrade=repr(asked.marks), penalty="0", hidden="0")
     key = answer_key.keys[asked.name]
-    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(say("Right.")))
-    place = exercise.answers.index(asked)
+    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(RIGHT))
+    for wrong in mistaken(exercise, answer_key, asked):
+        _answer(question, 0, repr(wrong.value), repr(wrong.tolerance), tell(wrong.said))
+    _answer(question, 0, "*", "0", tell(FAR_OFF))
+    _settings(question, unitgradingtype="0", showunits="3")
+
+
+def mistaken(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> Iterator[Mistaken]:
+    """What the catalogued mistakes answer where a number is asked, none of it within the key's tolerance."""
+    key, place = answer_key.keys[asked.name], exercise.answers.index(asked)
     for name, values in answer_key.hypotheses.items():
         value, scatter = values[place].value, values[place].scatter
         assert isinstance(value, float)
         assert isinstance(scatter, float)
-        # A mistake made elsewhere leaves this answer right, and the key stands before it anyway.
-        if abs(value - float(str(key.expected.value))) > key.tolerance:
-            _answer(question, 0, repr(value), repr(answer_key.bound * scatter), tell(misconception(name).said))
-    _answer(question, 0, "*", "0", tell(say("Farther off than a careful hand draws or calculates.")))
-    _settings(question, unitgradingtype="0", showunits="3")
+        # A mistake made elsewhere leaves this answer right.
+        room = abs(value - float(str(key.expected.value))) - key.tolerance
+        if room > 0:
+            yield Mistaken(value, min(answer_key.bound * scatter, room), misconception(name).said)
+
+
+def add_category(quiz: Element, *names: str) -> None:
+    """The category, below the course's, into which Moodle puts the questions that follow."""
+    category = SubElement(quiz, "question", type="category")
+    # Of two slashes Moodle makes one that separates nothing.
+    add_text(category, "category", "/".join(["$course$", *(name.replace("/", "//") for name in names)]))
+
+
+def add_text(parent: Element, name: str, text: str, **attributes: str) -> Element:
+    """A new element with a text, as Moodle nests it."""
+    element = SubElement(parent, name, attributes)
+    SubElement(element, "text").text = text
+    return element
 
 
 def _question(quiz: Element, kind: str, name: str, text: str, **settings: str) -> Element:
     question = SubElement(quiz, "question", type=kind)
-    _text(question, "name", name)
-    _text(question, "questiontext", text, format="plain_text")
-    _text(question, "generalfeedback", "", format="plain_text")
+    add_text(question, "name", name)
+    add_text(question, "questiontext", text, format="plain_text")
+    add_text(question, "generalfeedback", "", format="plain_text")
     _settings(question, **settings)
     return question
 
@@ -80,14 +112,10 @@ def _question(quiz: Element, kind: str, name: str, text: str, **settings: str) -
 def _answer(question: Element, fraction: int, value: str, tolerance: str, feedback: str) -> None:
     answer = SubElement(question, "answer", fraction=str(fraction), format="moodle_auto_format")
     _settings(answer, text=value)
-    _text(answer, "feedback", feedback, format="plain_text")
+    add_text(answer, "feedback", feedback, format="plain_text")
     _settings(answer, tolerance=tolerance)
 
 
 def _settings(parent: Element, **settings: str) -> None:
     for name, value in settings.items():
         SubElement(parent, name).text = value
-
-
-def _text(parent: Element, name: str, text: str, **attributes: str) -> None:
-    SubElement(SubElement(parent, name, attributes), "text").text = text

@@ -2,40 +2,55 @@
 
 from __future__ import annotations
 
+import glob
 import hashlib
 import json
 import os
 import shutil
-from collections.abc import Callable, Generator, Iterable
+import zipfile
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import graphcam
 from graphcam.drafting.ink import say
+from graphcam.drafts import clear_drafts
 from graphcam.errors import GraphcamError, TaskError, installed
 from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
+from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
+from graphcam.exercises.course.packed import unpacked
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_submission, students_in, unmarked
-from graphcam.exercises.grading.gradebook import check_gradebook, enter_scores
+from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
+from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
+from graphcam.exercises.grading.overrides import OVERRIDES, Override, overridden, read_overrides
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.report_files import write_feedback, write_reports
 from graphcam.exercises.running.levels import Level, ResourceLimits
-from graphcam.exercises.running.probe import require
+from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
+Finished = dict[str, tuple[str, dict[str, Any]]]
+"""By the name of a folder the digest of the hand-in and its record."""
 CRASHED = say("the grader broke down over this hand-in; look at it by hand")
+
+
+PAGES = "pages"
+"""The file in a store with the folder for the students' pages."""
 
 
 @dataclass(frozen=True)
 class Store:
-    """A folder of finished records, named after what they were graded with: of another assignment they do not count."""
+    """A folder with the journal of finished records.
+
+    It is named after what they were graded with: of another assignment they do not count.
+    """
 
     folder: Path
 
@@ -72,29 +87,46 @@ class Store:
             stack.callback(_remove_empty, (self.folder, self.folder.parent)[: 1 + made])
             yield
 
-    def find(self, submission: Submission) -> dict[str, Any] | None:
-        """The record of just this submission, if a former run got so far."""
+    def finished(self) -> Finished:
+        """What a former run got done, by the names of the folders."""
         try:
-            kept = json.loads(self._path(submission).read_bytes())
-        except (OSError, ValueError):
-            return None
-        return kept["record"] if kept["digest"] == submission.digest else None
+            lines = self._journal.read_bytes().split(b"\n")
+        except OSError:
+            return {}
+        found: Finished = {}
+        for line in lines:
+            # A run that was killed may have left a line torn, which is no JSON.
+            with suppress(ValueError, TypeError, KeyError):
+                kept = json.loads(line)
+                found[kept["place"]] = (kept["digest"], kept["record"])
+        return found
 
     def keep(self, submission: Submission, record: dict[str, Any]) -> None:
-        """Write a record; it is there whole or not at all."""
+        """Append a record to the journal, which costs far less than a file each."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        path = self._path(submission)
-        draft = path.with_name(f"{path.name}.{os.getpid()}.new")
-        draft.write_text(json.dumps({"digest": submission.digest, "record": record}), encoding="ascii")
-        draft.replace(path)
+        kept = {"place": submission.place, "digest": submission.digest, "record": record}
+        # Each line begins its own, so that a torn one before it spoils nothing; unbuffered, so that it stays when the
+        # run is killed.
+        with self._journal.open("ab", buffering=0) as journal:
+            journal.write(b"\n" + json.dumps(kept).encode("ascii"))
+
+    def note_pages(self, folder: Path) -> None:
+        """Keep in mind where students' pages are about to be written, in case the run is killed meanwhile."""
+        (self.folder / PAGES).write_text(str(folder.absolute()), encoding="utf-8", errors="surrogateescape")
+
+    def clear_pages(self, out: Path) -> None:
+        """Remove the half-written pages of killed runs that wrote to ``out``, wherever they put their pages."""
+        for noted in out.parent.glob(f".{glob.escape(out.name)}-*/{PAGES}"):
+            with suppress(OSError):
+                clear_drafts(Path(noted.read_text(encoding="utf-8", errors="surrogateescape")))
 
     def clear(self) -> None:
         """The run is complete."""
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def _path(self, submission: Submission) -> Path:
-        # Of any length, and of letters that every file system has.
-        return self.folder / f"{hashlib.sha256(os.fsencode(submission.place)).hexdigest()[:32]}.json"
+    @property
+    def _journal(self) -> Path:
+        return self.folder / "records.jsonl"
 
 
 def _remove_empty(folders: Iterable[Path]) -> None:
@@ -103,17 +135,28 @@ def _remove_empty(folders: Iterable[Path]) -> None:
             folder.rmdir()
 
 
+UNTRUSTED = (
+    "code there can read and change what you can: the secret, the answers of others, the grades; choose level L2, or "
+    "add --i-trust-these-students"
+)
+"""What level L1 does not hold."""
+
+
 @dataclass(frozen=True)
 class Course:
     """An order to grade.
 
-    folder : with a folder for every student
+    folder : with a folder for every student, or a zip of them
     out : the file for the grades
     exercise : its name; empty where the folder says it
     level, seconds : where and how long the code of notebooks runs
     workers, cluster : processes here, or the address of a dask scheduler
     feedback : folder for the students' pages
     gradebook : database of nbgrader that the scores go into too
+    marks : what is to be other than in the exercise's policy, as of a MarksPolicy; caps are added to its own
+    trusted : whether the students are trusted, without which level L1 is refused
+    roster : of the students, instead of the one that the course was made for
+    overrides : marks given by hand, instead of those in the teacher's folder
     """
 
     folder: Path
@@ -126,6 +169,10 @@ class Course:
     cluster: str = ""
     feedback: Path | None = None
     gradebook: str = ""
+    trusted: bool = False
+    roster: Path | None = None
+    overrides: Path | None = None
+    marks: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
 def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> str:
@@ -137,7 +184,12 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     """
     _check_places(course)
     folder, kept = AnswerKeys.of(course.folder)
+    if not course.folder.is_dir() and not kept.course():
+        remedy = "put it beside the folder 'teacher' of its course, or unpack it"
+        raise TaskError(str(course.folder), "the zip", "elsewhere", "beside the answer keys", remedy)
     exercise = _exercise(course, kept)
+    if course.level is Level.L1 and not course.trusted:
+        raise LevelError(course.level, UNTRUSTED)
     require(course.level, (course.folder, course.secret_file, course.out))
     secret = read_secret(course.secret_file)
     kept.check_secret(secret, course.secret_file)
@@ -145,23 +197,60 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     if course.gradebook:
         with installed("--gradebook", "nbgrader", "nbgrader"):
             check_gradebook(course.gradebook)
+    with unpacked(folder) as (submissions, unsafe):
+        hand_ins, refused = hand_ins_in(submissions, kept, course.roster)
+        return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], step)
+
+
+def _graded(
+    course: Course,
+    assignment: Assignment,
+    kept: AnswerKeys,
+    hand_ins: Sequence[HandIn],
+    refused: Sequence[Refused],
+    step: Callable[[int, int], None],
+) -> str:
+    """Grade what was handed in and write all reports; what was done, in a sentence."""
+    exercise = assignment.exercise
+    by_hand = _overrides(course, kept, exercise, hand_ins)
     store = Store.beside(course.out, assignment)
     with store.held():
+        store.clear_pages(course.out)
         with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
-            records = grade_folder(folder, assignment, pool, store, kept, step)
+            records = grade_folder(hand_ins, assignment, pool, store, kept, step)
+        # The store stays free of them, so that a line that is taken back leaves the marks that were found.
+        records = overridden(exercise, records, by_hand)
         answer_keys = _answer_keys(kept, records)
-        names = write_reports(course.out, exercise, records, answer_keys)
+        names = write_reports(course.out, exercise, records, answer_keys, refused)
         if course.feedback is not None:
+            store.note_pages(course.feedback)
             write_feedback(course.feedback, exercise, records, answer_keys)
+        told = [f"not graded: {one.place}: {one.why}" for one in refused]
         if course.gradebook:
-            enter_scores(course.gradebook, exercise, records)
+            told += enter_scores(course.gradebook, exercise, records, kept.folder / ENTERED)
         store.clear()
-    return f"{len(records)} hand-ins, graded at level {course.level}, in {course.out.parent}: {', '.join(names)}"
+    # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
+    watched = f" (memory watched, {assignment.memory} MiB for all processes)" if assignment.memory else ""
+    where = f"in {course.out.parent}: {', '.join(names)}"
+    done = f"{len(records)} hand-ins, graded at level {course.level}{watched}, {where}"
+    return "\n".join([done, *map(_line, told)])
+
+
+def _overrides(course: Course, kept: AnswerKeys, exercise: Exercise, hand_ins: Sequence[HandIn]) -> list[Override]:
+    path = course.overrides or kept.folder / OVERRIDES
+    if course.overrides is None and not path.exists():
+        return []
+    return read_overrides(path, exercise, [one.student for one in hand_ins])
+
+
+def _line(text: str) -> str:
+    """A line for the terminal: a name may hold what is no line, and what a terminal obeys."""
+    return text if text.isprintable() else ascii(text)
 
 
 def _check_places(course: Course) -> None:
     """What must not first come out when all is graded."""
-    if not course.folder.is_dir():
+    if not course.folder.is_dir() and not zipfile.is_zipfile(course.folder):
         why = "a file" if course.folder.exists() else "not there"
         raise TaskError(str(course.folder), "the folder", why, "one with a folder for every student", "check the name")
     if course.out.is_dir():
@@ -179,7 +268,18 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     if noted and exercise.name != Path(noted).stem:
         made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
         raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")
-    return exercise
+    return _with_marks(exercise, course.marks)
+
+
+def _with_marks(exercise: Exercise, changes: Mapping[str, Any]) -> Exercise:
+    """The exercise with parts of its policy changed.
+
+    Raises
+    ------
+    DesignError : to what cannot be
+    """
+    caps = {**exercise.policy.caps, **changes.get("caps", {})}
+    return replace(exercise, policy=replace(exercise.policy, **{**changes, "caps": caps}))
 
 
 def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
@@ -191,32 +291,29 @@ def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
 
 
 def grade_folder(
-    folder: Path,
+    hand_ins: Sequence[HandIn],
     assignment: Assignment,
     pool: WorkerPool,
     store: Store,
     kept: AnswerKeys,
     step: Callable[[int, int], None] = lambda done, total: None,
 ) -> Records:
-    """One record for each student's folder.
+    """One record for each student who handed in.
 
     kept : the students' answer keys; who has none yet gets one
     step : hears how many of how many are done
-
-    Raises
-    ------
-    TaskError : there is no such folder
     """
-    students = students_in(folder, kept.student, lambda student: bool(kept.find(student)))
     found: dict[str, dict[str, Any]] = {}
+    finished = store.finished()
 
     def unfinished() -> Generator[Submission]:
         """The hand-ins without a record yet; the records that are there are taken."""
-        for student, path in students:
-            submission = read_submission(student, path, kept.find(student), assignment.exercise.name)
-            if (record := store.find(submission)) is not None:
-                found[path.name] = record
-                step(len(found), len(students))
+        for one in hand_ins:
+            submission = read_hand_in(one, kept.find(one.student), assignment.exercise.name)
+            digest, record = finished.pop(one.place, ("", {}))
+            if digest == submission.digest and record["student"] == one.student:
+                found[one.place] = record
+                step(len(found), len(hand_ins))
             else:
                 yield submission
 
@@ -228,5 +325,5 @@ def grade_folder(
         record = graded.record if graded is not None else unmarked(assignment, submission.student, CRASHED)
         found[submission.place] = record.to_dict()
         store.keep(submission, found[submission.place])
-        step(len(found), len(students))
-    return [found[path.name] for _, path in students]
+        step(len(found), len(hand_ins))
+    return [found[one.place] for one in hand_ins]

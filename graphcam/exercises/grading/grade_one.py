@@ -4,16 +4,15 @@ import hashlib
 import os
 import signal
 import threading
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from types import FrameType
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
-from graphcam.exercises.course.roster import student_of
+from graphcam.exercises.course.hand_ins import HandIn
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -21,7 +20,7 @@ from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Marked, Record
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.submission_files import DXF, from_files, read_files
-from graphcam.exercises.running.levels import Level, ResourceLimits
+from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
 
 READING = 10.0
 """Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
@@ -58,43 +57,23 @@ class Submission:
         return digest.hexdigest()
 
 
-def students_in(
-    folder: Path, student_of: Callable[[str], str] = student_of, known: Callable[[str], bool] = lambda student: False
-) -> list[tuple[str, Path]]:
-    """The students who handed in, in the order of their names, each with the folder.
-
-    Whatever stands there but for plain files is somebody's submission, also a link or a pipe in place of a folder;
-    names that begin with a point are not.
-
-    student_of : whose a folder of this name is;  known : whether it is a student's, so that a plain file counts too
-
-    Raises
-    ------
-    TaskError : there is no such folder
-    """
-    try:
-        with os.scandir(folder) as entries:
-            found = [Path(entry.path) for entry in entries if not _is_aside(entry, student_of, known)]
-    except OSError as error:
-        why = error.strerror or "not there"
-        raise TaskError(str(folder), "the folder", why, "one with a folder a student") from None
-    return sorted((student_of(path.name), path) for path in found)
-
-
 def read_submission(student: str, folder: Path, answer_key: str = "", assignment: str = "") -> Submission:
-    """The bytes of a student's folder, whatever it is.
+    """The bytes of a student's own folder; see :func:`read_hand_in`."""
+    return read_hand_in(HandIn(student, folder.name, folder), answer_key, assignment)
 
-    assignment : name of the folder in it that counts if it is there, as nbgrader collects
+
+def read_hand_in(hand_in: HandIn, answer_key: str = "", assignment: str = "") -> Submission:
+    """The bytes that a student handed in, whatever lies there.
+
+    assignment : name of the folder in the student's that counts if it is there, as nbgrader collects
     """
-    within = folder / assignment
-    # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
-    files, errors = read_files(within if os.path.isdir(within) and not os.path.islink(folder) else folder)  # noqa: PTH112, PTH114
-    return Submission(student, folder.name, files, tuple(error.why for error in errors), answer_key)
-
-
-def _is_aside(entry: os.DirEntry[str], student_of: Callable[[str], str], known: Callable[[str], bool]) -> bool:
-    plain = entry.is_file(follow_symlinks=False)
-    return entry.name.startswith(".") or (plain and not known(student_of(entry.name)))
+    folder, within = hand_in.path, hand_in.path / assignment
+    if hand_in.names is None and os.path.isdir(within) and not os.path.islink(folder):  # noqa: PTH112, PTH114
+        # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
+        folder = within
+    files, notes = read_files(folder, hand_in.names)
+    said = (*hand_in.notes, *notes)
+    return Submission(hand_in.student, hand_in.place, files, said, answer_key)
 
 
 class LateError(BaseException):
@@ -120,6 +99,11 @@ class Assignment:
     level: Level = Level.L0
     limits: ResourceLimits = field(default_factory=ResourceLimits)
 
+    @property
+    def memory(self) -> int | None:
+        """MiB that all processes of one hand-in's code may take together; None where no code is run."""
+        return None if self.level is Level.L0 else self.limits.memory // MEBIBYTE
+
 
 @dataclass(frozen=True)
 class Graded:
@@ -136,7 +120,8 @@ def grade(assignment: Assignment, submission: Submission) -> Graded:
         answer_key, text = _answer_key(assignment, submission)
         with _seconds(READING):
             answers = _answers(assignment, submission, answer_key)
-            return Graded(mark(assignment.exercise, answer_key, answers, level=assignment.level), text)
+            record = mark(assignment.exercise, answer_key, answers, level=assignment.level)
+            return Graded(replace(record, memory=assignment.memory), text)
     except (Exception, LateError) as error:  # noqa: BLE001
         why = say("this hand-in could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
         return Graded(unmarked(assignment, submission.student, why), text)
@@ -147,9 +132,10 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
     exercise, level = assignment.exercise, assignment.level
     answers = tuple(Marked(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
     said = (exercise.tell(why),)
-    return Record(
+    record = Record(
         student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False, said, said, level
     )
+    return replace(record, memory=assignment.memory)
 
 
 def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:

@@ -1,12 +1,20 @@
 """nbgrader's grade book: scores entered through nbgrader's own API."""
 
+import hashlib
+import json
 from collections.abc import Sequence
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.grading.overrides import TOTAL
 
+ENTERED = "gradebook.json"
+"""In the teacher's folder, what was entered into grade books."""
+Entered = dict[str, dict[str, list[Any]]]
+"""By student and answer the score and the comment that were entered last."""
 NOTEBOOK = "answers"
 """Name of the notebook without its ending: as graphcam reads it."""
 
@@ -32,10 +40,13 @@ def check_gradebook(database: str) -> None:
         raise TaskError("--gradebook", "the grade book", why, "a database that can be opened", remedy) from None
 
 
-def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]]) -> None:
+def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]], entered: Path) -> list[str]:
     """Enter scores and comments into the grade book of a course that was exported for nbgrader.
 
+    What somebody has changed there since stays, and is told: a sentence for each.
+
     database : as SQLAlchemy names it, "sqlite:///gradebook.db"
+    entered : file that notes what was entered, by which what somebody changed is known
 
     Raises
     ------
@@ -43,6 +54,11 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
     """
     from nbgrader.api import Gradebook  # pyright: ignore[reportMissingImports]
 
+    # Of the address only a digest is noted, since it may hold a password.
+    about = hashlib.sha256(f"{database} {exercise.name}".encode()).hexdigest()[:16]
+    noted = _noted(entered)
+    scores: Entered = noted.setdefault(about, {})
+    told: list[str] = []
     with Gradebook(database, exercise.name) as book:
         book.update_or_create_assignment(exercise.name)
         book.update_or_create_notebook(NOTEBOOK, exercise.name)
@@ -51,16 +67,49 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
             book.update_or_create_grade_cell(asked.name, NOTEBOOK, exercise.name, **cell)
             book.update_or_create_solution_cell(asked.name, NOTEBOOK, exercise.name)
         for record in records:
-            book.update_or_create_student(record["student"])
-            book.update_or_create_submission(exercise.name, record["student"])
+            student = record["student"]
+            book.update_or_create_student(student)
+            book.update_or_create_submission(exercise.name, student)
+            former = scores.setdefault(student, {})
             for answer in record["answers"]:
-                _enter(book, exercise.name, record, answer)
+                told += _enter(book, exercise.name, record, answer, former)
+            if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
+                told.append(f"{student}: the total given by hand is not in the grade book, which adds up the answers")
         book.db.commit()
+    entered.parent.mkdir(parents=True, exist_ok=True)
+    draft = entered.with_name(f"{entered.name}.new")
+    draft.write_text(json.dumps(noted) + "\n", encoding="utf-8")
+    draft.replace(entered)
+    return told
 
 
-def _enter(book: Any, assignment: str, record: dict[str, Any], answer: dict[str, Any]) -> None:
+def _noted(entered: Path) -> dict[str, Entered]:
+    """What was entered by former runs; without the file whatever differs counts as somebody's."""
+    try:
+        noted = json.loads(entered.read_bytes())
+    except (OSError, ValueError):
+        return {}
+    return noted if isinstance(noted, dict) else {}
+
+
+def _enter(
+    book: Any, assignment: str, record: dict[str, Any], answer: dict[str, Any], former: dict[str, list[Any]]
+) -> list[str]:
+    """Enter one answer's score and comment, each unless it is somebody's; a sentence where it is."""
     where = answer["name"], NOTEBOOK, assignment, record["student"]
-    grade = book.find_grade(*where)
-    grade.manual_score, grade.needs_manual_grade = answer["marks"], False
-    comment = book.find_comment(*where)
-    comment.manual_comment = "\n".join(said for said in record["feedback"] if said.startswith(f"{answer['name']}:"))
+    grade, comment = book.find_grade(*where), book.find_comment(*where)
+    said = "\n".join(each for each in record["feedback"] if each.startswith(f"{answer['name']}:"))
+    marks, words = former.get(answer["name"], [None, None])
+    told: list[str] = []
+    place = f"{record['student']}, {answer['name']}"
+    if grade.manual_score in (None, marks, answer["marks"]):
+        grade.manual_score, grade.needs_manual_grade = answer["marks"], False
+        marks = answer["marks"]
+    else:
+        told.append(f"{place}: the grade book keeps {grade.manual_score:g}, not {answer['marks']:g}")
+    if comment.manual_comment in (None, "", words, said):
+        comment.manual_comment = words = said
+    else:
+        told.append(f"{place}: the grade book keeps its comment")
+    former[answer["name"]] = [marks, words]
+    return told

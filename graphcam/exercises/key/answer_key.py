@@ -23,7 +23,7 @@ from graphcam.exercises.key.follow_through import Dependence
 FORMAT = 2
 STORED_AS_THEY_ARE = (
     *("exercise", "version", "student", "draw", "parameters"),
-    *("bound", "careful", "too_exact", "alike"),
+    *("bound", "careful", "alike"),
 )
 """Fields of an answer key whose values are JSON's own."""
 V = TypeVar("V")
@@ -115,7 +115,6 @@ class AnswerKey:
     hypotheses : by the misconception's name, what a student with that mistake answers, in the order of the answers
     alike : pairs of misconceptions, or of one and "careful", that these answers cannot tell apart
     dependences : by the answer's name, how it follows from the student's own earlier answers
-    too_exact : root mean square of the deviations of drawn answers, below which a submission is remarked on
     """
 
     exercise: str
@@ -129,7 +128,6 @@ class AnswerKey:
     hypotheses: Mapping[str, Hypothesis]
     alike: tuple[tuple[str, str], ...]
     dependences: Mapping[str, Dependence]
-    too_exact: float
 
     def to_json(self) -> str:
         """As text; numbers as short as they are exact."""

@@ -6,8 +6,8 @@ A curve that is expected is known at its stations, and between two of them by it
 the arc over half the chord, positive where it lies to the right of the way (an arc turning counter-clockwise).  With as
 many bulges as stations the last is that of the part back to the first; with none all parts are straight.
 
-A line that runs anywhere between chord and arc is taken for right: a table of points is joined by chords, and a CAD
-program draws a smooth curve.
+Between two neighbouring points a line may run anywhere between chord and arc: a table of points is joined by chords,
+and a CAD program draws a smooth curve.  The points stand so close, on the arcs of dwells too, that this is little.
 """
 
 import math
@@ -162,6 +162,25 @@ class Expected:
         relative = distances / np.maximum(scatter[part], scatter[(part + 1) % scatter.size])
         worst = int(relative.argmax())
         return max(found, Off(float(relative[worst]), int(part[worst]), float(distances[worst])))
+
+    def share(self, given: Points, bound: float) -> float:
+        """The part of a curve that is drawn within a bound [pencil units], or that of the drawing which is the curve.
+
+        The smaller of the two counts: neither a piece of the curve nor a scribble all over it is the curve.
+
+        >>> Expected(np.array([0j, 10 + 0j, 20 + 0j]), np.ones(3)).share(np.array([0j, 10 + 0j]), 1.0)
+        0.5
+        """
+        value, scatter = np.asarray(self.value), np.asarray(self.scatter)
+        near = distance_to_curve(value, given) <= bound * scatter
+        length = np.abs(np.append(value, value[0])[1:] - value)[: max(self.bulge.size, value.size - 1)]
+        drawn = (near & np.append(near, near[0])[1:])[: length.size]
+        at = places(given)[given.size :]
+        if not at.size or not length.sum():
+            return 0.0
+        distances, part = distance_from_drawn(at, value, self.bulge)
+        on = distances <= bound * np.maximum(scatter[part], scatter[(part + 1) % scatter.size])
+        return min(float(length[drawn].sum() / length.sum()), float(on.mean()))
 
     def distances(self, given: Points, kind: Kind) -> Floats:
         """How far the points or the curve given lie from every expected point (m,) [mm of paper]."""

@@ -19,8 +19,6 @@ HANDS = 2000
 """Careful hands behind the tolerances."""
 MARGIN = 0.6
 """The bound is set for this part of the permitted rate of losses: a rate from finitely many hands is uncertain."""
-TOO_EXACT = 5e-4
-"""A submission is remarked on as too exact where so few careful hands are as near to the key."""
 MOST_DRAWS = 400
 """Draws after which an exercise is held to have no variant that can be diagnosed."""
 
@@ -57,8 +55,8 @@ def draw_key(variant: Variant) -> AnswerKey | None:
     bound = float(np.quantile(off.max(axis=1), 1 - MARGIN * exercise.careful))
     if passing(exercise, keys, wrong, bound):
         return None
-    by_hand = [float(np.std(samples)) > 0 for samples in hands]
-    near = np.sqrt(np.mean(off[:, by_hand] ** 2, axis=1)) if any(by_hand) else np.full(HANDS, np.nan)
+    # Not by their standard deviation, which rounding keeps from nought.
+    by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
     tolerances = [bound * float(np.max(key.scatter)) for key in keys]
     rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
@@ -69,7 +67,6 @@ def draw_key(variant: Variant) -> AnswerKey | None:
         hypotheses={name: Hypothesis.of(values) for name, values in wrong.items()},
         alike=(),
         dependences=dependences(exercise, drawn.right, keys, bound),
-        too_exact=float(np.quantile(near, TOO_EXACT)) if any(by_hand) else 0.0,
     )
 
 

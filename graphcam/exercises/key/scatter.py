@@ -21,6 +21,8 @@ CALCULATED = 1e-3
 """Relative standard deviation of what is only calculated: three figures are carried."""
 NORMAL_95 = 1.959964
 """95 % of normally distributed values lie within so many standard deviations."""
+DWELL_STEP = math.radians(15)
+"""On the arc of a dwell the points of a curve lie at most so far apart, as seen from the cam centre."""
 PROFILES = ("inversion", "working_profile")
 """Constructions about the cam centre, whose curves are closed."""
 
@@ -30,7 +32,7 @@ def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
     samples = chain.pencil.samples
     given: Drawn = []
     for asked in exercise.answers:
-        answer = np.asarray(ask(chain, asked))
+        answer = np.asarray(curve_of(chain, asked) if asked.kind == "curve" else ask(chain, asked))
         if samples is None:
             given.append(answer)
         elif asked.kind == "number":
@@ -112,9 +114,49 @@ def deviations(exercise: Exercise, keys: list[Expected], off: Drawn) -> NDArray[
     return np.stack(columns, axis=1)
 
 
-def bulges(chain: Chain, asked: Asked) -> Floats:
-    """The bulges of a curve, as many as it has points where it is closed, else one fewer, else none: all straight.
+def curve_of(chain: Chain, asked: Asked) -> Points:
+    """The points ([samples,] m) of a curve: its stations, and of a profile some on the arc of every dwell.
 
+    An arc has its points by the compasses about the cam centre, from the last station of the one moving phase to the
+    first of the next: a drawing without its dwells is not near them.
+    """
+    points = ask(chain, asked)
+    if not _closed(chain, asked, points):
+        return points
+    stations, turns = chain.board.stations, _dwells(chain)
+    turning = np.sign(np.delete(np.angle(points[..., 1:] / points[..., :-1]), stations.last[:-1], axis=-1).sum(axis=-1))
+    found: list[Points] = []
+    for span, last, after in zip(stations.phases, stations.last, turns, strict=True):
+        start, end = points[..., last, None], points[..., (last + 1) % points.shape[-1], None]
+        turn = (turning * after)[..., None]
+        # What the hand's errors add to the angle of the dwell, or take from it.
+        turn = turn + np.angle(end / start * np.exp(-1j * turn))
+        along = np.arange(1, _steps(after)) / _steps(after)
+        radius = np.abs(start) + (np.abs(end) - np.abs(start)) * along
+        found += [points[..., span], radius * np.exp(1j * (np.angle(start) + turn * along))]
+    return np.concatenate(found, axis=-1)
+
+
+def _closed(chain: Chain, asked: Asked, points: Points) -> bool:
+    return asked.construction in PROFILES and points.shape[-1] == chain.board.stations.u.size
+
+
+def _dwells(chain: Chain) -> Floats:
+    """The angle from every moving phase to the next one [rad]."""
+    stations = chain.board.stations
+    turns: Floats = (stations.phi[(stations.last + 1) % stations.phi.size] - stations.phi[stations.last]) % FULL_TURN
+    return turns
+
+
+def _steps(dwell: float) -> int:
+    """Into how many parts the arc of a dwell is divided; rounding makes no part more."""
+    return max(1, math.ceil(dwell / DWELL_STEP - 1e-6))
+
+
+def bulges(chain: Chain, asked: Asked) -> Floats:
+    """The bulges between the points of :func:`curve_of`, as many where the curve is closed, else one fewer.
+
+    There are none where all parts are straight.
     chain : drawn by a hand without samples
 
     Inside a moving phase the curve is faired through the points; in a dwell a profile is an arc about the cam centre,
@@ -129,13 +171,15 @@ def bulges(chain: Chain, asked: Asked) -> Floats:
         # Of two points alone the second comes back, which lies on the chord as well.
         middle = faired(plotted, between=2)[1::2]
         found[piece.start : piece.stop - 1] = _bulge(plotted[:-1], middle, plotted[1:])
-    if asked.construction not in PROFILES:
+    if not _closed(chain, asked, points):
         return found[:-1]
     # The angles at the cam centre after every moving phase, counter-clockwise [rad].
     inside = np.delete(np.angle(points[1:] / points[:-1]), stations.last[:-1])
-    after = (stations.phi[(stations.last + 1) % points.size] - stations.phi[stations.last]) % FULL_TURN
-    found[stations.last] = np.tan(np.copysign(after, inside.sum()) / 4)
-    return found
+    steps = np.array([_steps(after) for after in _dwells(chain)])
+    found[stations.last] = np.tan(np.copysign(_dwells(chain) / steps, inside.sum()) / 4)
+    times = np.ones(points.size, dtype=np.intp)
+    times[stations.last] = steps
+    return np.repeat(found, times)
 
 
 def _bulge(start: Points, middle: Points, end: Points) -> Floats:

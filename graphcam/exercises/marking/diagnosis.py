@@ -1,7 +1,7 @@
 """Answers beside the key, how far off they are, and which catalogued mistake explains them, in units of scatter."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +17,13 @@ LARGEST = 1e15
 """No reading is larger, and no number up to here makes the arithmetic overflow."""
 FAR = 5.0
 """Beyond so many standard deviations an answer speaks against a mistake no more: it may be a slip of its own."""
+ANYWHERE = 10.0
+"""What a wrong number that is anywhere costs, in twice the logarithm of the probability: a mistake that brings numbers
+more than three standard deviations off explains them no better."""
+MOST = 2 / 3
+"""A mistake that does not look like so much of the wrong answers, by their marks, is not named."""
+LARGER = 100.0
+"""A hand's error grows with the length that is drawn, up to this factor."""
 ALIKE = 0.1
 """A mistake that is at least this part as probable as the best one is not told from it."""
 SURE = 0.5
@@ -46,7 +53,8 @@ def compare(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> list
     for place, asked in enumerate(exercise.answers):
         if (given := _readable(asked, answers)) is not None:
             key = answer_key.keys[asked.name].expected
-            off = key.off(given, asked.kind, answer_key.bound)
+            # As far as anything is paid it must be told exactly.
+            off = key.off(given, asked.kind, answer_key.bound * exercise.policy.near)
             # A NaN is wrong too.
             wrong = not abs(off.deviation) <= answer_key.bound
             found.append(ComparedAnswer(place, asked, given, key, off, wrong))
@@ -71,11 +79,13 @@ class _Explanation(NamedTuple):
     """How well a mistake fits.
 
     badness : minus twice the logarithm of the probability, each answer being anywhere if it is far off
-    near : the places of the wrong answers that look like what the mistake brings: they give it its name
+    like : the places of the wrong answers that look like what the mistake brings
+    near : those of them that give it its name: not what may be nought by its scatter
     explained : those of them that are what it brings, as exactly as an answer must be that earns its marks
     """
 
     badness: float
+    like: frozenset[int]
     near: frozenset[int]
     explained: frozenset[int]
 
@@ -83,8 +93,13 @@ class _Explanation(NamedTuple):
 def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple[Diagnosis, frozenset[int]] | None:
     """The most probable mistake and the places of the answers that it brings; None where none looks like any."""
     # "Something else": the right answers as a careful hand gives them, each wrong one anywhere.
-    other = sum((FAR**2 if each.wrong else min(each.off.deviation**2, FAR**2)) + _width(each.key) for each in compared)
-    fits = {name: fit for name, fit in _explanations(answer_key, compared, other).items() if fit.near}
+    other = sum(map(_as_something_else, compared))
+    wrong = {each.place: each.asked.marks for each in compared if each.wrong}
+    fits = {
+        name: fit
+        for name, fit in _explanations(answer_key, compared, other).items()
+        if fit.near and _explains_most(fit.like, wrong)
+    }
     if not fits:
         return None
     least = min(other, *(fit.badness for fit in fits.values()))
@@ -95,6 +110,11 @@ def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple
     if sum(weights[name] for name in (best, *alike)) < SURE * total:
         return None
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
+
+
+def _explains_most(like: frozenset[int], wrong: Mapping[int, float]) -> bool:
+    """Whether a mistake looks like most of the wrong answers, each counted by its marks."""
+    return sum(wrong[place] for place in like) >= MOST * sum(wrong.values())
 
 
 def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
@@ -114,6 +134,7 @@ def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], oth
 def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float, bool]], bound: float) -> _Explanation:
     """How well a mistake fits the numbers: of each its place, itself, and whether it is wrong."""
     badness = 0.0
+    like: list[int] = []
     similar: list[int] = []
     explained: list[int] = []
     # Most of the time of marking wrong work is spent here.
@@ -122,12 +143,14 @@ def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float, bool]],
         off = (given - value) / scatter
         near = -FAR <= off <= FAR
         badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
+        if near and wrong:
+            like.append(place)
         # A mistake that makes an answer small is not made by who answers nought.
         if near and wrong and abs(given) > bound * scatter:
             similar.append(place)
             if abs(off) <= bound:
                 explained.append(place)
-    return _Explanation(badness, frozenset(similar), frozenset(explained))
+    return _Explanation(badness, frozenset(like), frozenset(similar), frozenset(explained))
 
 
 def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedAnswer], bound: float) -> _Explanation:
@@ -135,7 +158,19 @@ def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedA
     near = {each.place for each in drawn if each.wrong and off[each.place] <= FAR}
     explained = {place for place in near if off[place] <= bound}
     badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
-    return _Explanation(badness, fit.near | near, fit.explained | explained)
+    return _Explanation(badness, fit.like | near, fit.near | near, fit.explained | explained)
+
+
+def _as_something_else(answer: ComparedAnswer) -> float:
+    """What an answer costs if something else was done: a right one as by a careful hand, a wrong one anywhere."""
+    width = _width(answer.key)
+    if not answer.wrong:
+        return min(answer.off.deviation**2, FAR**2) + width
+    if not isinstance(answer.given, float) or not isinstance(answer.key.value, float):
+        return FAR**2 + width
+    # A mistake that makes a number larger makes its scatter larger: that is no reason against it.
+    size = max(abs(answer.key.value), answer.key.scatter)
+    return ANYWHERE + width + 2 * math.log(min(LARGER, max(1.0, abs(answer.given) / size)))
 
 
 def _width(value: Expected) -> float:

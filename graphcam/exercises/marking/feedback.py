@@ -9,13 +9,29 @@ from graphcam.exercises.marking.record import Diagnosis, Marked
 
 
 def feedback(
-    exercise: Exercise, marked: Sequence[Marked], answers: Answers, diagnosis: Diagnosis | None
+    exercise: Exercise,
+    marked: Sequence[Marked],
+    answers: Answers,
+    diagnosis: Diagnosis | None,
+    most: float | None = None,
 ) -> tuple[str, ...]:
-    """Sentences for the student: about every answer, then about the mistake behind them."""
-    captions = [_about(each, answers) for each in marked]
+    """Sentences for the student: about every answer, then about the mistake behind them.
+
+    most : the marks that were left with that mistake, where it would have earned more
+    """
+    curves = {asked.name for asked in exercise.answers if asked.kind == "curve"}
+    captions = [
+        _near(each) if each.outcome == "partial" and each.name not in curves else _about(each, answers)
+        for each in marked
+    ]
     if diagnosis:
         captions += _mistake(diagnosis)
-    elif any(each.outcome == "wrong" for each in marked):
+        if most is not None:
+            said = say(
+                "With this mistake a hand-in earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
+            )
+            captions.append(said)
+    elif any(each.outcome in ("wrong", "partial") for each in marked):
         captions.append(say("No usual mistake explains these answers; go through the wrong steps once more."))
     return tuple(map(exercise.tell, captions))
 
@@ -31,10 +47,38 @@ def _about(answer: Marked, answers: Answers) -> Caption:
             return say("{name}: the answer cannot be read: {reason}.", name=name, reason=answers.problems[name])
         case "unreadable":
             return say("{name}: the answer cannot be read.", name=name)
+        case "follow-through" if answer.marks < answer.of:
+            return say(
+                "{name}: it follows rightly from your own earlier answers and earns {marks:g} of {of:g} marks.",
+                name=name,
+                marks=answer.marks,
+                of=answer.of,
+            )
         case "follow-through":
             return say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)
+        case "partial":
+            return _partial(answer)
         case "wrong":
             return _wrong(answer)
+
+
+def _partial(answer: Marked) -> Caption:
+    assert answer.station is not None
+    return say(
+        "{name}: a part of the curve is right and earns its part of the marks. The rest is off or missing, most of all "
+        "at point {number}, the first station being point one and the arcs of the dwells having points every 15°.",
+        name=answer.name,
+        number=answer.station + 1,
+    )
+
+
+def _near(answer: Marked) -> Caption:
+    return say(
+        "{name}: a little farther off than a careful hand draws or calculates; it earns {marks:g} of {of:g} marks.",
+        name=answer.name,
+        marks=answer.marks,
+        of=answer.of,
+    )
 
 
 def _wrong(answer: Marked) -> Caption:

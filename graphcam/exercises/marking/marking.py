@@ -1,7 +1,7 @@
 """Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
 
-import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,11 +9,13 @@ import numpy as np
 from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagnose
+from graphcam.exercises.marking.earning import Judged, earned
+from graphcam.exercises.marking.exactness import too_exact
 from graphcam.exercises.marking.feedback import feedback
-from graphcam.exercises.marking.record import Marked, Outcome, Record
+from graphcam.exercises.marking.record import Marked, Record
 
-FEWEST_DRAWN = 3
-"""So many drawn answers it takes to remark that they are too exact."""
+LEAST_SHARE = 0.5
+"""A curve of which less is right earns nothing: with most mistakes a dwell or two lie on the right circle."""
 SMALL = 8.0
 """A key of fewer tolerances is no length that grows with a scale: its tolerance would grow without bounds."""
 
@@ -24,17 +26,18 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
     the tolerance of what follows from the student's own earlier answers, or where the diagnosed mistake was made in an
     earlier step and everything since was done right: one slip costs its own step only.  From an absurd earlier answer
-    nothing follows, and nought follows from nothing.
+    nothing follows, and nought follows from nothing.  A curve that is right in part earns that part of its marks.  What
+    else is paid, and how much, is the policy of the exercise.
 
-    answers : untrusted data; whatever it holds, there is one record
-    level : how the answers were come by, for the record
+        answers : untrusted data; whatever it holds, there is one record
+        level : how the answers were come by, for the record
 
-    >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> from graphcam.exercises.key.keying import issue
-    >>> exercise = find_exercise("acceleration-and-scales")
-    >>> variant, answer_key = issue(exercise, "Anna", b"secret")
-    >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
-    0.0
+        >>> from graphcam.exercises.definition.exercise_file import find_exercise
+        >>> from graphcam.exercises.key.keying import issue
+        >>> exercise = find_exercise("acceleration-and-scales")
+        >>> variant, answer_key = issue(exercise, "Anna", b"secret")
+        >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
+        0.0
     """
     compared = compare(exercise, answer_key, answers)
     diagnosis, following = None, set[str]()
@@ -42,7 +45,17 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
         diagnosis, explained = diagnose(answer_key, compared) or (None, frozenset[int]())
         following = _following(answer_key, compared, explained)
     beside_key = {each.asked.name: each for each in compared}
-    marked = tuple(_marked(asked, beside_key.get(asked.name), answers, following) for asked in exercise.answers)
+    judged = [
+        _judged(asked, beside_key.get(asked.name), answers, following, answer_key.bound) for asked in exercise.answers
+    ]
+    mistakes = (diagnosis.misconception, *diagnosis.alike) if diagnosis else ()
+    policy = exercise.policy
+    marks, strict, uncapped = (
+        earned(each, judged, mistakes)
+        for each in (policy, replace(policy, follow_through=0.0), replace(policy, caps={}))
+    )
+    marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
+    most = policy.most(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
         student=answer_key.student,
         exercise=answer_key.exercise,
@@ -53,10 +66,12 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
         total=sum(each.marks for each in marked),
         of=exercise.marks,
         diagnosis=diagnosis,
-        too_exact=_too_exact(answer_key, compared),
-        feedback=feedback(exercise, marked, answers, diagnosis),
+        too_exact=too_exact(answer_key, compared),
+        feedback=feedback(exercise, marked, answers, diagnosis, most),
         notes=tuple(map(exercise.tell, answers.notes)),
         level=level,
+        without_follow_through=sum(strict),
+        without_caps=sum(uncapped),
     )
 
 
@@ -94,22 +109,25 @@ def _follows(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, fl
     return abs(given - expected) <= tolerance
 
 
-def _marked(asked: Asked, answer: ComparedAnswer | None, answers: Answers, following: set[str]) -> Marked:
+def _judged(asked: Asked, answer: ComparedAnswer | None, answers: Answers, following: set[str], bound: float) -> Judged:
     if answer is None:
         there = asked.name in answers.values or asked.name in answers.problems
-        return Marked(asked.name, "unreadable" if there else "missing", 0.0, asked.marks)
-    outcome: Outcome = "right"
-    if answer.wrong:
-        outcome = "follow-through" if asked.name in following else "wrong"
-    earned = 0.0 if outcome == "wrong" else asked.marks
+        return Judged(asked, "unreadable" if there else "missing")
+    if not answer.wrong:
+        return Judged(asked, "right")
+    share = (
+        answer.key.share(answer.given, bound) if isinstance(answer.given, np.ndarray) and asked.kind == "curve" else 0.0
+    )
+    outcome = "follow-through" if asked.name in following else "wrong"
+    return Judged(asked, outcome, abs(answer.off.deviation) / bound, share if share >= LEAST_SHARE else 0.0)
+
+
+def _marked(judged: Judged, answer: ComparedAnswer | None, marks: float) -> Marked:
+    name, of = judged.asked.name, judged.asked.marks
+    if answer is None:
+        return Marked(name, judged.outcome, marks, of)
+    outcome = "partial" if judged.outcome == "wrong" and marks > 0 else judged.outcome
     given: Any = answer.given
     if isinstance(given, np.ndarray):
         given = [[z.real, z.imag] for z in given.tolist()]
-    return Marked(asked.name, outcome, earned, asked.marks, given, *answer.off)
-
-
-def _too_exact(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> bool:
-    drawn = [each.off.deviation for each in compared if answer_key.keys[each.asked.name].drawn]
-    if len(drawn) < FEWEST_DRAWN:
-        return False
-    return math.sqrt(sum(each**2 for each in drawn) / len(drawn)) < answer_key.too_exact
+    return Marked(name, outcome, marks, of, given, *answer.off)

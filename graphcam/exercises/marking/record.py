@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from graphcam.exercises.definition.exercise import Value
 
-Outcome = Literal["right", "follow-through", "wrong", "missing", "unreadable"]
+Outcome = Literal["right", "follow-through", "partial", "wrong", "missing", "unreadable"]
 
 
 @dataclass(frozen=True)
@@ -50,10 +50,12 @@ class Record:
 
     version, draw, parameters : of the variant
     total, of : marks earned and possible
-    too_exact : advisory, never a mark: the answers are nearer to the key than a hand can draw
+    too_exact : advisory, for the teacher alone: the readings are as exact as a program's, by CAD or computed
     feedback : sentences for the student, which never disclose the key
     notes : for the teacher, such as what could not be read
     level : how the answers were come by, "L0" where nothing was run
+    without_follow_through, without_caps : the total as it would be without that part of the exercise's policy
+    memory : MiB that all processes of the code together were watched for; None at L0
     """
 
     student: str
@@ -69,6 +71,9 @@ class Record:
     feedback: tuple[str, ...]
     notes: tuple[str, ...] = ()
     level: str = "L0"
+    without_follow_through: float = 0.0
+    without_caps: float = 0.0
+    memory: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """As strict JSON takes it.
@@ -80,8 +85,11 @@ class Record:
 
 
 def _strict(value: Any) -> Any:
+    # A drawn curve has a hundred numbers, so they are looked at first.
     if isinstance(value, float):
         return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (str, int)):
+        return value
     if isinstance(value, (Record, Marked, Diagnosis)):
         value = vars(value)
     if isinstance(value, dict):

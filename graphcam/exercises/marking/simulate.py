@@ -1,8 +1,11 @@
 """Monte Carlo of an exercise: how often careful work loses a point, wrong work passes, a mistake is misnamed."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 from graphcam.constructions.chain import Chain
@@ -12,7 +15,10 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import Drawn, answers_of
+from graphcam.exercises.marking.copy_gain import VARIANTS, CopyGain, copy_gain
 from graphcam.exercises.marking.marking import mark
+from graphcam.exercises.marking.outside import unlisted, without
+from graphcam.workers import executor_of, in_order
 
 NOTHING = "none"
 """In the matrix: no catalogued mistake was named."""
@@ -31,34 +37,84 @@ class SimulatedRow:
         return self.named.get(name, 0) / self.hands
 
 
+@dataclass(frozen=True)
+class OutsideCount:
+    """Wrong submissions of a mistake that is not among those looked for, and how many were given a name."""
+
+    hands: int = 0
+    named: int = 0
+
+
 @dataclass
 class _Tally:
     """What is counted of like submissions, over all variants."""
 
     hands: int = 0
     accepted: int = 0
+    wrong: int = 0
     too_exact: int = 0
     named: Counter[str] = field(default_factory=Counter[str])
 
     def mark(self, exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> None:
         """Mark all that these hands drew."""
-        drawn = answers_of(exercise, chain)
-        given = (_submission(exercise, drawn, row) for row in range(chain.pencil.samples or 0))
+        self.mark_answers(exercise, answer_key, answers_of(exercise, chain), chain.pencil.samples or 0)
+
+    def mark_answers(self, exercise: Exercise, answer_key: AnswerKey, drawn: Drawn, hands: int) -> None:
+        """Mark the answers of so many hands."""
+        given = (submission(exercise, drawn, row) for row in range(hands))
         records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
         self.accepted += sum(record.total >= record.of for record in records)
+        self.wrong += sum(record.diagnosis is not None or record.total < record.of for record in records)
         self.too_exact += sum(record.too_exact for record in records)
         self.named.update(record.diagnosis.misconception if record.diagnosis else NOTHING for record in records)
+
+    def add(self, other: _Tally) -> None:
+        """Add what was counted elsewhere."""
+        self.hands += other.hands
+        self.accepted += other.accepted
+        self.wrong += other.wrong
+        self.too_exact += other.too_exact
+        self.named.update(other.named)
+
+
+@dataclass(frozen=True)
+class _VariantTally:
+    """What is counted of the students of one variant, or of several: careful ones, and those with each mistake.
+
+    outside, left_out : as of a :class:`Simulation`
+    """
+
+    careful: _Tally
+    wrong: dict[str, _Tally]
+    outside: _Tally
+    left_out: _Tally
+
+    @staticmethod
+    def of(exercise: Exercise) -> _VariantTally:
+        """With nothing counted yet."""
+        return _VariantTally(_Tally(), {name: _Tally() for name in exercise.misconceptions}, _Tally(), _Tally())
+
+    def add(self, other: _VariantTally) -> None:
+        """Add what was counted of another variant."""
+        self.careful.add(other.careful)
+        for name, tally in self.wrong.items():
+            tally.add(other.wrong[name])
+        self.outside.add(other.outside)
+        self.left_out.add(other.left_out)
 
 
 @dataclass(frozen=True)
 class Simulation:
     """What many simulated students showed.
 
-    losing : careful hands that lost any point; too_exact : those remarked on as too exact
+    losing : careful hands that lost any point; too_exact : those remarked on as exact as a program
     rows : by the misconception's name
     issued : how many variants were issued at the first draw of the parameters, at the second, and so on: the first in
         which all mistakes could be told
+    outside : hands with catalogued mistakes that the exercise does not list
+    left_out : hands with each of its mistakes, marked as if that one were not listed
+    copies : what a careful student of one variant earns by the key of another
     """
 
     exercise: str
@@ -69,6 +125,15 @@ class Simulation:
     too_exact: int
     rows: dict[str, SimulatedRow]
     issued: tuple[int, ...]
+    outside: OutsideCount = OutsideCount()
+    left_out: OutsideCount = OutsideCount()
+    copies: CopyGain = field(default_factory=CopyGain)
+
+    @property
+    def outside_named(self) -> float:
+        """Part of the wrong submissions with a mistake that is not looked for, to which another one was attributed."""
+        hands = self.outside.hands + self.left_out.hands
+        return (self.outside.named + self.left_out.named) / hands if hands else 0.0
 
     @property
     def false_rejections(self) -> float:
@@ -94,38 +159,85 @@ class Simulation:
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON takes it."""
-        rates = ("false_rejections", "false_acceptances", "right_diagnoses", "draws")
+        rates = ("false_rejections", "false_acceptances", "right_diagnoses", "outside_named", "draws")
         return asdict(self) | {name: getattr(self, name) for name in rates}
 
 
 def simulate(
-    exercise: Exercise, secret: bytes, variants: int, hands: int, step: Callable[[int, int], None] = lambda a, b: None
+    exercise: Exercise,
+    secret: bytes,
+    variants: int,
+    hands: int,
+    step: Callable[[int, int], None] = lambda a, b: None,
+    *,
+    workers: int = 1,
+    cluster: str = "",
 ) -> Simulation:
     """Draw variants, and on each of them as many careful students, and as many with every mistake.
 
     step : hears how many variants of how many are done
+    workers, cluster : processes here, or the address of a dask scheduler; the figures are the same
 
     Raises
     ------
     DesignError : there is a student for whom no draw of the parameters can be diagnosed
+    OSError : no scheduler answers at the address
     """
-    careful, wrong = _Tally(), {name: _Tally() for name in exercise.misconceptions}
+    whole = _VariantTally.of(exercise)
     issued: Counter[int] = Counter()
-    for k in range(variants):
-        variant, answer_key = issue(exercise, f"student {k}", secret)
-        issued[variant.draw] += 1
-        # Never the seed of the hands that the answer key was made from.
-        drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
-        careful.mark(exercise, answer_key, drawn)
-        for name, tally in wrong.items():
-            tally.mark(exercise, answer_key, misconception(name).change(drawn))
-        step(k + 1, variants)
-    rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in wrong.items()}
+    done: list[tuple[AnswerKey, Answers]] = []
+    with executor_of(workers, cluster) as executor:
+        counted = in_order(executor, partial(_counted, exercise, secret, hands), range(variants))
+        for k, (draw, of_variant, careful_work) in enumerate(counted, 1):
+            issued[draw] += 1
+            whole.add(of_variant)
+            done += careful_work
+            step(k, variants)
+    careful = whole.careful
+    rows = {name: SimulatedRow(each.hands, each.accepted, dict(each.named)) for name, each in whole.wrong.items()}
     counts = (careful.hands, careful.hands - careful.accepted, careful.too_exact)
     draws = tuple(issued[draw] for draw in range(max(issued) + 1))
-    return Simulation(exercise.name, exercise.version, variants, *counts, rows, draws)
+    return Simulation(
+        exercise.name,
+        exercise.version,
+        variants,
+        *counts,
+        rows,
+        draws,
+        _outside_count(whole.outside),
+        _outside_count(whole.left_out),
+        copy_gain(exercise, done),
+    )
 
 
-def _submission(exercise: Exercise, drawn: Drawn, row: int) -> Answers:
+def _outside_count(tally: _Tally) -> OutsideCount:
+    """Of those with a wrong answer: what does not show in the answers asked can be given no name."""
+    return OutsideCount(tally.wrong, tally.hands - tally.named[NOTHING])
+
+
+def _counted(
+    exercise: Exercise, secret: bytes, hands: int, k: int
+) -> tuple[int, _VariantTally, list[tuple[AnswerKey, Answers]]]:
+    """Of the variant ``k``: its draw, what was counted of the students who did it, the work of a careful one.
+
+    That work, with the answer key, is there for the first variants alone: it is marked by the keys of all others.
+    """
+    variant, answer_key = issue(exercise, f"student {k}", secret)
+    found = _VariantTally.of(exercise)
+    # Never the seed of the hands that the answer key was made from.
+    drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
+    found.careful.mark(exercise, answer_key, drawn)
+    for name, tally in found.wrong.items():
+        wrongly = misconception(name).change(drawn)
+        tally.mark(exercise, answer_key, wrongly)
+        found.left_out.mark(exercise, without(answer_key, name), wrongly)
+    for answers in unlisted(exercise, drawn):
+        found.outside.mark_answers(exercise, answer_key, answers, hands)
+    careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < VARIANTS else []
+    return variant.draw, found, careful_work
+
+
+def submission(exercise: Exercise, drawn: Drawn, row: int) -> Answers:
+    """What one of the hands that drew answers."""
     pairs = zip(exercise.answers, drawn, strict=True)
     return Answers({a.name: float(v[row]) if a.kind == "number" else v[row] for a, v in pairs})

@@ -4,19 +4,15 @@ import csv
 import io
 import json
 import re
-import tomllib
 from typing import Any
 
 from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.toml_statements import toml_statements
 from graphcam.exercises.reading.values import Points, decimal, shown
 from graphcam.words import say
 
 MOST_ROWS = 20_000
 HEADINGS = (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
-MOST_PARTS = 16
-"""Parts of a dotted key: tomllib takes minutes for thousands."""
-QUOTED = re.compile(r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
-"""A text or a comment in TOML: what stands in it ends no key."""
 DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
 """A number with a comma, as many countries write it: no line of TOML has this form, and one spoils the whole file."""
 
@@ -24,7 +20,7 @@ DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#
 def toml_values(name: str, data: bytes) -> dict[str, Any]:
     """The values of a TOML file: those of its table ``[answers]``, or all where it has none.
 
-    A number that stands alone in its line may have a decimal comma.
+    A number that stands alone in its line may have a decimal comma.  Where a line is bad, its answer alone is lost.
 
     >>> toml_values("answers.toml", b"[answers]\\nv_max = 12.5\\ntouch = [1, 2]")
     {'v_max': 12.5, 'touch': [1, 2]}
@@ -33,7 +29,7 @@ def toml_values(name: str, data: bytes) -> dict[str, Any]:
     """
     text = DECIMAL_COMMA.sub(r"\1.\2", text_of(name, data))
     whole = _of_numbers(text)
-    whole = _of_anything(name, text) if whole is None else whole
+    whole = toml_statements(name, text) if whole is None else whole
     answers = whole.get("answers", whole)
     if not isinstance(answers, dict):
         raise UnreadableError(say("{name}: answers must be a table", name=name))
@@ -90,37 +86,6 @@ def _of_numbers(text: str) -> dict[str, Any] | None:
             except (ValueError, RecursionError):
                 return None
     return found
-
-
-def _of_anything(name: str, text: str) -> dict[str, Any]:
-    if _longest_key(text) > MOST_PARTS:
-        raise UnreadableError(say("{name} has a key of more than {most} parts", name=name, most=MOST_PARTS))
-    try:
-        return tomllib.loads(text)
-    # tomllib passes on what int() and datetime say; deep nesting ends in a RecursionError.
-    except (ValueError, RecursionError) as error:
-        # The library's own words are English, so only the line is taken from them.
-        line = re.search(r"at line (\d+)", str(error))
-    if line is None:
-        raise UnreadableError(say("{name} is not valid TOML", name=name))
-    why = say(
-        "{name}: line {line} is not valid TOML; a line such as v_max = 12.5 is, with a decimal point",
-        name=name,
-        line=line[1],
-    )
-    raise UnreadableError(why)
-
-
-def _longest_key(text: str) -> int:
-    """The greatest number of parts that stand between points, with nothing between them that ends a key."""
-    longest = parts = 0
-    for piece in QUOTED.sub("q", text).split("."):
-        if any(end in piece for end in ",=\n[]{}"):
-            parts = 0
-        elif piece.strip():
-            parts += 1
-            longest = max(longest, parts)
-    return longest
 
 
 def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableError:

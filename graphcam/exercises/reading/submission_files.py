@@ -1,6 +1,7 @@
 """A student's folder: which of its files hold answers, and what they say together."""
 
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
@@ -20,32 +21,69 @@ from graphcam.exercises.reading.values import number, points, shown
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
 LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
 """Bytes of a file that are read."""
+ALIKE = re.compile(
+    r" *answers *(?:\(\d{1,4}\)|[-_]\d{1,4})? *\.(toml|csv|ipynb|dxf)(?:\.txt)? *", re.ASCII | re.IGNORECASE
+)
+"""What systems make of the names: capitals, a number where there was a file, an ending that an editor adds."""
 Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
 """Values by name out of a file's bytes, and sentences on it."""
 
 
-def read_files(folder: str | os.PathLike[str]) -> tuple[dict[str, bytes], list[UnreadableError]]:
-    """The bytes of the answer files that are there, and why others cannot be read."""
+def read_files(
+    folder: str | os.PathLike[str], names: Mapping[str, str] | None = None
+) -> tuple[dict[str, bytes], list[Caption]]:
+    """The bytes of the answer files that are there, and sentences on those that cannot be read or are called otherwise.
+
+    names : of a folder that holds files of others too, how the student's are called there by how they were handed in
+    """
     try:
         descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
     except OSError:
-        return {}, [UnreadableError(say("the hand-in is not a folder"))]
+        return {}, [say("the hand-in is not a folder")]
     found: dict[str, bytes] = {}
-    errors: list[UnreadableError] = []
+    errors: list[Caption] = []
     try:
-        for name, limit in LIMITS.items():
+        # By the descriptor, so that it is the folder that was opened.
+        there = names if names is not None else {name: name for name in os.listdir(descriptor)}  # noqa: PTH208
+        chosen, notes = answer_files(there)
+        for name, handed_in in chosen.items():
             try:
-                os.stat(name, dir_fd=descriptor, follow_symlinks=False)
-                found[name] = read_regular(name, limit, descriptor)
-            except OSError:
-                continue
+                found[name] = read_regular(there[handed_in], LIMITS[name], descriptor)
             except UnreadableError as error:
-                errors.append(error)
+                errors.append(error.why)
+    except OSError:
+        return {}, [say("the hand-in is not a folder")]
     finally:
         os.close(descriptor)
-    if not found and not errors:
-        errors.append(UnreadableError(say("there is none of {names}", names=", ".join(LIMITS))))
-    return found, errors
+    if not found and not errors and not notes:
+        errors.append(say("there is none of {names}", names=", ".join(LIMITS)))
+    return found, [*errors, *notes]
+
+
+def answer_files(there: Iterable[str]) -> tuple[dict[str, str], list[Caption]]:
+    """Which of some files are read, by the names that they should have, and sentences on those called otherwise.
+
+    >>> answer_files(["Answers.toml", "answers (1).csv", "answers.dxf.txt", "notes.toml"])[0]
+    {'answers.toml': 'Answers.toml', 'answers.csv': 'answers (1).csv', 'answers.dxf': 'answers.dxf.txt'}
+    """
+    alike: dict[str, list[str]] = {name: [] for name in LIMITS}
+    for name in there:
+        if meant := ALIKE.fullmatch(name):
+            alike[f"answers.{meant[1].lower()}"].append(name)
+    chosen: dict[str, str] = {}
+    notes: list[Caption] = []
+    for name, listed in alike.items():
+        others = sorted(one for one in listed if one != name)
+        if name in listed:
+            chosen[name] = name
+            notes += [say("{other} is not read, since there is {name}", other=other, name=name) for other in others[:1]]
+        elif len(others) == 1:
+            chosen[name] = others[0]
+            notes.append(say("{other} is read as {name}", other=others[0], name=name))
+        elif others:
+            said = ", ".join(others[:3])
+            notes.append(say("none of {others} is read: call the right one {name}", others=said, name=name))
+    return chosen, notes
 
 
 def from_files(
@@ -115,7 +153,14 @@ def _answers(
         notes = [*notes, say("{name} marks no origin by a POINT on the layer ORIGIN; its own zero is taken", name=DXF)]
     if not values and not problems:
         notes = [*notes, say("none of the answers is given")]
-    return Answers(values, problems, (*notes, *_unknown(asked, given)))
+    return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown(asked, given)))
+
+
+def _bad_lines(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption]:
+    """A sentence on the first bad line that names none of the answers: it may have been meant for one."""
+    names = {one.name for one in asked}
+    values = [value for name, listed in given.items() if name not in names for value in listed]
+    return [value.why for value in values if isinstance(value, UnreadableError)][:1]
 
 
 def _drawn(asked: Asked, drawing: CadDrawing, room: PaperArea | None) -> tuple[Given, list[Caption]]:

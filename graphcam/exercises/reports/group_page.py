@@ -2,19 +2,25 @@
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.definition.exercise import Asked, Exercise, Kind
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.definition.variant import sentence
+from graphcam.exercises.key.answer_key import AnswerKey, Key
+from graphcam.exercises.marking.copies import FALSE_ALARM, AlikePair
+from graphcam.exercises.marking.exactness import FALSE_ALARMS
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
+from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
+from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along, key_line
 from graphcam.exercises.reports.web_pages import page
-from graphcam.words import say
+from graphcam.words import Caption, say
 
 WIDTH, HEIGHT, LETTERS = 640, 70, 18
 """Pixels: of the chart, and of the line of labels under it."""
@@ -103,6 +109,16 @@ class Mistake:
     lost: float
 
 
+@dataclass(frozen=True, eq=False)
+class HandedInDrawing:
+    """What a student drew as an answer, as its record has it, and what was right."""
+
+    student: str
+    kind: Kind
+    answer: dict[str, Any]
+    key: Key
+
+
 def step_errors(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[StepErrors]:
     """The errors of every step, in the order of the construction."""
     answers = [answer for record in records for answer in record["answers"]]
@@ -110,7 +126,7 @@ def step_errors(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[S
 
 
 def _step(asked: Asked, answers: list[dict[str, Any]]) -> StepErrors:
-    bars = {outcome: [0] * BARS for outcome in ("right", "follow-through", "wrong")}
+    bars = {outcome: [0] * BARS for outcome in ("right", "follow-through", "partial", "wrong")}
     for answer in answers:
         if answer["outcome"] in bars:
             bars[answer["outcome"]][bar_of(answer["deviation"])] += 1
@@ -143,10 +159,18 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.name))
 
 
-def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]) -> str:
+def group_page(
+    exercise: Exercise,
+    records: Sequence[dict[str, Any]],
+    answer_keys: Mapping[str, AnswerKey],
+    pairs: Sequence[AlikePair] = (),
+    refused: Sequence[Refused] = (),
+) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
 
     answer_keys : by student, as far as they are known
+    pairs : whose numbers agree beyond chance
+    refused : what is not graded
     """
     steps, found = step_errors(exercise, records), mistakes(records)
     bound = median(each.bound for each in answer_keys.values()) if answer_keys else 0.0
@@ -154,17 +178,38 @@ def group_page(exercise: Exercise, records: Sequence[dict[str, Any]], answer_key
         "group.html",
         exercise,
         records=records,
+        refused=[(one.place, exercise.tell(one.why)) for one in refused],
         average=sum(record["total"] for record in records) / len(records) if records else math.nan,
         levels=sorted({record["level"] for record in records}) or ["–"],
+        memory=sorted({limit for record in records if (limit := record.get("memory"))}),
         # What most lost marks by: mistakes that several made, then steps that stay weak.
         common=[mistake for mistake in found if len(mistake.students) >= max(1, COMMON * len(records))],
         weak=sorted((step for step in steps if step.earned < WEAK), key=lambda step: step.earned),
         marks=_marks(exercise, records),
+        policies=_policies(records),
         steps=[(step, _chart(step, bound)) for step in steps],
+        items=item_statistics(records),
+        alpha=cronbach_alpha(earned_parts(records) * [asked.marks for asked in exercise.answers])
+        if records
+        else math.nan,
+        groups=variant_groups(records, lambda value: sentence("{value}", {"value": value}, exercise.tell)),
         mistakes=found,
         said={mistake.name: misconception(mistake.name).said for mistake in found},
-        pictures=_pictures(exercise, records, answer_keys),
+        pairs=pairs,
+        copies_by_chance=100 * 2 * FALSE_ALARM,
+        false_alarms=FALSE_ALARMS,
+        drawn=[(asked, _bundle(found), _farthest(found)) for asked, found in _drawn(exercise, records, answer_keys)],
     )
+
+
+def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
+    """The average marks as they are, and as they would be by another policy."""
+    totals = {
+        "total": say("This policy"),
+        "without_follow_through": say("Without follow-through"),
+        "without_caps": say("Without caps on mistakes"),
+    }
+    return [(said, sum(record[name] for record in records) / len(records)) for name, said in totals.items() if records]
 
 
 def _marks(exercise: Exercise, records: Sequence[dict[str, Any]]) -> Chart:
@@ -182,20 +227,39 @@ def _chart(step: StepErrors, bound: float) -> Chart:
     return stacked(step.bars, [*ends, *ticks], (0.5 - inside, 0.5 + inside))
 
 
-def _pictures(
+def _drawn(
     exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
-) -> list[tuple[str, dict[str, Any], CurvePicture]]:
-    """Of every answer that is drawn those farthest off: the student, the answer, and how it looks."""
+) -> Iterator[tuple[Asked, list[HandedInDrawing]]]:
+    """Every answer that somebody drew, with the drawings that can be compared with their keys."""
     known = [record for record in records if record["student"] in answer_keys]
-    answers = [(record["student"], answer) for record in known for answer in record["answers"]]
-    drawn = [(student, answer) for student, answer in answers if answer["off_paper"] is not None]
-    drawn.sort(key=lambda each: -each[1]["off_paper"])
-    shown: list[tuple[str, dict[str, Any], CurvePicture]] = []
-    for asked in exercise.answers:
-        for student, answer in [each for each in drawn if each[1]["name"] == asked.name][:LARGEST_PICTURES]:
-            key = answer_keys[student].keys[asked.name].expected
-            # The key knows the stations; what lies between them is not straight.
-            stations = np.atleast_1d(np.asarray(key.value))
-            curves = [("key", stations, False), ("own", points_of(answer), asked.kind == "curve")]
-            shown.append((student, answer, picture(curves, worst_place(key, answer, asked.kind))))
-    return shown
+    for place, asked in enumerate(exercise.answers):
+        if asked.kind == "number":
+            continue
+        # The answers of a record stand in the order of the exercise.
+        answers = [(record["student"], record["answers"][place]) for record in known]
+        found = [
+            HandedInDrawing(student, asked.kind, answer, answer_keys[student].keys[asked.name])
+            for student, answer in answers
+            if answer["off_paper"] is not None
+        ]
+        if found:
+            yield asked, found
+
+
+def _farthest(drawings: list[HandedInDrawing]) -> list[tuple[HandedInDrawing, CurvePicture]]:
+    farthest = sorted(drawings, key=lambda each: -each.answer["off_paper"])[:LARGEST_PICTURES]
+    return [(each, _picture(each)) for each in farthest]
+
+
+def _bundle(drawings: list[HandedInDrawing]) -> Bundle:
+    off = [deviations_along(each.key.expected, points_of(each.answer), each.kind) for each in drawings]
+    return bundle(off, median(each.key.tolerance for each in drawings))
+
+
+def _picture(drawing: HandedInDrawing) -> CurvePicture:
+    key, own = drawing.key.expected, points_of(drawing.answer)
+    stations = np.atleast_1d(np.asarray(key.value))
+    curves = [("key", stations, False), ("own", own, drawing.kind == "curve")]
+    if drawing.kind == "curve":
+        curves.insert(0, ("key", key_line(key), True))
+    return picture(curves, worst_place(key, drawing.answer, drawing.kind))

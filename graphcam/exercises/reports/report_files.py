@@ -1,17 +1,18 @@
 """All files of a graded course, written together; the grades are CSV that is safe to open in a spreadsheet."""
 
-import csv
-import io
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.course.spreadsheet import cell
+from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.marking.copies import AlikePair, alike_pairs
 from graphcam.exercises.reports.group_page import group_page
+from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
 from graphcam.exercises.reports.student_page import student_page
 from graphcam.files import whole_folder
 
@@ -19,27 +20,46 @@ LONG = (
     *("student", "exercise", "answer", "outcome", "marks", "of"),
     *("given", "pencil_units", "worst_station", "off_paper_mm"),
 )
+BY_HAND = ("student", "answer", "found", "marks", "comment")
 
 
 def write_reports(
-    out: Path, exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
+    out: Path,
+    exercise: Exercise,
+    records: Sequence[dict[str, Any]],
+    answer_keys: Mapping[str, AnswerKey],
+    refused: Sequence[Refused] = (),
 ) -> list[str]:
-    """The grades, wide into ``out`` and long beside it, the records and the report on the group; their names.
+    """The grades, wide into ``out``; beside it long, for grade books, who agrees, the records, the group's report.
+
+    Their names are given back.
+
+    refused : what is not graded, which has a table of its own where there is any
 
     Raises
     ------
     OutputError : they cannot be written
     """
+    pairs = alike_pairs(exercise, records, answer_keys)
     texts = {
         out.name: wide_table(records),
+        **_by_hand(out, records),
         # One row an answer, for statistics.
-        f"{out.stem}-long.csv": _csv(
+        f"{out.stem}-long.csv": table(
             LONG, (_long(record, answer) for record in records for answer in record["answers"])
         ),
+        f"{out.stem}-copies.csv": copies_table(pairs),
+        # For grade books.
+        f"{out.stem}-moodle.csv": moodle_grades(exercise, records),
+        f"{out.stem}-canvas.csv": canvas_grades(exercise, records),
         # A line a record.
         f"{out.stem}.json": "[" + ",\n ".join(json.dumps(record, allow_nan=False) for record in records) + "]\n",
-        f"{out.stem}.html": group_page(exercise, records, answer_keys),
+        f"{out.stem}.html": group_page(exercise, records, answer_keys, pairs, refused),
     }
+    not_graded = f"{out.stem}-not-graded.csv"
+    # The table of a former run would go on telling what is mended.
+    if refused or (out.parent / not_graded).exists():
+        texts[not_graded] = table(("folder", "why"), ([one.place, one.why] for one in refused))
     with whole_folder(out.parent) as draft:
         for name, text in texts.items():
             (draft / name).write_text(text, encoding="utf-8", newline="")
@@ -61,11 +81,32 @@ def write_feedback(
             (draft / f"{folder_name(record['student'])}.html").write_text(text, encoding="utf-8")
 
 
+def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
+    """The table of marks given by hand, where there are any, or were when it was written before."""
+    name = f"{out.stem}-by-hand.csv"
+    rows = [
+        [record["student"], *(one[column] for column in BY_HAND[1:])]
+        for record in records
+        for one in record.get("overrides", [])
+    ]
+    return {name: table(BY_HAND, rows)} if rows or (out.parent / name).exists() else {}
+
+
 def wide_table(records: Sequence[dict[str, Any]]) -> str:
     """One row a student: total, marks of every answer, diagnosis, advice, level, remarks."""
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
     head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes"]
-    return _csv(head, (_wide(record, names) for record in records))
+    return table(head, (_wide(record, names) for record in records))
+
+
+def copies_table(pairs: Iterable[AlikePair]) -> str:
+    """One row a pair whose numbers agree beyond chance: who, in what, and how probable it is in an honest course."""
+    head = ["student", "other", "agrees_in", "count", "answers", "probability"]
+    rows = (
+        [each.student, each.other, each.kind, len(each.answers), " ".join(each.answers), each.probability]
+        for each in pairs
+    )
+    return table(head, rows)
 
 
 def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
@@ -86,11 +127,3 @@ def _long(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
 def _number(given: Any) -> Any:
     """A number; of points and curves only how many there are."""
     return f"{len(given)} points" if isinstance(given, list) else given
-
-
-def _csv(head: Sequence[str], rows: Iterable[list[Any]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_ALL)
-    writer.writerow([cell(name) for name in head])
-    writer.writerows([cell(value) for value in row] for row in rows)
-    return text.getvalue()

@@ -9,7 +9,7 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.reading.notebook import cell_source, code_cells, notebook_values
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import shown
-from graphcam.exercises.running.levels import Level, ResourceLimits
+from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
 from graphcam.exercises.running.process import Ended
 from graphcam.exercises.running.sandbox import run_cells
 
@@ -63,6 +63,15 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def _on_end(name: str, ended: Ended, limits: ResourceLimits) -> list[Caption]:
     if ended.late:
         return [say("{name} was stopped after {seconds:g} s", name=name, seconds=limits.seconds)]
+    if ended.large:
+        limit = limits.memory // MEBIBYTE
+        return [
+            say(
+                "{name} was stopped: its processes together took more than {limit} MiB of memory",
+                name=name,
+                limit=limit,
+            )
+        ]
     # The student's own words; what is shown of them is one short line.
     last = ended.text.strip().splitlines()[-1:]
     if last and ("Error" in last[0] or "SystemExit" in last[0] or "Interrupt" in last[0]):

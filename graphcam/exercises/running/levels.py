@@ -10,9 +10,17 @@ class Level(StrEnum):
     L0 = "L0"
     """Nothing is run: answers are data."""
     L1 = "L1"
-    """A process with limits of time and memory: for practice, since it reads what the grader can read."""
+    """A process with limits of time and memory, for students whom you trust.
+
+    It keeps nothing else: as an ordinary user, code reads, overwrites and deletes what the grader can, the secret and
+    the answers of others among it, and reaches the network.  Of root it gets a user of its own and no right.
+    """
     L2 = "L2"
-    """Bubblewrap: no network, no file but Python itself, no process that outlives it."""
+    """Bubblewrap: no network, no file but Python itself, no process that outlives it, no keys, no further name space.
+
+    The memory of all its processes together is watched, since the kernel's own bound (a control group) is seldom given
+    to users; what takes more is killed.  It trusts the kernel: an error in that is a way out.
+    """
 
 
 MEBIBYTE = 1 << 20
@@ -23,7 +31,7 @@ class ResourceLimits:
     """Limits of one run.
 
     seconds : of wall time
-    memory : bytes of address space of each process
+    memory : bytes of address space of each process, and of memory of all of them together
     processes : at once, threads among them
     written : bytes of a file, and of the folder for temporary files
     handed_out : bytes of answers that are read

@@ -73,6 +73,8 @@ def missing(level: Level) -> str:
         return "its limits are those of Linux"
     if level is Level.L2 and shutil.which("bwrap") is None:
         return "the program bwrap (bubblewrap) is not installed"
+    if level is Level.L1 and os.getuid() == 0 and not _readable_by_all(Path(sys.executable)):
+        return f"its code runs as another user than root, who cannot read {sys.executable}"
     try:
         return _broken(level)
     except OSError as error:
@@ -96,6 +98,13 @@ def require(level: Level, private: tuple[Path, ...] = ()) -> None:
         for folder in visible():
             if path.resolve().is_relative_to(folder):
                 raise LevelError(level, f"{path} lies in {folder}, which the code can read; move it")
+
+
+def _readable_by_all(program: Path) -> bool:
+    """Whether every user can reach a program: through its folders, also where it is a link."""
+    places = [program, program.resolve()]
+    folders = {folder for place in places for folder in place.parents}
+    return all(folder.stat().st_mode & 0o001 for folder in folders)
 
 
 def _broken(level: Level) -> str:

@@ -11,10 +11,11 @@ from dataclasses import dataclass, field
 from io import FileIO
 
 from graphcam.exercises.running.levels import ResourceLimits
+from graphcam.exercises.running.tree_memory import tree_memory
 
 CHUNK = 1 << 16
-PATIENCE = 0.05
-"""Seconds between two looks at a process that says nothing."""
+PATIENCE = 0.02
+"""Seconds between two looks at a process that says nothing, and at its memory."""
 LAST_WORDS = 0.3
 """Seconds in which a killed group lets go of its pipes."""
 
@@ -27,12 +28,14 @@ class Ended:
     text : the last of what was written to standard output and error
     status : exit status; negative for a signal
     late : whether it was killed when its time was over
+    large : whether it was killed since its processes together took more memory than the limit
     """
 
     handed_out: bytes
     text: str
     status: int
     late: bool
+    large: bool = False
 
 
 @dataclass
@@ -83,27 +86,31 @@ def run_limited(
                 os.close(theirs)
         stack.callback(_end, process)
         answers, text = _Sink(limits.handed_out, last=False), _Sink(limits.kept, last=True)
-        late = _attend(process, (source, order(pipe_write)), {pipe_read: answers, out_read: text}, limits.seconds)
-        return Ended(bytes(answers.held), text.held.decode(errors="replace"), process.returncode, late)
+        sinks = {pipe_read: answers, out_read: text}
+        late, large = _attend(process, (source, order(pipe_write)), sinks, limits)
+        return Ended(bytes(answers.held), text.held.decode(errors="replace"), process.returncode, late, large)
 
 
 def _attend(
-    process: subprocess.Popen[bytes], feed: tuple[FileIO, bytes], sinks: dict[int, _Sink], seconds: float
-) -> bool:
-    """Feed and drain until the process has ended or its time is over; whether it was late."""
-    deadline = time.monotonic() + seconds
+    process: subprocess.Popen[bytes], feed: tuple[FileIO, bytes], sinks: dict[int, _Sink], limits: ResourceLimits
+) -> tuple[bool, bool]:
+    """Feed and drain until the process has ended or a limit is passed; whether it was late, or too large."""
+    deadline, looked, large = time.monotonic() + limits.seconds, 0.0, False
     source, order = feed
     with selectors.DefaultSelector() as selector:
         selector.register(source, selectors.EVENT_WRITE)
         for number in sinks:
             selector.register(number, selectors.EVENT_READ)
-        while not _has_ended(process) and time.monotonic() < deadline:
+        while not large and not _has_ended(process) and time.monotonic() < deadline:
             for key, _ in selector.select(min(PATIENCE, max(0.0, deadline - time.monotonic()))):
                 if key.fileobj is source:
                     order = _fed(selector, source, order)
                 else:
                     _drained(selector, key.fd, sinks[key.fd])
-        late = not _has_ended(process)
+            if time.monotonic() - looked > PATIENCE:
+                large = tree_memory(process.pid) > limits.memory
+                looked = time.monotonic()
+        late = not large and not _has_ended(process)
         _end(process)
         # What is still in the pipes; they end when the last of the group has gone.
         if not source.closed:
@@ -112,7 +119,7 @@ def _attend(
         while selector.get_map() and time.monotonic() < until:
             for key, _ in selector.select(max(0.0, until - time.monotonic())):
                 _drained(selector, key.fd, sinks[key.fd])
-    return late
+    return late, large
 
 
 def _fed(selector: selectors.BaseSelector, source: FileIO, order: bytes) -> bytes:

@@ -6,23 +6,24 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import sys
-import tempfile
 import threading
-from collections.abc import Generator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 from graphcam.exercises.running import launcher
-from graphcam.exercises.running.levels import Level, ResourceLimits
+from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
 from graphcam.exercises.running.process import Ended, run_limited
+from graphcam.exercises.running.scratch import scratch_folder
+from graphcam.exercises.running.system_calls import new_keyring, refusals
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
 SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
 """What the loader of shared libraries and matplotlib want; nothing of the host's own."""
 FIRST_USER, USERS = 20_000, 40_000
 """Numbers that no account has, one for each run at a time, so that one cannot use up another's processes."""
+SHARED = 32 * MEBIBYTE
+"""Bytes of /dev/shm in the sandbox."""
 ATTEMPTS = 20
 """How often what was left behind is looked for: it may go on forking meanwhile."""
 
@@ -39,35 +40,19 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Resource
     resources = limits.resources(0 if os.getuid() == 0 else _processes_of(os.getuid()))
     numpy, graphcam = _packages()
     path = [str(numpy), str(graphcam.parent)]
-    with _scratch() as folder:
-        if os.getuid() == 0:
-            os.chown(folder, _user(), _user())
+    with scratch_folder(_user() or None) as folder:
 
         def order(pipe: int) -> bytes:
             """What the other process is to run, as JSON; it answers through the pipe."""
             ran = {"cells": cells, "names": names, "limits": resources, "user": _user(), "path": path, "pipe": pipe}
-            return json.dumps(ran).encode()
+            kept_out = {"keyring": new_keyring(), "refused": refusals().hex()}
+            return json.dumps(ran | kept_out).encode()
 
         try:
             return run_limited(_command(level, limits), order, limits, folder, _environment(level, folder))
         finally:
             if level is Level.L1:
                 _end_left_behind(folder)
-
-
-@contextmanager
-def _scratch() -> Generator[str]:
-    """A folder that is gone afterwards, whatever was put into it."""
-    folder = tempfile.mkdtemp(prefix="graphcam-run-")
-    try:
-        yield folder
-    finally:
-        try:
-            shutil.rmtree(folder)
-        # Without permission, or deeper than Python's stack.
-        except (OSError, RecursionError):
-            for command in (["chmod", "-R", "u+rwx"], ["rm", "-rf"]):
-                subprocess.run([*command, folder], check=False, capture_output=True)
 
 
 def _end_left_behind(folder: str) -> None:
@@ -105,12 +90,12 @@ def _command(level: Level, limits: ResourceLimits) -> list[str]:
 
 
 def _another_user() -> list[str]:
-    """As root, the start of a command line that runs as nobody else does, but may still read root's own Python."""
+    """As root, the start of a command line that runs as nobody else does, with none of root's rights."""
     if os.getuid() != 0:
         return []
-    program, user, kept = shutil.which("setpriv") or "setpriv", str(_user()), "-all,+dac_read_search"
+    program, user = shutil.which("setpriv") or "setpriv", str(_user())
     others = ["--reuid", user, "--regid", user, "--clear-groups"]
-    return [program, *others, f"--inh-caps={kept}", f"--ambient-caps={kept}", "--no-new-privs"]
+    return [program, *others, "--inh-caps=-all", "--ambient-caps=-all", "--bounding-set=-all", "--no-new-privs"]
 
 
 def _bubblewrap(limits: ResourceLimits) -> list[str]:
@@ -118,6 +103,7 @@ def _bubblewrap(limits: ResourceLimits) -> list[str]:
     unshared = [f"--unshare-{name}" for name in ("ipc", "pid", "net", "uts", "cgroup-try")]
     command = [program, *unshared, "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]
     # As root another user is taken inside; otherwise the kernel gives a name space in which nobody is anybody.
+    # In neither can a further one be made: the launcher is refused the calls for it.
     command += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"] if os.getuid() == 0 else ["--unshare-user"]
     for folder in SYSTEM:
         if Path(folder).is_symlink():
@@ -133,7 +119,9 @@ def _bubblewrap(limits: ResourceLimits) -> list[str]:
             for parent in reversed(folder.parents[:-1]):
                 command += ["--perms", "0755", "--dir", str(parent)]
             command += ["--ro-bind", str(folder), str(folder)]
-    command += ["--proc", "/proc", "--dev", "/dev", "--ro-bind", launcher.__file__, "/launcher.py"]
+    command += ["--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]
+    command += ["--perms", "1777", "--size", str(SHARED), "--tmpfs", "/dev/shm"]
+    command += ["--ro-bind", launcher.__file__, "/launcher.py"]
     return [*command, "--chdir", "/tmp", "--remount-ro", "/"]
 
 

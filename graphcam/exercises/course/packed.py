@@ -1,0 +1,89 @@
+"""A zip of all submissions, as a learning system gives it: unpacked aside, nothing but what can hold answers."""
+
+import stat
+import zipfile
+import zlib
+from collections.abc import Generator
+from contextlib import contextmanager
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+
+from graphcam.drafting.ink import Caption, say
+from graphcam.errors import TaskError
+from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.reading.submission_files import LIMITS
+
+MOST_ENTRIES = 100_000
+MOST_BYTES = 4_000_000_000
+"""Of all files together, as they are unpacked; a bomb says less of itself and is stopped all the same."""
+DEEPEST = 4
+"""Parts of a path: a student's folder, the assignment in it, the file, and one more."""
+ENDINGS = (*(Path(name).suffix for name in LIMITS), ".txt")
+"""Of files that can hold answers, or tell about an attempt."""
+
+
+@contextmanager
+def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
+    """A folder of submissions: the place itself, or what is packed in it; and the entries that are not taken.
+
+    Raises
+    ------
+    TaskError : it is no zip that can be read, or one that grows beyond all bounds
+    """
+    if place.is_dir():
+        yield place, []
+        return
+    with TemporaryDirectory(prefix="graphcam-") as scratch:
+        try:
+            with zipfile.ZipFile(place) as archive:
+                refused = _unpack(archive, place, Path(scratch))
+        except (OSError, zipfile.BadZipFile) as error:
+            raise TaskError(str(place), "the zip", str(error), "one that can be read", "fetch it again") from None
+        yield Path(scratch), refused
+
+
+def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused]:
+    """The entries that are not taken; the others lie in the folder."""
+    entries = archive.infolist()
+    if len(entries) > MOST_ENTRIES:
+        raise TaskError(str(place), "the number of entries", len(entries), f"at most {MOST_ENTRIES}", "unpack it")
+    refused: list[Refused] = []
+    left = MOST_BYTES
+    for entry in entries:
+        path = PurePosixPath(entry.filename)
+        if why := _unsafe(entry, path):
+            refused.append(Refused(entry.filename, why))
+            continue
+        if "__MACOSX" in path.parts:
+            continue
+        try:
+            (folder / (path if entry.is_dir() else path.parent)).mkdir(parents=True, exist_ok=True)
+            if not entry.is_dir() and path.suffix.strip().lower() in ENDINGS:
+                left -= _write(archive, entry, folder / path)
+        # What zlib and the checks of the archive say; a name that is too long, or twice there.
+        except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
+            refused.append(Refused(entry.filename, say("it cannot be unpacked")))
+        if left < 0:
+            raise TaskError(str(place), "the size", "more", f"{MOST_BYTES} bytes unpacked", "look into it by hand")
+    return refused
+
+
+def _unsafe(entry: zipfile.ZipInfo, path: PurePosixPath) -> Caption | None:
+    """Why an entry is not unpacked: it would lie elsewhere, or it is no file."""
+    if path.is_absolute() or ".." in path.parts or "\\" in entry.filename or not path.parts:
+        return say("its path leads out of the folder")
+    if len(path.parts) > DEEPEST:
+        return say("it lies too deep")
+    kind = stat.S_IFMT(entry.external_attr >> 16)
+    if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
+        return say("it is a link or a device, not a file")
+    return say("it is encrypted") if entry.flag_bits & 1 else None
+
+
+def _write(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, path: Path) -> int:
+    """Write a file, and how many bytes; of one that is too long one byte more than is read, so that it is told."""
+    limit = max(LIMITS.values())
+    with archive.open(entry) as packed:
+        data = packed.read(limit + 1)
+    with path.open("xb") as file:
+        return file.write(data)

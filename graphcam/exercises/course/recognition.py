@@ -1,0 +1,57 @@
+"""Which student of a roster a text means: by id, by e-mail address, by name."""
+
+import unicodedata
+from collections.abc import Iterable
+from itertools import permutations
+
+from graphcam.exercises.course.roster import Student
+
+MOST_PARTS = 4
+"""Parts of a name that may stand in any order; of a longer one the order counts."""
+
+
+class Recognition:
+    """The students of a roster by whatever may stand for them.
+
+    >>> roster = Recognition([Student("s1", "Anna Berg", "a.berg@uni.edu"), Student("s2", "Ben Berg")])
+    >>> roster.meant(["S 1"]), roster.meant(["berganna"]), roster.meant(["A.Berg@uni.edu"]), roster.meant(["Berg"])
+    (['s1'], ['s1'], ['s1'], [])
+    """
+
+    def __init__(self, students: Iterable[Student]) -> None:
+        self.ids = {student.id: student for student in students}
+        self._by_text: dict[str, set[str]] = {}
+        self._by_name: dict[str, set[str]] = {}
+        for student in self.ids.values():
+            for text in filter(None, map(_plain, (student.id, student.email))):
+                self._by_text.setdefault(text, set()).add(student.id)
+            for name in _spellings(student.name):
+                self._by_name.setdefault(name, set()).add(student.id)
+
+    def meant(self, texts: Iterable[str]) -> list[str]:
+        """The ids of all students whom one of the texts may mean."""
+        found: set[str] = set()
+        for text in texts:
+            found |= self._by_text.get(_plain(text), set()) | self._by_name.get(_letters(text), set())
+        return sorted(found)
+
+
+def _plain(text: str) -> str:
+    """Without what differs between systems: capitals, spaces, how an accent is coded."""
+    return "".join(unicodedata.normalize("NFKC", text).casefold().split())
+
+
+def _letters(text: str) -> str:
+    """Letters and digits alone, without accents.
+
+    >>> _letters("Müller, Anna")
+    'mulleranna'
+    """
+    return "".join(letter for letter in unicodedata.normalize("NFKD", text.casefold()) if letter.isalnum())
+
+
+def _spellings(name: str) -> set[str]:
+    """A name with its parts in every order, since some systems put the last name first."""
+    parts = [part for part in map(_letters, name.split()) if part]
+    orders = permutations(parts) if len(parts) <= MOST_PARTS else [parts]
+    return {"".join(order) for order in orders} - {""}

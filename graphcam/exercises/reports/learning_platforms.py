@@ -1,0 +1,48 @@
+"""Grades as learning platforms read them: a CSV file for Moodle's grade book and one for Canvas's.
+
+Moodle asks what each column is, so its headings need only tell the columns apart: the ID number finds the student, and
+the feedback is HTML.  Canvas takes the headings as they are and reads the points possible from a second row.
+"""
+
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
+
+from graphcam.exercises.course.spreadsheet import table
+from graphcam.exercises.definition.exercise import Exercise
+
+CANVAS_STUDENT = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+"""Canvas's headings before the assignment's; ID is a number of Canvas's own, which is left empty."""
+POINTS_POSSIBLE = "    Points Possible"
+"""Begins Canvas's second row; the spaces are Canvas's."""
+
+
+def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:
+    """A row a student: ID number, grade, feedback, as Moodle's import of grades from a CSV file maps them.
+
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> record = {"student": "7", "total": 2.5, "feedback": ["v: 1 < 2.", "Again."]}
+    >>> moodle_grades(find_exercise("pressure-angle"), [record]).splitlines()[1]
+    '"7","2.5","v: 1 &lt; 2.<br>Again."'
+    """
+    head = ("ID number", exercise.title, "Feedback")
+    return table(head, ([one["student"], one["total"], _feedback(one["feedback"])] for one in records))
+
+
+def canvas_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:
+    """Canvas's headings, the points possible, and a row a student.
+
+    The id stands for the name, for the SIS User ID and for the SIS Login ID: courses differ in which of them it is.
+
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> canvas_grades(find_exercise("pressure-angle"), [{"student": "7", "total": 2.5}]).splitlines()[2]
+    '"7","","7","7","","2.5"'
+    """
+    possible = [POINTS_POSSIBLE, "", "", "", "", exercise.marks]
+    rows = [[one["student"], "", one["student"], one["student"], "", one["total"]] for one in records]
+    return table((*CANVAS_STUDENT, exercise.title), [possible, *rows])
+
+
+def _feedback(sentences: Sequence[str]) -> str:
+    """HTML with each sentence on its own line."""
+    return "<br>".join(escape(said, quote=False) for said in sentences)

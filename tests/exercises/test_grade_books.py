@@ -1,0 +1,97 @@
+"""Grades for Moodle's and Canvas's grade books: what a reader of CSV finds in them is what was marked."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import pytest
+from issued_variants import SECRET, issued, key
+
+from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
+from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.definition.exercise_file import exercise_path
+from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.reports.learning_platforms import moodle_grades
+
+NAME = "acceleration-and-scales"
+IDS = ("007", "Анна <b>", '=cmd|"x"', "a;=1", 'said "no", left')
+GUARDED = {'=cmd|"x"': '\'=cmd|"x"', "a;=1": "a;'=1"}
+"""Ids that a spreadsheet would calculate."""
+
+
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The reports on five students, each with one more answer wrong than the one before, the first with none."""
+    place = tmp_path_factory.mktemp("course")
+    kept = AnswerKeys(place / TEACHER)
+    kept.keep_course(exercise_path(NAME), SECRET, language="en")
+    (place / "secret").write_bytes(SECRET)
+    for count, student in enumerate(IDS):
+        answer_key = issued(NAME, student)[1]
+        kept.keep(student, answer_key.to_json())
+        folder = place / "students" / folder_name(student)
+        folder.mkdir(parents=True)
+        values = {name: float(str(value)) for name, value in key(answer_key).items()}
+        values |= {name: 1e4 + 7 * place for place, name in enumerate([*values][:count])}
+        (folder / "answers.toml").write_text("".join(f"{name} = {value!r}\n" for name, value in values.items()))
+    grade_course(Course(place, place / "secret", place / "grades.csv"))
+    return place
+
+
+def records(reports: Path) -> dict[str, dict[str, Any]]:
+    """What was marked, by the student's id as a spreadsheet gets it."""
+    found: list[dict[str, Any]] = json.loads((reports / "grades.json").read_text())
+    return {GUARDED.get(str(one["student"]), str(one["student"])): one for one in found}
+
+
+def rows(reports: Path, name: str) -> list[list[str]]:
+    return list(csv.reader(io.StringIO((reports / name).read_bytes().decode("utf-8"), newline=""), strict=True))
+
+
+def test_moodle_finds_every_student_with_grade_and_feedback(reports: Path):
+    head, *students = rows(reports, "grades-moodle.csv")
+    assert head == ["ID number", issued(NAME)[0].title, "Feedback"]
+    marked = records(reports)
+    assert {row[0] for row in students} == set(marked)
+    assert len({row[1] for row in students}) > 2
+    for student, grade, feedback in students:
+        assert float(grade) == marked[student]["total"]
+        # As a page shows it: lines at breaks, and no other markup.
+        lines = [unescape(line) for line in feedback.split("<br>")] if feedback else []
+        assert lines == marked[student]["feedback"]
+        assert re.sub("<br>", "", feedback).count("<") == 0
+
+
+def test_moodle_shows_feedback_with_markup_in_it_as_it_is():
+    said = ["a < b & <i>c</i>;", 'said "no", left', "=1+1"]
+    text = moodle_grades(issued(NAME)[0], [{"student": "7", "total": 1.0, "feedback": said}])
+    (_, (_, _, feedback)) = csv.reader(io.StringIO(text, newline=""), strict=True)
+    assert [unescape(line) for line in feedback.split("<br>")] == said
+    assert re.findall("<[^>]*>", feedback) == ["<br>", "<br>"]
+
+
+def test_canvas_finds_the_points_possible_and_every_students_grade(reports: Path):
+    exercise = issued(NAME)[0]
+    head, possible, *students = rows(reports, "grades-canvas.csv")
+    assert head == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", exercise.title]
+    assert possible[:5] == ["    Points Possible", "", "", "", ""]
+    assert float(possible[5]) == exercise.marks
+    marked = records(reports)
+    assert [row[0] for row in students] == list(marked)
+    assert max(float(row[5]) for row in students) == exercise.marks
+    for name, own_number, user, login, section, grade in students:
+        assert (own_number, user, login, section) == ("", name, name, "")
+        assert float(grade) == marked[name]["total"]
+
+
+def test_no_id_in_a_grade_book_is_a_formula(reports: Path):
+    for name in ("grades-moodle.csv", "grades-canvas.csv"):
+        found = {cell for row in rows(reports, name) for cell in row}
+        assert set(GUARDED.values()) <= found
+        assert not found & set(GUARDED)
