@@ -18,6 +18,7 @@ import pytest
 from hostile_grading import CONTROL
 from programs import program
 
+from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.running.levels import Level
 from graphcam.exercises.running.sandbox import visible
 
@@ -103,6 +104,8 @@ def ordinary(home: Path) -> tuple[str, ...]:
     if os.getuid() != 0:
         return ()
     needs = {path for path in visible() if path.is_dir()} | {Path(hostile_grading.__file__).parent}
+    # In a checkout the exercises lie beside the package.
+    needs.add(exercise_path("acceleration-and-scales").parent)
     # A virtual environment's python is a link, which must be found by its own name too.
     needs |= {Path(sys.prefix), Path(sys.executable).parent}
     closed = sorted({folder for need in needs if (folder := _closed(need)) is not None})

@@ -221,6 +221,13 @@ def test_a_drawing_that_lies_outside_its_arcs_deviates_outwards_by_as_much(turn:
     assert deviations_along(circle, outside / 43 * 38, "curve") == pytest.approx(np.full(PLACES, -2.0), abs=0.05), name
 
 
+def test_a_table_of_points_goes_back_to_its_first_but_a_drawing_that_is_open_stays_so():
+    around = 40 * np.exp(2j * np.pi * np.arange(24) / 24)
+    circle = Expected(around, np.ones(24), np.full(24, np.tan(np.pi / 48)))
+    assert np.abs(deviations_along(circle, around, "curve")).max() < 0.4
+    assert np.abs(deviations_along(circle, around[:-4], "curve")).max() > 10
+
+
 def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_bounded_number_of_lines():
     drawings = [np.full(PLACES, 0.01 * k) for k in range(401)]
     shown = bundle(drawings, 1.0)

@@ -29,15 +29,15 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     nothing follows, and nought follows from nothing.  A curve that is right in part earns that part of its marks.  What
     else is paid, and how much, is the policy of the exercise.
 
-        answers : untrusted data; whatever it holds, there is one record
-        level : how the answers were come by, for the record
+    answers : untrusted data; whatever it holds, there is one record
+    level : how the answers were come by, for the record
 
-        >>> from graphcam.exercises.definition.exercise_file import find_exercise
-        >>> from graphcam.exercises.key.keying import issue
-        >>> exercise = find_exercise("acceleration-and-scales")
-        >>> variant, answer_key = issue(exercise, "Anna", b"secret")
-        >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
-        0.0
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> from graphcam.exercises.key.keying import issue
+    >>> exercise = find_exercise("acceleration-and-scales")
+    >>> variant, answer_key = issue(exercise, "Anna", b"secret")
+    >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
+    0.0
     """
     compared = compare(exercise, answer_key, answers)
     diagnosis, following = None, set[str]()

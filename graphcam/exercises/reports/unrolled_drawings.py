@@ -23,6 +23,8 @@ MOST_LINES = 300
 """Drawings that are shown; the median and the quartiles are those of all."""
 LEAST_RANGE, GREATEST_RANGE = 2.0, 10.0
 """Deviations that the picture shows at least, and at most [mm of paper]."""
+ONE_STEP = 1.5
+"""So many times the longest part of a drawing is still one step."""
 SHOWN = 90
 """Percent of all deviations that the picture's range holds, where that lies between these."""
 
@@ -85,8 +87,14 @@ def deviations_along(key: Expected, own: Points, kind: Kind) -> Floats:
     # The cam's centre is the origin, and a curve goes round it either way.
     if np.sum((normal * wanted.conj()).real) < 0:
         normal = -normal
-    off = nearest_places(wanted, own) - wanted
+    off = nearest_places(wanted, _closed(own) if key.bulge.size == np.size(key.value) else own) - wanted
     return np.where((off * normal.conj()).real < 0, -1.0, 1.0) * np.abs(off)
+
+
+def _closed(own: Points) -> Points:
+    """A drawing that stops one step short of its first point is a table of points, and goes back to it."""
+    steps = np.abs(np.diff(own))
+    return np.append(own, own[0]) if steps.size and abs(own[0] - own[-1]) <= ONE_STEP * steps.max() else own
 
 
 def bundle(deviations: Sequence[Floats], tolerance: float) -> Bundle:
