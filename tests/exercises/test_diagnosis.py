@@ -69,7 +69,7 @@ def bayes(key: AnswerKey, compared: list[ComparedAnswer]) -> tuple[str, float, s
         if not isinstance(each.given, float):
             return density(5.0)
         larger = abs(each.given) / max(abs(each.key.value), each.key.scatter)
-        return math.exp(-5.0) / (width(each.key) * min(100.0, max(1.0, larger)))
+        return math.exp(-8.0) / (width(each.key) * min(100.0, max(1.0, larger)))
 
     def most(name: str) -> bool:
         wrong = [each for each in compared if each.wrong]
@@ -129,8 +129,8 @@ def test_the_diagnosis_is_the_most_probable_mistake_by_bayes_rule():
 
 
 def test_a_mistake_as_probable_as_something_else_is_still_named():
-    # At the root of ten deviations from what the mistake brings something else is exactly as probable.
-    for given, beyond in ((13.162, 13.163), (6.838, 6.837)):
+    # At four deviations from what the mistake brings something else is exactly as probable.
+    for given, beyond in ((13.999, 14.001), (6.001, 5.999)):
         told, explained = diagnose(key_with(slip=[at(10.0)]), [answer(0, given, at(30.0))])
         assert (told.misconception, told.confidence, told.alike) == ("slip", pytest.approx(0.5, abs=1e-3), ())
         assert explained == set()
@@ -183,9 +183,9 @@ def test_an_answer_that_is_right_by_a_wide_tolerance_costs_no_more_than_one_that
     # Seven deviations, which are right here: as probable as five, for something else as for the mistake.
     right, wrong = answer(0, 7.0, at(0.0), wrong=False), answer(1, 13.0, at(30.0))
     told, _ = diagnose(key_with(slip=[at(0.0), at(10.0)]), [right, wrong])
-    assert told.confidence == pytest.approx(1 / (1 + math.exp(-0.5)), rel=1e-12)
+    assert told.confidence == pytest.approx(1 / (1 + math.exp(-3.5)), rel=1e-12)
     told, _ = diagnose(key_with(slip=[at(7.0), at(10.0)]), [right, wrong])
-    assert told.confidence == pytest.approx(1 / (1 + math.exp(-13.0)), rel=1e-12)
+    assert told.confidence == pytest.approx(1 / (1 + math.exp(-16.0)), rel=1e-12)
 
 
 @pytest.mark.parametrize(("part", "alike"), [(0.11, ("other",)), (0.09, ())])
@@ -197,7 +197,7 @@ def test_a_tenth_as_probable_as_the_best_is_not_told_from_it(part, alike):
 
 def test_a_tenth_of_the_best_is_meant_also_where_something_else_is_more_probable_than_that():
     # All as far off as "something else" costs, so that only the scatters count: 0.8, 0.8 and 0.1 to 1 for that.
-    off = math.sqrt(10.0)
+    off = 4.0
     one, third = [at(200 - 1.25 * off, 1.25)], [at(200 - 10 * off, 10.0)]
     told, _ = diagnose(key_with(one=one, two=one, third=third), [answer(0, 200.0, at(300.0))])
     assert (told.misconception, told.alike) == ("one", ("two", "third"))

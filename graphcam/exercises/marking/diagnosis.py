@@ -17,9 +17,9 @@ LARGEST = 1e15
 """No reading is larger, and no number up to here makes the arithmetic overflow."""
 FAR = 5.0
 """Beyond so many standard deviations an answer speaks against a mistake no more: it may be a slip of its own."""
-ANYWHERE = 10.0
+ANYWHERE = 16.0
 """What a wrong number that is anywhere costs, in twice the logarithm of the probability: a mistake that brings numbers
-more than three standard deviations off explains them no better."""
+more than four standard deviations off explains them no better."""
 MOST = 2 / 3
 """A mistake that does not look like so much of the wrong answers, by their marks, is not named."""
 LARGER = 100.0
