@@ -139,9 +139,7 @@ def make(
 
 @exercise.command()
 def grade(
-    folder: Annotated[
-        Path, Argument(parser=named, metavar="DIR", help="The folder with a folder for every student, or a zip.")
-    ],
+    folder: Annotated[Path, Argument(parser=named, metavar="DIR", help="With a folder for every student; or a zip.")],
     secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
     out: Annotated[Path, Option(parser=named, metavar="CSV", help="The grades; reports of that name go beside it.")],
     exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
@@ -188,12 +186,11 @@ def grade(
 
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv --near 2 --cap offset-sign=0.5
     """
-    from graphcam.exercises.definition.marks_policy import caps_of
+    from graphcam.exercises.definition.marks_policy import policy_changes
     from graphcam.exercises.grading.course_grading import Course, grade_course
 
     with one_message(), progress_bar("hand-ins") as step:
-        said = {"follow_through": follow_through, "near": near, "caps": caps_of(cap or ())}
-        marks = {name: value for name, value in said.items() if value is not None}
+        marks = policy_changes(follow_through, near, cap or ())
         course = Course(
             *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
             *(roster, overrides, marks),

@@ -76,6 +76,7 @@ class Exploration:
         }
 
         def redraw(_: Any) -> None:
+            """Show the picture for where the sliders are now."""
             picture.value = self.draw(**{name: control.value for name, control in controls.items()}).html
 
         for control in controls.values():

@@ -42,12 +42,15 @@ class _Renderer(IPythonRenderer):
     """Markdown with formulas as MathML, which browsers draw without a script."""
 
     def block_math(self, body: str) -> str:
+        """A formula on lines of its own."""
         return _mathml(body, "block")
 
     def inline_math(self, body: str) -> str:
+        """A formula within a line."""
         return _mathml(body, "inline")
 
     def latex_environment(self, name: str, body: str) -> str:
+        """A named arrangement of formulas, such as aligned ones."""
         return _mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
 
 

@@ -88,6 +88,7 @@ def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell =
     widths = [max(3, *(len(row[k]) for row in told)) for k in range(len(header))]
 
     def line(cells: Sequence[str]) -> str:
+        """A row, the first cell to the left and the others to the right."""
         first, *rest = zip(cells, widths, strict=True)
         return "| " + " | ".join([f"{first[0]:<{first[1]}}", *(f"{cell:>{width}}" for cell, width in rest)]) + " |"
 

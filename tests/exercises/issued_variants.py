@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
+from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Answers, Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.marking.marking import mark
@@ -34,3 +38,25 @@ def marked(name: str, student: str = "Anna", **changes: object) -> Record:
 
 def outcomes(record: Record) -> dict[str, str]:
     return {answer.name: answer.outcome for answer in record.answers}
+
+
+def answer_lines(values: Mapping[str, object]) -> str:
+    """An ``answers.toml``."""
+    return "".join(f"{name} = {value!r}\n" for name, value in values.items())
+
+
+def course_of(place: Path, name: str, handed_in: Mapping[str, str | None]) -> Path:
+    """A course as 'make' leaves it, with its secret beside it.
+
+    handed_in : by student an ``answers.toml``; None where there is a key alone
+    """
+    kept = AnswerKeys(place / TEACHER)
+    kept.keep_course(exercise_path(name), SECRET, language="en")
+    (place / "secret").write_bytes(SECRET)
+    for student, text in handed_in.items():
+        kept.keep(student, issued(name, student)[1].to_json())
+        if text is not None:
+            folder = place / STUDENTS / folder_name(student)
+            folder.mkdir(parents=True)
+            (folder / "answers.toml").write_text(text)
+    return place

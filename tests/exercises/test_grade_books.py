@@ -11,11 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from issued_variants import SECRET, issued, key
+from issued_variants import answer_lines, course_of, issued, key
 
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.reports.learning_platforms import moodle_grades
 
@@ -28,18 +25,11 @@ GUARDED = {'=cmd|"x"': '\'=cmd|"x"', "a;=1": "a;'=1"}
 @pytest.fixture(scope="module")
 def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The reports on five students, each with one more answer wrong than the one before, the first with none."""
-    place = tmp_path_factory.mktemp("course")
-    kept = AnswerKeys(place / TEACHER)
-    kept.keep_course(exercise_path(NAME), SECRET, language="en")
-    (place / "secret").write_bytes(SECRET)
+    handed_in: dict[str, str | None] = {}
     for count, student in enumerate(IDS):
-        answer_key = issued(NAME, student)[1]
-        kept.keep(student, answer_key.to_json())
-        folder = place / "students" / folder_name(student)
-        folder.mkdir(parents=True)
-        values = {name: float(str(value)) for name, value in key(answer_key).items()}
-        values |= {name: 1e4 + 7 * place for place, name in enumerate([*values][:count])}
-        (folder / "answers.toml").write_text("".join(f"{name} = {value!r}\n" for name, value in values.items()))
+        values = {name: float(str(value)) for name, value in key(issued(NAME, student)[1]).items()}
+        handed_in[student] = answer_lines(values | {name: 1e4 + 7 * k for k, name in enumerate([*values][:count])})
+    place = course_of(tmp_path_factory.mktemp("course"), NAME, handed_in)
     grade_course(Course(place, place / "secret", place / "grades.csv"))
     return place
 

@@ -9,13 +9,12 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from issued_variants import SECRET, issued, key
+from issued_variants import course_of, issued, key
 
 from graphcam.errors import TaskError
 from graphcam.exercises.course import packed as packed_files
 from graphcam.exercises.course.course_folder import KEPT, ROSTER, TEACHER, AnswerKeys
 from graphcam.exercises.course.hand_ins import hand_ins_in
-from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.grading.course_grading import Course, grade_course
 
 NAME = "acceleration-and-scales"
@@ -31,12 +30,8 @@ IDS = ("s-17", "S 18", "4711", "bb_4")
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
     """A course as 'make' leaves it, with the roster and everybody's answer key."""
-    kept = AnswerKeys(tmp_path / TEACHER)
-    kept.keep_course(exercise_path(NAME), SECRET, language="en")
+    course_of(tmp_path, NAME, dict.fromkeys(IDS))
     (tmp_path / TEACHER / ROSTER).write_text(STUDENTS, encoding="utf-8")
-    for student in IDS:
-        kept.keep(student, issued(NAME, student)[1].to_json())
-    (tmp_path / "secret").write_bytes(SECRET)
     (tmp_path / "packed").mkdir()
     return tmp_path
 

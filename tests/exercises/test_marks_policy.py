@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
-from issued_variants import SECRET, issued, key, outcomes
+from issued_variants import SECRET, answer_lines, course_of, issued, key, outcomes
 from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.errors import DesignError, TaskError
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.definition.exercise import Answers, Asked
 from graphcam.exercises.definition.exercise_file import exercise_path, load_exercise
 from graphcam.exercises.definition.marks_policy import MarksPolicy
@@ -181,15 +180,10 @@ def test_the_group_page_shows_what_another_policy_would_have_given():
 def course(tmp_path: Path) -> Path:
     """One student, with the wrong side of the offset."""
     exercise, answer_key = issued("pressure-angle")
-    kept = AnswerKeys(tmp_path / TEACHER)
-    kept.keep_course(exercise_path("pressure-angle"), SECRET, language="en")
-    kept.keep("Anna", answer_key.to_json())
-    (tmp_path / "secret").write_bytes(SECRET)
-    folder = tmp_path / "students" / "Anna"
-    folder.mkdir(parents=True)
-    pairs = zip(exercise.answers, answer_key.hypotheses["offset-sign"], strict=True)
-    (folder / "answers.toml").write_text("".join(f"{asked.name} = {wrong.value!r}\n" for asked, wrong in pairs))
-    return tmp_path
+    wrong = zip(exercise.answers, answer_key.hypotheses["offset-sign"], strict=True)
+    return course_of(
+        tmp_path, "pressure-angle", {"Anna": answer_lines({asked.name: each.value for asked, each in wrong})}
+    )
 
 
 def test_the_command_line_changes_the_policy_of_a_course(course: Path):

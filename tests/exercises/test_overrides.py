@@ -7,11 +7,10 @@ import json
 from pathlib import Path
 
 import pytest
-from issued_variants import SECRET, issued, key
+from issued_variants import answer_lines, course_of, issued, key
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys
-from graphcam.exercises.definition.exercise_file import exercise_path
+from graphcam.exercises.course.course_folder import TEACHER
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.overrides import OVERRIDES
 
@@ -24,15 +23,8 @@ HEAD = "student,answer,marks,comment\n"
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
     """Anna and =Ben have nothing right but Anna's last answer."""
-    kept = AnswerKeys(tmp_path / TEACHER)
-    kept.keep_course(exercise_path(NAME), SECRET, language="en")
-    (tmp_path / "secret").write_bytes(SECRET)
-    for student in ("Anna", "=Ben"):
-        kept.keep(student, issued(NAME, student)[1].to_json())
-        (tmp_path / STUDENTS / student).mkdir(parents=True)
     name, value = list(key(issued(NAME, "Anna")[1]).items())[-1]
-    (tmp_path / STUDENTS / "Anna" / "answers.toml").write_text(f"{name} = {value!r}\n")
-    return tmp_path
+    return course_of(tmp_path, NAME, {"Anna": answer_lines({name: value}), "=Ben": ""})
 
 
 def grade(course: Path, **more: object) -> dict[str, dict[str, object]]:

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browsers import opened
-from issued_variants import SECRET, issued, key
+from issued_variants import SECRET, course_of, issued, key
 from russian import english_words
 
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, per_mm
-from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import drawn, fill_in
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -59,16 +59,8 @@ def answers(student: str, answer_key: AnswerKey) -> str:
 
 @pytest.fixture(scope="module")
 def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    place = tmp_path_factory.mktemp("course")
-    kept = AnswerKeys(place / TEACHER)
-    kept.keep_course(exercise_path(NAME), SECRET, language="en")
-    (place / "secret").write_bytes(SECRET)
-    for student in IDS:
-        answer_key = issued(NAME, student)[1]
-        kept.keep(student, answer_key.to_json())
-        folder = place / "students" / folder_name(student)
-        folder.mkdir(parents=True)
-        (folder / "answers.toml").write_text(answers(student, answer_key))
+    handed_in = {student: answers(student, issued(NAME, student)[1]) for student in IDS}
+    place = course_of(tmp_path_factory.mktemp("course"), NAME, handed_in)
     grade_course(Course(place, place / "secret", place / "grades.csv", feedback=place / "pages"))
     return place
 

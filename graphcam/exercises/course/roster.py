@@ -1,13 +1,12 @@
 """The students: a CSV file whose ids are data, whatever they say, and their names as folders; none is a path."""
 
-import csv
 import hashlib
-import io
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import TaskError
+from graphcam.exercises.course.spreadsheet import read_table
 
 LONGEST = 180
 """Bytes of a folder's name; file systems take 255, and a suffix may follow."""
@@ -84,17 +83,7 @@ def read_roster(path: str | Path) -> list[Student]:
     ------
     TaskError : the file cannot be read, is empty, names a student twice, or one by what cannot be printed
     """
-    try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise TaskError(str(path), "the roster", error.strerror or "not readable", "a CSV file") from None
-    except UnicodeDecodeError:
-        raise TaskError(str(path), "the roster", "not UTF-8", "a CSV file in UTF-8", "save it as UTF-8") from None
-    delimiter = ";" if text.partition("\n")[0].count(";") > text.partition("\n")[0].count(",") else ","
-    try:
-        rows = [row for row in csv.reader(io.StringIO(text, newline=""), delimiter=delimiter) if any(row)]
-    except csv.Error as error:
-        raise TaskError(str(path), "the roster", str(error), "a CSV file") from None
+    rows = [row for _, row in read_table(path, "the roster")]
     students = _students(rows)
     if not students:
         raise TaskError(str(path), "the roster", "empty", "a line a student", "give a column 'id'")

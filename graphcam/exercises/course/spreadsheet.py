@@ -1,10 +1,13 @@
-"""Cells of a table that is opened in a spreadsheet: no text of a stranger is taken for a formula."""
+"""Tables to and from spreadsheets: no text of a stranger is taken for a formula."""
 
 import csv
 import io
 import re
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from pathlib import Path
+
+from graphcam.errors import TaskError
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
@@ -55,3 +58,28 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     writer.writerow([cell(name) for name in head])
     writer.writerows([cell(value) for value in row] for row in rows)
     return text.getvalue()
+
+
+def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
+    """The rows of a CSV file that hold anything, each with the number of its line.
+
+    The cells stand apart by commas or semicolons, whichever the first line has more of.
+
+    what : the table, as a message names it: "the roster"
+
+    Raises
+    ------
+    TaskError : the file cannot be read, or it is no CSV file in UTF-8
+    """
+    try:
+        text = Path(path).read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise TaskError(str(path), what, error.strerror or "not readable", "a CSV file") from None
+    except UnicodeDecodeError:
+        raise TaskError(str(path), what, "not UTF-8", "a CSV file in UTF-8", "save it as UTF-8") from None
+    first = text.partition("\n")[0]
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
+    try:
+        return [(reader.line_num, row) for row in reader if any(value.strip() for value in row)]
+    except csv.Error as error:
+        raise TaskError(str(path), what, str(error), "a CSV file") from None

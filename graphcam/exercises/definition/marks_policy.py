@@ -1,8 +1,12 @@
 """How a lecturer wants answers that are not right to be paid."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
 
 from graphcam.errors import DesignError
 
@@ -33,6 +37,16 @@ class MarksPolicy:
         if not 1 <= self.near < math.inf:
             raise DesignError("near", self.near, "a number of tolerances, at least 1")
 
+    @cached_property
+    def without_follow_through(self) -> MarksPolicy:
+        """The policy that pays nothing for what follows from the student's own earlier answers."""
+        return replace(self, follow_through=0.0)
+
+    @cached_property
+    def without_caps(self) -> MarksPolicy:
+        """The policy under which no mistake limits the marks."""
+        return replace(self, caps={})
+
     def part(self, tolerances: float) -> float:
         """The part of its marks that an answer earns which is so many tolerances off.
 
@@ -52,6 +66,22 @@ class MarksPolicy:
         (0.5, 1.0, 1.0)
         """
         return max((self.caps.get(name, 1.0) for name in mistakes), default=1.0)
+
+
+def policy_changes(follow_through: float | None, near: float | None, caps: Sequence[str]) -> dict[str, Any]:
+    """What the command line changes of a policy: fields of a :class:`MarksPolicy` by name, without those left out.
+
+    caps : texts such as "offset-sign=0.5"
+
+    Raises
+    ------
+    DesignError : a cap is no mistake with a part
+
+    >>> policy_changes(0.5, None, ["offset-sign=0.5"])
+    {'follow_through': 0.5, 'caps': {'offset-sign': 0.5}}
+    """
+    said = {"follow_through": follow_through, "near": near, "caps": caps_of(caps)}
+    return {name: value for name, value in said.items() if value is not None}
 
 
 def caps_of(texts: Sequence[str]) -> dict[str, float]:

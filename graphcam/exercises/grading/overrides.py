@@ -1,7 +1,5 @@
 """Marks that a teacher gives by hand: a table that is read at every grading, so that they last."""
 
-import csv
-import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +8,7 @@ from typing import Any
 
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import TaskError
-from graphcam.exercises.course.spreadsheet import cell
+from graphcam.exercises.course.spreadsheet import cell, read_table
 from graphcam.exercises.definition.exercise import Exercise
 
 OVERRIDES = "overrides.csv"
@@ -39,33 +37,22 @@ def read_overrides(path: Path, exercise: Exercise, students: Iterable[str]) -> l
     ------
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise TaskError(str(path), "the overrides", error.strerror or "not readable", "a CSV file") from None
-    except UnicodeDecodeError:
-        raise TaskError(str(path), "the overrides", "not UTF-8", "a CSV file in UTF-8", "save it as UTF-8") from None
-    first = text.partition("\n")[0]
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
+    rows = read_table(path, "the overrides")
     # An id that was copied from the table of grades may have the guard of its cell.
     known = {cell(student): student for student in students}
     known |= {student: student for student in known.values()}
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
     found: dict[tuple[str, str], Override] = {}
-    try:
-        head = [name.strip().lower() for name in next(reader, [])]
-        if sorted(head) != sorted(COLUMNS):
-            raise TaskError(str(path), "the first line", ",".join(head), ",".join(COLUMNS), "give these columns")
-        for row in reader:
-            if any(value.strip() for value in row):
-                where = f"line {reader.line_num}"
-                one = _override(str(path), where, dict(zip(head, row, strict=False)), known, possible)
-                if (one.student, one.answer) in found:
-                    remedy = "give each answer of a student once"
-                    raise TaskError(str(path), f"{where}: answer", one.answer, "another one", remedy)
-                found[one.student, one.answer] = one
-    except csv.Error as error:
-        raise TaskError(str(path), "the overrides", str(error), "a CSV file") from None
+    head = [name.strip().lower() for name in rows[0][1]] if rows else []
+    if sorted(head) != sorted(COLUMNS):
+        raise TaskError(str(path), "the first line", ",".join(head), ",".join(COLUMNS), "give these columns")
+    for line, row in rows[1:]:
+        where = f"line {line}"
+        one = _override(str(path), where, dict(zip(head, row, strict=False)), known, possible)
+        if (one.student, one.answer) in found:
+            remedy = "give each answer of a student once"
+            raise TaskError(str(path), f"{where}: answer", one.answer, "another one", remedy)
+        found[one.student, one.answer] = one
     return list(found.values())
 
 

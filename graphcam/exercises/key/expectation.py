@@ -163,24 +163,29 @@ class Expected:
         worst = int(relative.argmax())
         return max(found, Off(float(relative[worst]), int(part[worst]), float(distances[worst])))
 
-    def share(self, given: Points, bound: float) -> float:
+    def share(self, given: Points, bound: float, least: float) -> float:
         """The part of a curve that is drawn within a bound [pencil units], or that of the drawing which is the curve.
 
         The smaller of the two counts: neither a piece of the curve nor a scribble all over it is the curve.
 
-        >>> Expected(np.array([0j, 10 + 0j, 20 + 0j]), np.ones(3)).share(np.array([0j, 10 + 0j]), 1.0)
+        least : a smaller share is told as 0
+
+        >>> Expected(np.array([0j, 10 + 0j, 20 + 0j]), np.ones(3)).share(np.array([0j, 10 + 0j]), 1.0, least=0.5)
         0.5
         """
         value, scatter = np.asarray(self.value), np.asarray(self.scatter)
         near = distance_to_curve(value, given) <= bound * scatter
         length = np.abs(np.append(value, value[0])[1:] - value)[: max(self.bulge.size, value.size - 1)]
         drawn = (near & np.append(near, near[0])[1:])[: length.size]
+        covered = float(length[drawn].sum() / length.sum()) if length.any() else 0.0
         at = places(given)[given.size :]
-        if not at.size or not length.sum():
+        # What covers too little need not be looked at all along.
+        if not at.size or covered < least:
             return 0.0
         distances, part = distance_from_drawn(at, value, self.bulge)
         on = distances <= bound * np.maximum(scatter[part], scatter[(part + 1) % scatter.size])
-        return min(float(length[drawn].sum() / length.sum()), float(on.mean()))
+        share = min(covered, float(on.mean()))
+        return share if share >= least else 0.0
 
     def distances(self, given: Points, kind: Kind) -> Floats:
         """How far the points or the curve given lie from every expected point (m,) [mm of paper]."""

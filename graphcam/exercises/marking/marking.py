@@ -1,7 +1,6 @@
 """Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -50,10 +49,8 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     ]
     mistakes = (diagnosis.misconception, *diagnosis.alike) if diagnosis else ()
     policy = exercise.policy
-    marks, strict, uncapped = (
-        earned(each, judged, mistakes)
-        for each in (policy, replace(policy, follow_through=0.0), replace(policy, caps={}))
-    )
+    policies = (policy, policy.without_follow_through, policy.without_caps)
+    marks, strict, uncapped = (earned(each, judged, mistakes) for each in policies)
     marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
     most = policy.most(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
@@ -115,11 +112,11 @@ def _judged(asked: Asked, answer: ComparedAnswer | None, answers: Answers, follo
         return Judged(asked, "unreadable" if there else "missing")
     if not answer.wrong:
         return Judged(asked, "right")
-    share = (
-        answer.key.share(answer.given, bound) if isinstance(answer.given, np.ndarray) and asked.kind == "curve" else 0.0
-    )
+    share = 0.0
+    if isinstance(answer.given, np.ndarray) and asked.kind == "curve":
+        share = answer.key.share(answer.given, bound, LEAST_SHARE)
     outcome = "follow-through" if asked.name in following else "wrong"
-    return Judged(asked, outcome, abs(answer.off.deviation) / bound, share if share >= LEAST_SHARE else 0.0)
+    return Judged(asked, outcome, abs(answer.off.deviation) / bound, share)
 
 
 def _marked(judged: Judged, answer: ComparedAnswer | None, marks: float) -> Marked:
