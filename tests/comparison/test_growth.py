@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 import tracemalloc
 from collections.abc import Callable
@@ -49,7 +50,10 @@ def comparison_of(follower: str, phases: int) -> Comparison:
 
 
 def calls(job: Callable[[], Any]) -> int:
-    """How many functions are called, those of numpy included: each is a pass over arrays, or one step of a loop."""
+    """How many functions are called, those of numpy included: each is a pass over arrays, or one step of a loop.
+
+    The garbage collector rests meanwhile: whenever it runs it calls whoever listens to it, such as hypothesis.
+    """
     count = 0
 
     def called(_frame: FrameType, event: str, _arg: Any) -> None:
@@ -57,11 +61,13 @@ def calls(job: Callable[[], Any]) -> int:
         count += event in {"call", "c_call"}
 
     before = sys.getprofile()
+    gc.disable()
     sys.setprofile(called)
     try:
         job()
     finally:
         sys.setprofile(before)
+        gc.enable()
     return count
 
 
