@@ -175,7 +175,7 @@ def level(request: pytest.FixtureRequest) -> Level:
 
 
 def running(mark: str) -> list[str]:
-    """The command lines of processes that have the mark in their environment or arguments."""
+    """The command lines of processes that have the mark in them."""
     found: list[str] = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:
@@ -200,13 +200,15 @@ def test_code_gives_one_record_in_time(
         path.write_text("MARK OF WHAT IS SECRET")
     folder = tmp_path / STUDENT
     folder.mkdir()
+    # A size that no other sandbox on the machine has: when that one is gone, all that ran in it are.
+    own = replace(assignment.limits, written=assignment.limits.written + os.getpid())
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(0.1)
         source = hostile_code.CODE[case].format(name, port=server.getsockname()[1], pipe=PIPE,
                                            **{key: str(path) for key, path in places.items()})  # fmt: skip
         hostile.notebook(source)(folder)
         start = time.monotonic()
-        record = graded(replace(assignment, level=level), answer_key, folder)
+        record = graded(replace(assignment, level=level, limits=own), answer_key, folder)
         assert time.monotonic() - start < SECONDS + A_MOMENT
         assert (record.student, record.total, record.level) == (STUDENT, 0.0, level)
         if level is Level.L2:
@@ -216,7 +218,7 @@ def test_code_gives_one_record_in_time(
             assert "MARK" not in str(record)
             assert not re.search(r"secret", str(record.answers))
             assert places["grades"].read_text() == "MARK OF WHAT IS SECRET"
-            assert running(" /launcher.py") == []
+            assert running(f" --size {own.written} ") == []
             assert not OWNED.exists()
     OWNED.unlink(missing_ok=True)
 
@@ -251,10 +253,12 @@ def test_nothing_is_left_behind_at_l1(tmp_path: Path, monkeypatch: pytest.Monkey
             assert os.fsencode(tmp_path) not in path.read_bytes() or path.parent.name == str(os.getpid())
 
 
-def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level, tmp_path: Path):
+def test_the_sandbox_has_no_more_of_the_host_than_python(level: Level):
     """What the probe tries is what it says: the same attempts succeed outside."""
-    (tmp_path / "secret").write_text("secret")
-    ended = run_cells(level, [f"import os\nfound = os.path.exists({str(tmp_path / 'secret')!r})"], ["found"])
+    # In a folder that every user can enter: at L1 root's code has a user of its own.
+    with tempfile.TemporaryDirectory(prefix="graphcam-open-", dir="/tmp") as place:
+        Path(place).chmod(0o755)
+        ended = run_cells(level, [f"import os\nfound = os.path.exists({place!r})"], ["found"])
     assert ended.handed_out == (b'{"found": true}\n' if level is Level.L1 else b'{"found": false}\n')
     assert os.environ.get("HOME", "x") not in run_cells(level, ["import os\nhome = os.environ['HOME']"], ["home"]).text
 
