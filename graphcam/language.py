@@ -5,7 +5,6 @@ A catalog is an ordinary gettext file, and it is there when its file is: nothing
 
 from __future__ import annotations
 
-import string
 from dataclasses import dataclass, field
 from functools import cache
 from gettext import GNUTranslations, NullTranslations
@@ -50,7 +49,7 @@ class Language:
         # Texts alone are written in every language as they are.
         if all(isinstance(value, str) for value in words.values.values()):
             return template.format_map(words.values)
-        return _Formatter(self).vformat(template, (), words.values)
+        return template.format_map({name: _Written(value, self) for name, value in words.values.items()})
 
     def _template(self, caption: Caption) -> str:
         one, many, context = caption.template, caption.plural, caption.context
@@ -61,15 +60,20 @@ class Language:
         return self.translations.pgettext(context, one) if context else self.translations.gettext(one)
 
 
-class _Formatter(string.Formatter):
-    """Formats a template whose values may be captions, and numbers as the language writes them."""
+class _Written:
+    """A value in a place of a template: a caption in the language, a number with its decimal sign and a true minus."""
 
-    def __init__(self, language: Language) -> None:
-        self.language = language
+    __slots__ = ("language", "value")
 
-    def format_field(self, value: Any, format_spec: str) -> str:
-        """A caption in the language; a number with its decimal sign and a true minus."""
-        if isinstance(value, str | Caption):
+    def __init__(self, value: Any, language: Language) -> None:
+        self.value, self.language = value, language
+
+    def __getattr__(self, name: str) -> _Written:
+        return _Written(getattr(self.value, name), self.language)
+
+    def __format__(self, format_spec: str) -> str:
+        value = self.value
+        if isinstance(value, (str, Caption)):
             return format(self.language.text(value), format_spec)
         written = format(value, format_spec).replace(".", self.language.decimal)
         return written.replace("-", MINUS) if isinstance(value, Real) else written

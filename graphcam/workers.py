@@ -104,10 +104,14 @@ def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
         yield executor
 
 
-def in_order(executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[R]:
+def in_order(
+    executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J], ahead: int = JOBS_AHEAD
+) -> Iterator[R]:
     """The function's results in the order of the jobs, which are taken only as they are needed.
 
     Unlike ``executor.map``, which takes all of them at once.
+
+    ahead : jobs that are under way at a time; so many results may lie in memory
 
     >>> list(in_order(None, abs, [-1, 2]))
     [1, 2]
@@ -118,7 +122,7 @@ def in_order(executor: Executor | None, function: Callable[[J], R], jobs: Iterab
     remaining = iter(jobs)
     waiting: deque[Future[R]] = deque()
     try:
-        waiting.extend(executor.submit(function, job) for job in islice(remaining, JOBS_AHEAD))
+        waiting.extend(executor.submit(function, job) for job in islice(remaining, ahead))
         while waiting:
             yield waiting.popleft().result()
             waiting.extend(executor.submit(function, job) for job in islice(remaining, 1))

@@ -10,6 +10,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Argument, Option
 
+from graphcam.cli.grade_options import (
+    Anonymous,
+    Attempts,
+    Caps,
+    Deadline,
+    FollowThrough,
+    Late,
+    Near,
+    Overrides,
+    Roster,
+    ShowRight,
+)
 from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_bar, progress_lines
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
@@ -21,6 +33,9 @@ exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
 Cluster = Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")]
+Hand = Annotated[
+    str, Option(metavar="NAME", help="Whose errors make the tolerances: careful, usual or first-year students'.")
+]
 SECRET = b"simulation"
 """Of the simulated course."""
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
@@ -49,14 +64,17 @@ def simulate(
     out: Annotated[Path | None, Option(parser=named, metavar="FILE", help="Write the JSON into a new file.")] = None,
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes; the figures are the same.")] = 1,
     cluster: Cluster = "",
+    hand: Hand = "",
 ) -> None:
-    """Let simulated students do an exercise: careful ones, and some with every catalogued mistake.
+    """Let simulated students do an exercise: such who draw all right, and some with every catalogued mistake.
 
     [bold]Examples[/bold]
 
     graphcam exercise simulate pressure-angle
 
     graphcam exercise simulate whole-cam --variants 20 --json
+
+    graphcam exercise simulate pressure-angle --hand first-year
     """
     from graphcam.exercises.definition.exercise_file import find_exercise
     from graphcam.exercises.marking.simulate import simulate as run
@@ -71,7 +89,7 @@ def simulate(
             """Tell which variant is done."""
             progress(f"variant {done} of {total}")
 
-        found = run(find_exercise(name), SECRET, variants, hands, step, workers=workers, cluster=cluster)
+        found = run(find_exercise(name, hand=hand), SECRET, variants, hands, step, workers=workers, cluster=cluster)
         text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
         if out:
             write_new(out, text + "\n")
@@ -90,8 +108,12 @@ def _print_matrix(found: Simulation) -> None:
     columns = ("mistake made", "named", "hand-ins", "full marks", "named rightly")
     print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
     for counted, value in (
-        (f"careful students who lose any point, of {found.careful}", f"{found.false_rejections:.2%}"),
-        ("careful students remarked on as exact as a program", str(found.too_exact)),
+        (f"right work that loses any point, of {found.careful}", f"{found.false_rejections:.2%}"),
+        *(
+            (f"of it with {name} hands, of {tally.hands}", f"{tally.rate:.2%}")
+            for name, tally in found.populations.items()
+        ),
+        ("right work remarked on as exact as a program", str(found.too_exact)),
         ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
         ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
         ("mistakes that are not looked for, taken for another", f"{found.outside_named:.2%}"),
@@ -116,6 +138,7 @@ def make(
     language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
+    hand: Hand = "",
 ) -> None:
     """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
 
@@ -132,7 +155,8 @@ def make(
         progress(f"student {done} of {total}")
 
     with one_message():
-        count = run(name, roster, secret_file, out, language=language, workers=workers, cluster=cluster, step=step)
+        papers = {"language": language, "hand": hand}
+        count = run(name, roster, secret_file, out, **papers, workers=workers, cluster=cluster, step=step)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 
@@ -156,23 +180,16 @@ def grade(
     trusted: Annotated[
         bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
     ] = False,
-    roster: Annotated[
-        Path | None,
-        Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),
-    ] = None,
-    overrides: Annotated[
-        Path | None,
-        Option(parser=named, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."),
-    ] = None,
-    follow_through: Annotated[
-        float | None, Option(metavar="PART", help="Of its marks, for what follows from a student's own answers.")
-    ] = None,
-    near: Annotated[
-        float | None, Option(metavar="K", help="An answer earns a part of its marks up to K tolerances off.")
-    ] = None,
-    cap: Annotated[
-        list[str] | None, Option(metavar="MISTAKE=PART", help="Part of all marks left with a mistake; again for more.")
-    ] = None,
+    roster: Roster = None,
+    overrides: Overrides = None,
+    follow_through: FollowThrough = None,
+    near: Near = None,
+    cap: Caps = None,
+    deadline: Deadline = "",
+    late: Late = "",
+    attempts: Attempts = "last",
+    anonymous: Anonymous = False,
+    show_right: ShowRight = False,
 ) -> None:
     """Grade what a course handed in: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
 
@@ -185,15 +202,22 @@ def grade(
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv --level L2 --feedback pages
 
     graphcam exercise grade hand-ins --secret-file secret --out grades.csv --near 2 --cap offset-sign=0.5
+
+    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --deadline 2026-12-01T23:59 --late 0.1/day
     """
     from graphcam.exercises.definition.marks_policy import policy_changes
+    from graphcam.exercises.grading.attempts import attempt_rule_of
     from graphcam.exercises.grading.course_grading import Course, grade_course
+    from graphcam.exercises.grading.deadlines import deadline_of, late_penalty_of
+    from graphcam.exercises.grading.lateness import NO_PENALTY
 
     with one_message(), progress_bar("hand-ins") as step:
         marks = policy_changes(follow_through, near, cap or ())
         course = Course(
             *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
-            *(roster, overrides, marks),
+            *(roster, overrides, marks, deadline_of(deadline) if deadline else None),
+            *(late_penalty_of(late) if late else NO_PENALTY, attempt_rule_of(attempts), anonymous),
+            show_right=show_right,
         )
         said = grade_course(course, step)
     typer.echo(said)
@@ -213,14 +237,21 @@ def export(
     language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
     / "export",
+    hand: Hand = "",
 ) -> None:
-    """Export variants of an exercise for Moodle, nbgrader or Gradescope.
+    """Export variants of an exercise for Moodle, Canvas, PrairieLearn, nbgrader, Gradescope, or what reads QTI 2.1.
 
     [bold]Examples[/bold]
 
     graphcam exercise export whole-cam --format moodle --count 20 --out moodle
 
     graphcam exercise export whole-cam --format moodle-cloze --count 20 --out cloze
+
+    graphcam exercise export whole-cam --format canvas --roster roster.csv --secret-file secret --out canvas
+
+    graphcam exercise export whole-cam --format qti --count 20 --out qti
+
+    graphcam exercise export whole-cam --format prairielearn --count 20 --out course
 
     graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
     """
@@ -233,7 +264,7 @@ def export(
         students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
         if roster:
             students = read_roster(roster)
-        write(name, target, students, out, secret, step, language)
+        write(name, target, students, out, secret, step, language, hand)
     variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
     typer.echo(f"{variants} of {name} for {target} in {out}")
 

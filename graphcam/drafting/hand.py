@@ -337,8 +337,7 @@ class Hand:
         self, name: str, length: Setting, scale: Floats | float, unit: str = "", *, rounded: bool = True
     ) -> Reading:
         """A length on paper, read off a rule, or reckoned from others; its unit by what the construction says of it."""
-        division = self.pencil.division if rounded and self.pencil.deviation(Kind.READ, "length") else 0.0
-        paper = np.round(length.amount / division) * division if division else length.amount
+        paper = self.pencil.read_off(length.amount) if rounded else length.amount
         return self._read(name, {"length": length}, paper, scale, unit)
 
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
@@ -378,7 +377,7 @@ class Hand:
         """By how much it is off, shaped like an array; what errs not at all is drawn too, so that the rest stays."""
         if self._stream is None:
             self._stream = self.pencil.stream(self.meaning.name)
-        return self.pencil.deviation(kind, what) * self._stream.standard_normal(like.shape)
+        return self.pencil.slips(kind, what, self._stream, like.shape)
 
     def _left(
         self,

@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.drafting.acts import Kind
+from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.slips import PROTRACTOR, SLIPS
 from graphcam.errors import DesignError
 
@@ -81,6 +81,20 @@ class Pencil:
         """
         slip = SLIPS[kind][what]
         return slip.times * getattr(self, slip.of) if self.only is None or kind in self.only else 0.0
+
+    def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
+        """By how much one thing is off in as many acts, out of a construction's random numbers."""
+        return self.deviation(kind, what) * stream.standard_normal(shape)
+
+    def read_off(self, lengths: Floats) -> Floats:
+        """Lengths [mm] as they are read off a rule.
+
+        >>> import graphcam as gc
+        >>> gc.Pencil(division=0.5).read_off(np.array([1.2, 1.3])).tolist()
+        [1.0, 1.5]
+        """
+        division = self.division if self.deviation(Kind.READ, "length") else 0.0
+        return np.round(lengths / division) * division if division else lengths
 
     def sheets(self, paper: ArrayLike) -> NDArray[Any]:
         """The same lengths or points on every sample's sheet: shaped ([samples,] ...).

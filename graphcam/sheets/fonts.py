@@ -17,6 +17,8 @@ from graphcam.sheets.typefaces import BOX, capital, face_of, glyph, lettering_fi
 
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0)
 """Of capital letters by ISO 3098 and GOST 2.304, mm."""
+ROUNDING = 1e-6
+"""Two widths that differ by less may be the same [mm]."""
 DROP = 0.5
 """An index stands so much lower than its letter, in heights of the index."""
 
@@ -136,11 +138,18 @@ def wrap(text: str, height: float, room: float) -> list[str]:
     ['one two', 'three']
     """
     lines: list[str] = []
+    reached, space = 0.0, width(" ", height)
     for word in text.split():
-        if lines and width(f"{lines[-1]} {word}", height) <= room:
+        wide = width(word, height)
+        together = reached + space + wide
+        # A line is as wide as its words and spaces; it is measured itself only where rounding may decide.
+        close = abs(together - room) < ROUNDING
+        if lines and (width(f"{lines[-1]} {word}", height) if close else together) <= room:
             lines[-1] += f" {word}"
+            reached = together
         else:
             lines.append(word)
+            reached = wide
     return lines
 
 

@@ -20,6 +20,8 @@ CHUNK_OF_DESIGNS = 4096
 """Designs that are computed at a time: what they need stays in the processor's cache."""
 CHUNKS_PER_JOB = 8
 """Chunks that an executor is given at a time: what one costs to hand out does not count then."""
+JOBS_AHEAD = 32
+"""Jobs that wait for an executor at a time: all columns of so many take a hundred megabytes."""
 WORKING_SET = 2**22
 """Bytes that a chunk needs."""
 # The C library on Linux keeps free memory only up to twice the largest array that it was given back.  What it does not
@@ -83,7 +85,7 @@ def sweep(
     out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
     starts = range(0, len(designs), size)
     jobs = (designs.part(slice(k, k + size)) for k in starts)
-    for k, columns in zip(starts, in_order(executor, compute, jobs), strict=True):
+    for k, columns in zip(starts, in_order(executor, compute, jobs, JOBS_AHEAD), strict=True):
         for name, column in columns.items():
             out[name][k : k + size] = column
     return out

@@ -10,7 +10,7 @@ from typing import Any
 
 from graphcam.files import OutputError, whole_file
 from graphcam.sweeps.space import Space
-from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
+from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
 from graphcam.workers import in_order
 
 Write = Callable[[Columns], None]
@@ -46,7 +46,7 @@ def sweep_to_file(
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
         done = 0
-        for columns in in_order(executor, space.results, blocks):
+        for columns in in_order(executor, space.results, blocks, JOBS_AHEAD):
             write(columns)
             done += next(iter(columns.values())).size
             if progress:

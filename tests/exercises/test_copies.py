@@ -6,6 +6,7 @@ import csv
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -63,9 +64,9 @@ def test_who_handed_in_anothers_variant_is_named_with_its_owner():
     course = honest()
     records = [each[0] for each in course.careful]
     assert alike_pairs(course.exercise, records, course.answer_keys) == []
-    records[3] = handed_in(course, 3, numbers_of(course.careful[7][1]))
+    records[3] = handed_in(course, 3, numbers_of(course.careful[2][1]))
     found = alike_pairs(course.exercise, records, course.answer_keys)
-    assert [(pair.student, pair.other, pair.kind) for pair in found] == [("student 3", "student 7", "variant")]
+    assert [(pair.student, pair.other, pair.kind) for pair in found] == [("student 3", "student 2", "variant")]
     assert 0 < found[0].probability <= FALSE_ALARM
     wrong = {answer["name"] for answer in records[3]["answers"] if answer["outcome"] == "wrong"}
     assert len(found[0].answers) >= 2
@@ -78,10 +79,10 @@ def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tm
     names = write_reports(tmp_path / "honest.csv", course.exercise, records, course.answer_keys)
     assert "honest-copies.csv" in names
     assert (tmp_path / "honest-copies.csv").read_text().count("\n") == 1
-    records[3] = handed_in(course, 3, numbers_of(course.careful[7][1]))
+    records[3] = handed_in(course, 3, numbers_of(course.careful[2][1]))
     write_reports(tmp_path / "copied.csv", course.exercise, records, course.answer_keys)
     rows = list(csv.DictReader((tmp_path / "copied-copies.csv").read_text().splitlines()))
-    assert [(row["student"], row["other"], row["agrees_in"]) for row in rows] == [("student 3", "student 7", "variant")]
+    assert [(row["student"], row["other"], row["agrees_in"]) for row in rows] == [("student 3", "student 2", "variant")]
     pages = [(tmp_path / name).read_text() for name in ("honest.html", "copied.html")]
     assert ["fit the other" in page for page in pages] == [False, True]
 
@@ -115,6 +116,43 @@ def test_the_same_key_is_no_copy():
     assert same_wrong_numbers(of_keys(given, keys, mistaken)) == []
     # Without the mistake in the catalogue the same digits would be told, so the test can fail.
     assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given + 0.03, keys))] == [(0, 1)]
+
+
+def test_the_tenth_mistake_counts_as_the_first_does():
+    keys = keys_of(10)
+    mistaken = keys[:, None] * np.linspace(0.4, 0.6, 10)[None, :, None]
+    given = by_hand(keys)
+    given[0] = given[1] = np.round(mistaken[0, 9] + 0.03, 2)
+    mistaken[1] = mistaken[0]
+    assert same_wrong_numbers(of_keys(given, keys, mistaken)) == []
+    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given, keys, mistaken[:, :9]))] == [(0, 1)]
+
+
+def plain_ratio(numbers: CourseNumbers, i: int, j: int) -> float:
+    """How much likelier the numbers of student i are by the key of j than by the own, a number after the other."""
+    density, ratio = NormalDist(0, 1).pdf, 1.0
+    for a, given in enumerate(numbers.given[i]):
+        values, scatter = numbers.value[:, a], numbers.scatter[:, a]
+        by_keys = [density((given - value) / s) / s for value, s in zip(values, scatter, strict=True)]
+        by_course = NormalDist(values.mean(), values.std()).pdf(given)
+        anywhere = (float(np.mean(by_keys)) + by_course) / 2
+        ratio *= max(by_keys[j], anywhere) / max(by_keys[i], anywhere)
+    return ratio
+
+
+def test_who_is_found_far_off_in_the_course_is_as_probable_as_the_formula_says():
+    students = 150
+    keys = keys_of(students)
+    given = by_hand(keys)
+    given[3], given[140] = by_hand(keys, 2)[149], by_hand(keys, 3)[5]
+    numbers = of_keys(given, keys)
+    found = of_another_variant(numbers)
+    assert [(i, j) for i, j, _ in found] == [(3, 149), (140, 5)]
+    # Ten for answers that go together; two have wrong numbers.
+    for i, j, probability in found:
+        assert probability == pytest.approx(10 * 2 * (students - 1) / plain_ratio(numbers, i, j))
+    given[3], given[140] = keys[3] * 1.3713, keys[3] * 1.3713
+    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given, keys))] == [(3, 140)]
 
 
 def test_a_mistake_of_ones_own_that_meets_anothers_key_is_no_copy():

@@ -72,8 +72,14 @@ def bayes(key: AnswerKey, compared: list[ComparedAnswer]) -> tuple[str, float, s
         return math.exp(-8.0) / (width(each.key) * min(100.0, max(1.0, larger)))
 
     def most(name: str) -> bool:
-        wrong = [each for each in compared if each.wrong]
-        return 3 * sum(abs(off(name, each)) <= 5.0 for each in wrong) >= 2 * len(wrong)
+        def speaks_against(each: ComparedAnswer) -> bool:
+            mistaken = key.hypotheses[name][each.place].value
+            would_be_right = isinstance(mistaken, float) and abs(mistaken - each.key.value) <= BOUND * each.key.scatter
+            return abs(off(name, each)) > 5.0 and (each.wrong or not would_be_right)
+
+        against = sum(map(speaks_against, compared))
+        like = sum(each.wrong and abs(off(name, each)) <= 5.0 for each in compared)
+        return 100 * like >= 85 * (like + against)
 
     other = math.prod(map(anywhere, compared))
     brought = {
@@ -137,20 +143,34 @@ def test_a_mistake_as_probable_as_something_else_is_still_named():
         assert diagnose(key_with(slip=[at(10.0)]), [answer(0, beyond, at(30.0))]) is None
 
 
-@pytest.mark.parametrize(("near", "named"), [(1, False), (3, False), (4, True), (6, True)])
-def test_a_mistake_that_leaves_more_than_a_third_of_the_wrong_answers_unexplained_is_not_named(near, named):
+@pytest.mark.parametrize(("near", "named"), [(1, False), (10, False), (16, False), (17, True), (20, True)])
+def test_a_mistake_that_leaves_more_than_15_percent_of_the_wrong_answers_unexplained_is_not_named(near, named):
     # Each answer that is near speaks for the mistake beyond doubt: only their share can speak against it.
-    compared = [answer(k, 100.0 if k < near else 160.0, at(500.0)) for k in range(6)]
-    assert (diagnose(key_with(slip=[at(100.0)] * 6), compared) is not None) == named
+    compared = [answer(k, 100.0 if k < near else 160.0, at(500.0)) for k in range(20)]
+    assert (diagnose(key_with(slip=[at(100.0)] * 20), compared) is not None) == named
+
+
+@pytest.mark.parametrize(("brought", "named"), [(506.0, False), (494.0, False), (501.9, True), (500.0, True)])
+def test_right_answers_that_a_mistake_would_have_made_wrong_speak_against_it(brought, named):
+    # The last answer is right, and so far from what the mistake brings that it was not made, or that is right as well.
+    compared = [answer(k, 100.0, at(500.0)) for k in range(5)] + [answer(5, 500.0, at(500.0))]
+    narrow = at(brought, 0.3)
+    assert (diagnose(key_with(slip=[*[at(100.0)] * 5, narrow]), compared) is not None) == named
+
+
+@pytest.mark.parametrize(("right", "named"), [(500j, False), (100j, True)])
+def test_a_right_drawing_that_a_mistake_would_have_made_another_speaks_against_it(right, named):
+    compared = [answer(k, 100.0, at(500.0)) for k in range(5)] + [answer(5, right, drawn_at(right))]
+    assert (diagnose(key_with(slip=[*[at(100.0)] * 5, drawn_at(100j)]), compared) is not None) == named
 
 
 def test_an_answer_of_more_marks_counts_for_more_in_what_is_explained():
-    heavy = replace(NUMBER, marks=4.0)
+    heavy = replace(NUMBER, marks=6.0)
     for first, named in ((heavy, True), (NUMBER, False)):
-        compared = [answer(k, 100.0 if k == 0 else 160.0, at(500.0)) for k in range(3)]
+        compared = [answer(k, 100.0 if k == 0 else 160.0, at(500.0)) for k in range(2)]
         compared[0] = compared[0]._replace(asked=first)
-        # Two answers elsewhere cost 15 each; what is asked first lies so near that only the share decides.
-        found = diagnose(key_with(slip=[at(100.0, 1e-9), at(100.0), at(100.0)]), compared)
+        # An answer elsewhere costs 15; what is asked first lies so near that only the share decides.
+        found = diagnose(key_with(slip=[at(100.0, 1e-9), at(100.0)]), compared)
         assert (found is not None) == named
 
 

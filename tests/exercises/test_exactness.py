@@ -13,7 +13,8 @@ from hypothesis import given, strategies as st
 from issued_variants import SECRET, issued, marked
 
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.exercise import Answers, HandTable
+from graphcam.exercises.definition.exercise import Answers
+from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -24,7 +25,7 @@ from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
 
 NAMES = ("acceleration-and-scales", "differentiation", "least-radius-offset", "inversion-arm", "pressure-angle")
-CAD = HandTable(line=1e-4, dividers=1e-4, division=1e-4, protractor_deg=1e-5)
+CAD = HandTable(line=1e-5, dividers=1e-5, division=1e-5, protractor_deg=1e-5, stretch=0.0)
 """What a program's own rounding leaves of a drawing."""
 
 

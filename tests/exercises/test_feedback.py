@@ -62,17 +62,17 @@ def test_every_answer_has_its_sentence_first():
     exercise, answer_key = issued("integration")
     right = key(answer_key)
     answers = Answers(
-        {"v_2": right["v_2"], "s_2": [], "s_max": right["s_max"] + 1e6, "v_max_paper": "x"},
-        {"v_max_paper": "It says x"},
+        {"v_2": right["v_2"], "s_5": [], "s_max": right["s_max"] + 1e6, "v_3_return": "x"},
+        {"v_3_return": "It says x"},
     )
     said = mark(exercise, answer_key, answers).feedback
     assert said[:4] == (
         "v_2: right.",
-        "v_max_paper: the answer cannot be read: It says x.",
-        "s_2: the answer cannot be read.",
+        "v_3_return: the answer cannot be read: It says x.",
+        "s_5: the answer cannot be read.",
         "s_max: farther off than a careful hand draws or calculates.",
     )
-    assert said[4:6] == ("mu_v: no answer was given.", "v_max: no answer was given.")
+    assert said[4:8] == tuple(f"{name}: no answer was given." for name in ("s_3_return", "mu_v", "mu_a", "v_max"))
 
 
 def test_a_record_is_strict_json_all_the_way_down():

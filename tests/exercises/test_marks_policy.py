@@ -70,13 +70,13 @@ def test_what_is_near_is_paid_the_more_the_nearer_it_is(tolerances, marks):
     exercise, answer_key = issued(NAME)
     # Nothing follows from anything, and no mistake is looked for: the answer stands alone.
     alone = replace(answer_key, dependences={}, hypotheses={})
-    value, tolerance = key(answer_key)["radius_4"], answer_key.keys["radius_4"].tolerance
-    given = key(answer_key) | {"radius_4": value + (tolerances + 1e-9) * tolerance}
+    value, tolerance = key(answer_key)["radius_8"], answer_key.keys["radius_8"].tolerance
+    given = key(answer_key) | {"radius_8": value + (tolerances + 1e-9) * tolerance}
     record = mark(replace(exercise, policy=MarksPolicy(near=2.0)), alone, Answers(given))
-    answer = next(one for one in record.answers if one.name == "radius_4")
+    answer = next(one for one in record.answers if one.name == "radius_8")
     assert answer.marks == pytest.approx(marks, abs=0.1 + 1e-9)
-    assert outcomes(record)["radius_4"] == ("right" if marks == 2 else "partial" if marks else "wrong")
-    assert any(said.startswith("radius_4: a little farther off") for said in record.feedback) == (0 < marks < 2)
+    assert outcomes(record)["radius_8"] == ("right" if marks == 2 else "partial" if marks else "wrong")
+    assert any(said.startswith("radius_8: a little farther off") for said in record.feedback) == (0 < marks < 2)
 
 
 def test_a_scribble_through_all_stations_is_not_near():
@@ -174,6 +174,24 @@ def test_the_group_page_shows_what_another_policy_would_have_given():
     for said, name in (("This policy", "total"), ("Without caps on mistakes", "without_caps")):
         assert f'{said}</td><td class="number">{record[name]:.2f}' in html
     assert record["without_caps"] > record["total"]
+
+
+def test_the_group_page_shows_no_policy_that_pays_everyone_the_same():
+    exercise, answer_key = issued(NAME)
+    right = mark(exercise, answer_key, Answers(key(answer_key))).to_dict()
+    assert "This policy" not in group_page(exercise, [right], {})
+    # A cap on another mistake changes nothing; without follow-through this hand-in earns less.
+    follows = with_offset_sign(MarksPolicy(caps={"base-circle": 0.5})).to_dict()
+    html = group_page(exercise, [right, follows], {})
+    assert f'This policy</td><td class="number">{(right["total"] + follows["total"]) / 2:.2f}' in html
+    assert "Without follow-through" in html
+    assert "Without caps on mistakes" not in html
+
+
+def test_a_wrong_side_of_the_offset_earns_at_most_six_of_ten_marks():
+    exercise, _ = issued(NAME)
+    record = with_offset_sign(exercise.policy)
+    assert record.total <= 0.6 * record.of < record.without_caps
 
 
 @pytest.fixture

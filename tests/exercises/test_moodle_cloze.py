@@ -26,7 +26,8 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.export import export
-from graphcam.exercises.exports.moodle_cloze import Issued, cloze_xml, question_text
+from graphcam.exercises.exports.moodle_cloze import cloze_xml, question_text
+from graphcam.exercises.exports.question_parts import Issued
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 from graphcam.sheets.matplotlib_renderer import write_pdf
@@ -163,10 +164,10 @@ def test_no_mistakes_answer_reaches_into_the_keys_tolerance():
 
 def test_marks_become_whole_in_their_proportions():
     exercise, answer_key = issued(NAME)
-    marks = (0.5, 0.75, 1.0, 0.1, 2.0, 1.5, 3.0)
+    marks = (0.5, 0.75, 1.0, 0.1, 2.0, 1.5, 3.0, 0.25)
     answers = tuple(replace(asked, marks=each) for asked, each in zip(exercise.answers, marks, strict=True))
     weights = [blank.weight for blank in blanks_of(replace(exercise, answers=answers), answer_key)]
-    assert weights == [10, 15, 20, 2, 40, 30, 60]
+    assert weights == [10, 15, 20, 2, 40, 30, 60, 5]
 
 
 def test_texts_of_any_signs_are_shown_as_they_are(monkeypatch: pytest.MonkeyPatch):
@@ -174,7 +175,7 @@ def test_texts_of_any_signs_are_shown_as_they_are(monkeypatch: pytest.MonkeyPatc
         """One whose sentence has every sign."""
         return SimpleNamespace(said=say("{text}", text=HOSTILE))
 
-    monkeypatch.setattr("graphcam.exercises.exports.moodle.misconception", hostile_misconception)
+    monkeypatch.setattr("graphcam.exercises.exports.question_parts.misconception", hostile_misconception)
     exercise, answer_key = issued(NAME)
     answers = tuple(replace(asked, text=HOSTILE) for asked in exercise.answers)
     hostile = replace(exercise, title=HOSTILE, answers=answers)

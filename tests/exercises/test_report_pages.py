@@ -6,6 +6,7 @@ import json
 import re
 from html import unescape
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,17 +14,21 @@ from browsers import opened
 from issued_variants import SECRET, course_of, issued, key
 from russian import english_words
 
+from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, per_mm
-from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.exercise import Answers
+from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn, fill_in
 from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.grading.deadlines import EXTENSIONS, deadline_of
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.first_step_off import PASSED_ON, first_step_off, shown_by
-from graphcam.exercises.reports.group_page import group_page
+from graphcam.exercises.reports.group_page import Mistake, group_page, mistakes
 from graphcam.exercises.reports.student_page import student_page
 from graphcam.exercises.reports.unrolled_drawings import HEIGHT, PLACES, bundle, deviations_along, key_line
 from graphcam.plots.step_board import StepBoard
@@ -48,7 +53,7 @@ def answers(student: str, answer_key: AnswerKey) -> str:
         bump = 4 * np.exp(-(((np.arange(values["pitch"].size) - 9) / 1.5) ** 2))
         values["pitch"] = values["pitch"] * (1 + bump / np.abs(values["pitch"]))
     if student == "Dmitri":
-        values = {"s_4": values["s_4"]}
+        values = {"s_8": values["s_8"]}
     if student == HOSTILE:
         return f'"{HOSTILE}" = 1\npitch = "{HOSTILE}"\n'
     return "".join(
@@ -75,14 +80,29 @@ def test_the_pages_need_nothing_from_elsewhere_and_run_nothing(pages: Path):
         with opened(path) as (page, wrong):
             assert page.title()
             assert page.evaluate("document.images.length") == 0
-            # Nothing sticks out of the page.
-            assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+            # Nothing sticks out of the page, on a desk or on a telephone.
+            for width in (1200, 390):
+                page.set_viewport_size({"width": width, "height": 900})
+                assert page.evaluate("document.documentElement.scrollWidth") == width
         assert wrong == []
+
+
+@pytest.mark.slow
+def test_a_table_that_is_wider_than_a_telephone_is_moved_in_its_own_box_and_breaks_no_words(pages: Path):
+    with opened(pages / "grades.html") as (page, _):
+        page.set_viewport_size({"width": 390, "height": 900})
+        box = page.locator(".wide", has=page.get_by_text("Discrimination", exact=True))
+        assert box.evaluate("box => box.scrollWidth > box.clientWidth")
+        assert box.evaluate("box => { box.scrollLeft = 1000; return box.scrollLeft > 0 }")
+        # No name of an answer is on two lines.
+        heights = box.locator("td:first-child").evaluate_all("cells => cells.map(cell => cell.clientHeight)")
+        assert len(heights) == len(issued(NAME)[0].answers)
+        assert len(set(heights)) == 1
 
 
 def numbers_of(html: str) -> set[float]:
     text = re.sub(r"<style>.*?</style>", "", html, flags=re.DOTALL)
-    return {float(number) for number in re.findall(r"-?\d+\.\d+", text)}
+    return {float(number) for number in re.findall(r"-?\d+\.\d+", text.replace("−", "-"))}
 
 
 def disclosed(html: str, answer_key: AnswerKey) -> list[str]:
@@ -116,6 +136,74 @@ def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages:
     assert "pitch" in disclosed((pages / "grades.html").read_text(), issued(NAME, "Boris")[1])
 
 
+@pytest.mark.parametrize("name", library())
+def test_no_exercise_discloses_a_key_on_the_page_of_who_has_it_wrong_and_all_do_where_it_is_to_be_shown(name: str):
+    """Each by a student with the mistake that is first in its catalogue."""
+    exercise, answer_key = issued(name)
+    mistaken = next(iter(answer_key.hypotheses.values()))
+    values = {asked.name: each.value for asked, each in zip(exercise.answers, mistaken, strict=True)}
+    record = mark(exercise, answer_key, Answers(values)).to_dict()
+    given_right = {answer["name"] for answer in record["answers"] if answer["outcome"] == "right"}
+    assert len(given_right) < len(exercise.answers)
+    assert set(disclosed(student_page(exercise, record, answer_key), answer_key)) <= given_right
+    told = student_page(exercise, record, answer_key, right=True)
+    rows = [words_of(row) for row in re.findall(r"<tr><td>.*?</tr>", told, flags=re.DOTALL)]
+    for asked, row in zip(exercise.answers, rows, strict=True):
+        expected = answer_key.keys[asked.name].expected.value
+        if asked.kind == "number":
+            found = re.search(r"right: ([-−\d.]+) ± ", row)
+            assert found is not None
+            shown = float(found[1].replace("−", "-"))
+            assert shown == pytest.approx(float(str(expected)), abs=0.5001 * 10**-asked.decimals)
+        else:
+            assert "right: see the drawing" in row
+            assert asked.name in disclosed(told, answer_key)
+
+
+def test_the_right_drawing_lies_under_the_own_one_and_the_construction_goes_on_to_the_step_that_is_off(pages: Path):
+    exercise = find_exercise(NAME)
+    records = {record["student"]: record for record in json.loads((pages / "grades.json").read_text())}
+    answer_key = issued(NAME, "Clara")[1]
+    html = student_page(exercise, records["Clara"], answer_key, right=True)
+    assert html.count('<polyline class="key"') == 1
+    assert "pitch: your drawing red, the right one blue; circled where you are farthest off." in html
+    before, told = (first_step_off(exercise, records["Clara"], right=right) for right in (False, True))
+    assert before is not None
+    assert told is not None
+    assert (before.step, before.told, told.step, told.told) == (told.step, False, before.step, True)
+    assert before.picture is not None
+    assert told.picture is not None
+    assert len(told.picture.drawn) > len(before.picture.drawn)
+    # Who has all right sees no step, and the curve as it should be.
+    assert "right one blue.<" in student_page(exercise, records["Anna"], issued(NAME, "Anna")[1], right=True)
+
+
+def graded(pages: Path, out: Path, **more: object) -> str:
+    """Boris' page."""
+    order = Course(pages, pages / "secret", out / "grades.csv", feedback=out / "pages", **more)  # type: ignore[arg-type]
+    grade_course(order)
+    return words_of((out / "pages" / "Boris.html").read_text(encoding="utf-8"))
+
+
+def test_what_is_right_is_shown_only_when_it_is_asked_for_and_no_deadline_is_ahead(pages: Path, tmp_path: Path):
+    past, ahead = deadline_of("2020-01-01T00:00"), deadline_of("9000-01-01T00:00Z")
+    assert "right: " not in graded(pages, tmp_path / "not asked for", deadline=past)
+    assert "right: " in graded(pages, tmp_path / "after the deadline", deadline=past, show_right=True)
+    assert "right: " in graded(pages, tmp_path / "without a deadline", show_right=True)
+    refused = r"--show-right: the last deadline.* is '9000-01-01 00:00\+00:00', but must be past; wait until then"
+    with pytest.raises(TaskError, match=refused):
+        graded(pages, tmp_path / "before", deadline=ahead, show_right=True)
+    # One student's extension counts as much.
+    extensions = pages / TEACHER / EXTENSIONS
+    extensions.write_text("student,deadline\nClara,9000-01-01T00:00Z\n")
+    try:
+        with pytest.raises(TaskError, match=refused):
+            graded(pages, tmp_path / "before", deadline=past, show_right=True)
+    finally:
+        extensions.unlink()
+    assert not (tmp_path / "before").exists()
+
+
 def test_the_report_tells_what_to_teach_again(pages: Path):
     text = (pages / "grades.html").read_text()
     from graphcam.exercises.definition.mistakes import misconception
@@ -125,6 +213,16 @@ def test_the_report_tells_what_to_teach_again(pages: Path):
     assert "<img" not in page_of(pages, HOSTILE).read_text()
 
 
+def test_mistakes_that_are_named_together_are_counted_together():
+    def named(student: str, misconception: str, *alike: str) -> dict[str, Any]:
+        diagnosis = {"misconception": misconception, "alike": list(alike)}
+        return {"student": student, "diagnosis": diagnosis, "of": 8.0, "total": 5.0}
+
+    first, second = "numbering-sense", "rotation-sense"
+    found = mistakes([named("a", first, second), named("b", second, first), named("c", first)])
+    assert found == [Mistake((first, second), ("a", "b"), 6.0), Mistake((first,), ("c",), 3.0)]
+
+
 def test_the_pages_of_a_russian_course_are_russian(pages: Path):
     kept = AnswerKeys(pages / TEACHER)
     exercise = find_exercise(NAME, "ru")
@@ -132,10 +230,14 @@ def test_the_pages_of_a_russian_course_are_russian(pages: Path):
     answer_keys = {student: AnswerKey.from_json(kept.find(student)) for student in IDS}
     # The sentences of a record were said when it was marked; here the pages' own words are looked at.
     records = [record | {"feedback": [], "notes": []} for record in records if record["student"] != HOSTILE]
-    alike = [AlikePair(IDS[1], IDS[2], kind, ("s_4",), 1e-4) for kind in ("variant", "wrong numbers")]
+    alike = [AlikePair(IDS[1], IDS[2], kind, ("s_8",), 1e-4) for kind in ("variant", "wrong numbers")]
     html = [group_page(exercise, records, answer_keys, alike)]
     assert html[0].count("0,0001") == 2
-    html += [student_page(exercise, record, answer_keys[record["student"]]) for record in records]
+    html += [
+        student_page(exercise, record, answer_keys[record["student"]], right=right)
+        for record in records
+        for right in (False, True)
+    ]
     for page in html:
         text = re.sub(r"<style>.*?</style>|<[^>]*>", " ", page, flags=re.DOTALL)
         names = (*IDS, *(asked.name for asked in exercise.answers), *exercise.parameters)
@@ -237,10 +339,16 @@ def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_b
     ("name", "shown"),
     [
         # The ordinates of v and s stand on paper long before their scales are found.
-        ("integration", {"v_2": 1, "v_max_paper": 1, "s_2": 4, "s_max": 4, "mu_v": 1, "v_max": 1}),
-        ("inversion-translating", {"s_4": 4, "radius_4": 2, "x_4": 2, "y_4": 2, "angle_4": 2, "pitch": 2}),
-        ("inversion-arm", {"psi_4": 4, "pivot_4": 1, "pivot_y_4": 1, "radius_8": 3, "angle_8": 3, "rollers": 3}),
-        ("pressure-angle", {"s0": 1, "v_4": 1, "D_4": 1, "alpha_4": 1, "alpha_8": 1}),
+        (
+            "integration",
+            {"v_2": 1, "v_3_return": 1, "s_5": 4, "s_max": 4, "s_3_return": 4, "mu_v": 1, "mu_a": 8, "v_max": 1},
+        ),
+        ("inversion-translating", {"s_8": 4, "radius_8": 2, "x_8": 2, "y_8": 2, "angle_8": 2, "pitch": 2}),
+        ("inversion-arm", {"psi_4": 4, "pivot_4": 1, "pivot_y_4": 1, "radius_10": 3, "angle_10": 3, "rollers": 3}),
+        (
+            "pressure-angle",
+            {"s0": 1, "v_4": 1, "D_4": 1, "D_6_return": 1, "alpha_4": 1, "alpha_8": 1, "alpha_6_return": 1},
+        ),
     ],
 )
 def test_the_step_that_shows_an_answer_is_known(name: str, shown: dict[str, int]):
@@ -292,8 +400,8 @@ def test_a_page_draws_the_construction_up_to_the_first_step_that_is_off_and_no_f
     assert found.picture is not None
     chain = board_chain(fill_in(exercise, records["Boris"]["parameters"]))
     board = StepBoard((), construction_of(chain, "inversion").steps()[:2])
-    asked = next(asked for asked in exercise.answers if asked.name == "x_4")
-    given = next(answer["given"] for answer in records["Boris"]["answers"] if answer["name"] == "x_4")
+    asked = next(asked for asked in exercise.answers if asked.name == "x_8")
+    given = next(answer["given"] for answer in records["Boris"]["answers"] if answer["name"] == "x_8")
     at = board.origin.real + board.factor * given / per_mm(chain, asked)
     assert float(found.picture.own.split(",")[0]) == pytest.approx(at, abs=0.06)
     assert first_step_off(exercise, records["Anna"]) is None

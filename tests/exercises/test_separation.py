@@ -8,6 +8,7 @@ import pytest
 
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.expectation import Expected
@@ -42,7 +43,7 @@ def test_a_mistake_too_near_to_careful_work_passes():
 
 def test_limits_swapped_in_a_region_that_begins_almost_on_the_line_of_motion_are_not_issued():
     """There the wrong offset is 2.2 mm, with a scatter of 0.7 mm: one hand in five would be told nothing."""
-    exercise = find_exercise("least-radius")
+    exercise = replace(find_exercise("least-radius"), hand=HandTable("careful"))
     parameters = {"back": 105, "dwell": 55, "law_down": "cosine", "law_up": "modified-sine", "lift": 45}
     parameters |= {"limit_down": 40, "limit_up": 27, "pole": 40, "rise": 80, "rotation": "cw"}
     variant = Variant(exercise, "a student", 0, parameters)

@@ -11,10 +11,11 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise import Answers
+from graphcam.exercises.definition.hands import HANDS
 from graphcam.exercises.marking import simulate as module
 from graphcam.exercises.marking.copy_gain import CopyGain, copy_gain
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import SimulatedRow, Simulation, simulate
+from graphcam.exercises.marking.simulate import HandCount, SimulatedRow, Simulation, simulate
 
 MISTAKES = ("offset-sign", "base-circle")
 CAREFUL = [(8, None, True), (8, None, True), (8, None, False), (7, "base-circle", False), (8, None, False)]
@@ -31,10 +32,11 @@ DRAWS = (0, 2, 2)
 def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[str, object]]]:
     """What is simulated of records that are known, what was told of the progress, and all answers marked."""
     marked: list[dict[str, object]] = []
-    students = iter(DRAWS)
 
     def chain(records, seed):
-        return SimpleNamespace(records=records, pencil=SimpleNamespace(samples=len(records), seed=seed))
+        pencil = SimpleNamespace(samples=len(records), seed=seed)
+        # By the hands of any population all is drawn as by the exercise's.
+        return SimpleNamespace(records=records, pencil=pencil, by=lambda other: chain(CAREFUL, other.seed))
 
     def answers_of(exercise, chain):
         return [np.arange(10.0 * k, 10.0 * k + 5) for k in range(4)] + [np.arange(10.0).reshape(5, 2) + 0j]
@@ -48,7 +50,7 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     def mark(exercise, answer_key, answers):
         marked.append(dict(answers.values))
         total, named, too_exact = records.pop(0)
-        diagnosis = SimpleNamespace(misconception=named) if named else None
+        diagnosis = SimpleNamespace(misconception=named, alike=()) if named else None
         return SimpleNamespace(total=total, of=8, diagnosis=diagnosis, too_exact=too_exact)
 
     original = module._Tally.mark
@@ -58,7 +60,8 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     monkeypatch.setattr(module, "copy_gain", lambda _, done: CopyGain(len(done)))
     monkeypatch.setattr(module, "without", lambda *_: None)
     monkeypatch.setattr(module, "mark", mark)
-    monkeypatch.setattr(module, "issue", lambda *_: (SimpleNamespace(draw=next(students), task=None), None))
+    variants = [(SimpleNamespace(draw=draw, task=None), None) for draw in DRAWS]
+    monkeypatch.setattr(module, "course_variants", lambda *_: iter(variants))
     monkeypatch.setattr(module, "board_chain", lambda task, pencil: chain(CAREFUL, pencil.seed))
     changes = {name: SimpleNamespace(change=lambda drawn, each=each: chain(each, 0)) for name, each in SLIPS.items()}
     monkeypatch.setattr(module, "misconception", changes.__getitem__)
@@ -83,7 +86,9 @@ def test_every_record_is_counted_once(figures):
     }
     assert found.issued == (1, 0, 2)
     assert progress == [(1, 3), (2, 3), (3, 3)]
-    assert len(marked) == 3 * 25  # the ten wrong ones again, their mistake left out of the key
+    # The three populations, and the ten wrong ones again, their mistake left out of the key.
+    assert len(marked) == 3 * (25 + 3 * 5)
+    assert found.populations == dict.fromkeys(HANDS, HandCount(15, 3))
     first, points = marked[2], marked[2]["p"]
     assert [first[name] for name in "abcd"] == [2.0, 12.0, 22.0, 32.0]
     assert {type(first[name]) for name in "abcd"} == {float}

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise_file import find_exercise, library
+from graphcam.exercises.definition.hands import HANDS as HANDS_OF
 from graphcam.exercises.grading import course_speed
 from graphcam.exercises.grading.course_grading import grade_course
 from graphcam.exercises.grading.grade_one import Assignment, grade
@@ -22,31 +23,39 @@ from graphcam.exercises.marking.simulate import simulate
 EXERCISES = Path(__file__).parents[2] / "exercises"
 
 
-def of_a_thousand(name: str) -> dict[str, Any]:
-    """What 'graphcam exercise simulate NAME --variants 1000 --hands 20' found, as it is kept."""
+def simulated_record(name: str) -> dict[str, Any]:
+    """What 'graphcam exercise simulate NAME --variants 500 --hands 20' found, or with more variants, as it is kept."""
     return json.loads((EXERCISES / "simulated" / f"{name}.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("name", library())
-def test_a_thousand_variants_are_separable_and_keep_the_bars(name: str):
-    exercise, found = find_exercise(name), of_a_thousand(name)
+def test_hundreds_of_variants_are_separable_and_keep_the_bars(name: str):
+    exercise, found = find_exercise(name), simulated_record(name)
     # An exercise that was changed must be simulated again.
     assert (found["exercise"], found["version"]) == (name, exercise.version)
     assert set(found["rows"]) == set(exercise.misconceptions)
-    assert found["variants"] == sum(found["issued"]) == 1000
-    assert found["careful"] == 20_000
-    assert all(row["hands"] == 20_000 == sum(row["named"].values()) for row in found["rows"].values())
+    assert found["variants"] == sum(found["issued"]) >= 500
+    hands = 20 * found["variants"]
+    assert found["careful"] == hands
+    assert all(row["hands"] == hands == sum(row["named"].values()) for row in found["rows"].values())
     assert found["false_rejections"] == found["losing"] / found["careful"] <= 0.03
     accepted = sum(row["accepted"] for row in found["rows"].values())
     assert found["false_acceptances"] == accepted / sum(row["hands"] for row in found["rows"].values()) <= 0.005
     assert found["right_diagnoses"] >= 0.99
+    # Mistakes that are not looked for may be given a name in 3 %, and no copy earns more than about half.
+    assert found["outside_named"] <= 0.03
+    assert found["copies"]["above_half"] <= 0.005 * found["copies"]["pairs"]
+    assert all(found["populations"][hand]["hands"] == hands for hand in HANDS_OF)
+    assert found["populations"]["careful"]["losing"] <= found["losing"] <= found["populations"]["first-year"]["losing"]
 
 
 @pytest.mark.parametrize("name", library())
 def test_the_readme_says_what_was_found(name: str):
-    found = of_a_thousand(name)
-    rates = [f"{found[rate]:.2%}" for rate in ("false_rejections", "false_acceptances", "right_diagnoses")]
-    row = f"| `{name}` | {found['draws']:.2f} | {len(found['issued'])} | {' | '.join(rates)} |".replace("%", " %")
+    found = simulated_record(name)
+    losing = [found["populations"][hand]["losing"] / found["careful"] for hand in ("careful", "first-year")]
+    rates = [found["false_rejections"], *losing, found["false_acceptances"], found["right_diagnoses"]]
+    told = [f"{rate:.2%}" for rate in [*rates, found["outside_named"]]] + [f"{found['copies']['best']:.0%}"]
+    row = f"| `{name}` | {found['draws']:.2f} | {len(found['issued'])} | {' | '.join(told)} |".replace("%", " %")
     assert row in (EXERCISES / "README.md").read_text(encoding="utf-8").splitlines()
 
 
@@ -99,13 +108,12 @@ def test_a_bound_that_no_hand_keeps_fails_everybody(monkeypatch):
 
     from graphcam.exercises.marking import simulate as module
 
-    issue = module.issue
+    course_variants = module.course_variants
 
     def strict(*arguments):
-        variant, answer_key = issue(*arguments)
-        return variant, replace(answer_key, bound=1e-3)
+        return ((variant, replace(key, bound=1e-3)) for variant, key in course_variants(*arguments))
 
-    monkeypatch.setattr(module, "issue", strict)
+    monkeypatch.setattr(module, "course_variants", strict)
     assert simulate(find_exercise("integration"), SECRET, 1, 20).false_rejections == 1.0
 
 
@@ -128,7 +136,9 @@ def test_what_is_timed_is_the_work_that_hand_ins_make():
     submissions = simulated(exercise)
     known = submissions[0][0].answer_key
     careful, wrong = ([grade(Assignment(exercise, SPEED_SECRET), each) for each in some] for some in submissions)
-    assert {each.answer_key for each in [*careful, *wrong]} == {known}
+    # The key that is known is not made again.
+    assert known
+    assert {each.answer_key for each in [*careful, *wrong]} == {""}
     assert not any(each.record.notes for each in [*careful, *wrong])
     assert sum(each.record.total == exercise.marks for each in careful) >= 0.9 * HANDS
     assert sum(each.record.diagnosis is not None for each in wrong) >= 0.9 * HANDS * len(exercise.misconceptions)

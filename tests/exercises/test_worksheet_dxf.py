@@ -171,7 +171,7 @@ def test_what_is_not_understood_says_why(sheet: Path, case: str):
     assert any(reason in str(sentence) for sentence in record.feedback)
 
 
-@pytest.mark.parametrize("shift", [5 + 0j, 4j, -3 - 4j])
+@pytest.mark.parametrize("shift", [8 + 0j, 7j, -5 - 7j])
 def test_a_drawing_moved_against_its_mark_earns_nothing_and_hears_it(sheet: Path, shift: complex):
     document = ezdxf.readfile(sheet)
     polyline(document, np.asarray(key(issued(NAME)[1])["pitch"]) + centre(document) + shift)

@@ -32,7 +32,7 @@ from graphcam.report.markdown import FORMULA
 from graphcam.sheets import typefaces
 from graphcam.sheets.box import Box
 from graphcam.sheets.dxf_renderer import write_dxf
-from graphcam.sheets.fonts import extent, index_height, letters_of, points_size, width
+from graphcam.sheets.fonts import extent, index_height, letters_of, points_size, width, wrap
 from graphcam.sheets.matplotlib_renderer import svg, write_pdf, write_png
 from graphcam.sheets.model import Drawing, Group, Page, Text
 from graphcam.sheets.sampling import corners
@@ -308,3 +308,19 @@ def test_the_letters_that_were_added_to_the_face_are_its_own():
     licence = typefaces.lettering_file().with_name("osifont-licence.txt").read_text(encoding="utf-8")
     assert "As a special exception" in licence
     assert "GNU LESSER GENERAL PUBLIC LICENSE" in licence
+
+
+@pytest.mark.parametrize("height", [1.8, 2.5, 3.5])
+@pytest.mark.parametrize("count", range(1, 9))
+def test_a_line_takes_words_to_the_last_one_that_has_room(height: float, count: int):
+    text = "the cam φ₁ of μₐ = 2 and 37.5 mm 漢 − longer instruction (s₂') радиус φ_у кулачка"
+    words = text.split()
+    # As wide as a line exactly, which rounding must not break, and a hair less.
+    exact = width(" ".join(words[:count]), height)
+    for room in (exact, exact - 1e-4):
+        lines = wrap("  ".join(words), height, room)
+        assert " ".join(lines).split() == words
+        for line, following in pairwise(lines):
+            assert width(line, height) <= room or " " not in line
+            assert width(f"{line} {following.split()[0]}", height) > room
+    assert wrap(" ".join(words), height, exact)[0] == " ".join(words[:count])

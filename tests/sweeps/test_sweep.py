@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import tracemalloc
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
 import mpmath
@@ -17,7 +18,9 @@ import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.mechanism.stationary import max_acceleration, max_velocity
 from graphcam.sweeps import sweep_quantities as asked
+from graphcam.sweeps.sweep import CHUNKS_PER_JOB, JOBS_AHEAD
 from graphcam.sweeps.sweep_quantities import QUANTITIES
+from graphcam.workers import in_order
 
 SAME = 1e-13
 """The relative error that a sweep may have."""
@@ -184,6 +187,40 @@ def test_the_same_bits_from_threads(workers):
     designs = some_designs(300)
     with ThreadPoolExecutor(workers) as executor:
         assert same_bits(gc.sweep(designs), gc.sweep(designs, executor=executor, chunk=16))
+
+
+class AtOnce(Executor):
+    """Does its jobs at once, and counts them."""
+
+    def __init__(self) -> None:
+        self.done = 0
+
+    def submit(self, function, /, *args, **kwargs):
+        found = Future()
+        found.set_result(function(*args, **kwargs))
+        self.done += 1
+        return found
+
+
+def test_results_that_nobody_has_taken_yet_are_bounded():
+    """What takes results, as a file does, may be slower than what makes them."""
+    executor = AtOnce()
+    ahead = [executor.done - taken for taken, _ in enumerate(in_order(executor, abs, range(500), ahead=7))]
+    assert (len(ahead), max(ahead), executor.done) == (500, 7, 500)
+
+
+def test_a_sweep_keeps_to_its_own_bound(monkeypatch):
+    executor, ahead = AtOnce(), []
+
+    def watched(*given) -> Iterator[object]:
+        for taken, found in enumerate(in_order(*given)):
+            ahead.append(executor.done - taken)
+            yield found
+
+    monkeypatch.setattr("graphcam.sweeps.sweep.in_order", watched)
+    designs = some_designs(3 * JOBS_AHEAD * CHUNKS_PER_JOB)
+    assert same_bits(gc.sweep(designs), gc.sweep(designs, executor=executor, chunk=1))
+    assert (max(ahead), executor.done) == (JOBS_AHEAD, 3 * JOBS_AHEAD)
 
 
 @pytest.mark.slow

@@ -120,6 +120,10 @@ class AnswerKeys:
         """The language that the course is noted to be in; English where nothing is."""
         return str(self.course().get("language", ENGLISH.name))
 
+    def hand(self) -> str:
+        """The hand that the course is noted to be made for; empty where it is the exercise's."""
+        return str(self.course().get("hand", ""))
+
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""
         try:
@@ -129,7 +133,7 @@ class AnswerKeys:
         return said if isinstance(said, dict) else {}
 
     def _path(self, student: str) -> Path:
-        return self.folder / KEPT / f"{folder_name(student)}.json"
+        return Path(f"{self.folder}/{KEPT}/{folder_name(student)}.json")
 
 
 def _digest(secret: bytes) -> str:

@@ -1,8 +1,10 @@
 """What lies in a folder of submissions: whose each folder or file is, and what is nobody's."""
 
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
@@ -11,6 +13,12 @@ from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.export_names import ExportName, export_name
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import read_roster
+from graphcam.exercises.reading.submission_files import answer_files
+
+MOST_ATTEMPTS = 10
+"""So many of a student's first attempts are read, and as many of the last: students may pack any number of them."""
+ATTEMPT = re.compile(r"(?:attempt|попытка)[ _-]*0*([1-9]\d{0,3})", re.IGNORECASE)
+"""A folder in a student's own that holds one of several attempts."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +29,8 @@ class HandIn:
     path : a folder of the student's own, or the one that holds the student's files among those of others
     names : of files among those of others, by how each was called when it was handed in how it is called there
     notes : sentences for the teacher
+    attempt : its number; 0 where there is but one
+    time : when it was handed in, as the learning system wrote it into the name; empty where it did not
     """
 
     student: str
@@ -28,6 +38,8 @@ class HandIn:
     path: Path
     names: Mapping[str, str] | None = None
     notes: tuple[Caption, ...] = ()
+    attempt: int = 0
+    time: str = ""
 
 
 @dataclass(frozen=True)
@@ -39,7 +51,7 @@ class Refused:
 
 
 def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> tuple[list[HandIn], list[Refused]]:
-    """What was handed in, in the order of the students, and what is not graded.
+    """What was handed in, in the order of the students and of their attempts, and what is not graded.
 
     Whatever stands there but for plain files is somebody's submission, also a link or a pipe in place of a folder;
     names that begin with a point are not.
@@ -51,15 +63,20 @@ def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> t
     ------
     TaskError : there is no such folder, or the roster cannot be used
     """
-    known = _known(kept, roster)
+    known = course_students(kept, roster)
     names = _names(folder, lambda name: bool(kept.find(kept.student(name))), lms=known is not None)
     if known is None:
-        return sorted((_own(folder, kept.student(name), name) for name in names), key=_order), []
+        return sorted((one for name in names for one in _own(folder, kept.student(name), name)), key=_order), []
     return _assigned(folder, names, kept.student, known)
 
 
-def _known(kept: AnswerKeys, roster: Path | None) -> Recognition | None:
-    """The students of the course; None where nobody said who they are."""
+def course_students(kept: AnswerKeys, roster: Path | None) -> Recognition | None:
+    """The students of the course; None where nobody said who they are.
+
+    Raises
+    ------
+    TaskError : the roster cannot be used
+    """
     if roster is not None:
         return Recognition(read_roster(roster))
     return Recognition(kept.students()) if kept.course() else None
@@ -80,12 +97,48 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
     )
 
 
-def _own(folder: Path, student: str, name: str) -> HandIn:
-    return HandIn(student, name, folder / name)
+def _own(folder: Path, student: str, name: str) -> list[HandIn]:
+    """What lies in a folder of a student's own: its attempts, or one hand-in where the answers lie in it."""
+    path = folder / name
+    listed: list[tuple[str, bool]] = []
+    # A link would lead into another student's folder.
+    if not path.is_symlink():
+        with suppress(OSError), os.scandir(path) as entries:
+            listed = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries]
+    numbered = [(int(found[1]), inner) for inner, inside in listed if inside and (found := ATTEMPT.fullmatch(inner))]
+    if not numbered:
+        return [HandIn(student, name, path)]
+    if answer_files(inner for inner, _ in listed)[0]:
+        note = say("the folders of attempts beside the answers are not read")
+        return [HandIn(student, name, path, notes=(note,))]
+    return _bounded(
+        [HandIn(student, f"{name}/{inner}", path / inner, attempt=number) for number, inner in sorted(numbered)]
+    )
 
 
-def _order(one: HandIn) -> tuple[str, str]:
-    return one.student, one.place
+def _bounded(attempts: list[HandIn]) -> list[HandIn]:
+    """The attempts that are read, of a student's in their order."""
+    if len(attempts) <= 2 * MOST_ATTEMPTS:
+        return attempts
+    note = say("only the first {count} and the last {count} attempts are read", count=MOST_ATTEMPTS)
+    read = [*attempts[:MOST_ATTEMPTS], *attempts[-MOST_ATTEMPTS:]]
+    return [replace(one, notes=(*one.notes, note)) for one in read]
+
+
+def answers_folder(one: HandIn, assignment: str) -> Path:
+    """The folder in which the answers of a hand-in lie.
+
+    assignment : name of the folder in the student's that counts if it is there, as nbgrader collects
+    """
+    within = one.path / assignment
+    if one.names is None and os.path.isdir(within) and not os.path.islink(one.path):  # noqa: PTH112, PTH114
+        # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
+        return within
+    return one.path
+
+
+def _order(one: HandIn) -> tuple[str, int, str]:
+    return one.student, one.attempt, one.place
 
 
 def _assigned(
@@ -107,7 +160,7 @@ def _assigned(
     found: list[HandIn] = []
     for student, listed in places.items():
         if len(listed) == 1 and _is_folder(folder / listed[0][0], listed[0][1]):
-            found.append(_own(folder, student, listed[0][0]))
+            found += _own(folder, student, listed[0][0])
         elif all(said and not _is_folder(folder / name, said) for name, said in listed):
             found += _files(folder, student, [(name, said) for name, said in listed if said])
         else:
@@ -128,11 +181,11 @@ def _why(meant: list[str]) -> Caption:
 
 
 def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> list[HandIn]:
-    """One student's files among those of others: those of the last attempt."""
-    last = max(said.attempt for _, said in listed)
-    counted = {said.file: name for name, said in listed if said.attempt == last and said.file}
-    attempts = {said.attempt for _, said in listed}
-    notes = (
-        (say("{count} attempts were handed in; the last one counts", count=len(attempts)),) if len(attempts) > 1 else ()
-    )
-    return [HandIn(student, listed[0][0], folder, counted, notes)]
+    """One student's files among those of others, by attempts."""
+    times = sorted({said.attempt for _, said in listed})
+    found: list[HandIn] = []
+    for number, time in enumerate(times, 1):
+        of_it = [(name, said.file) for name, said in listed if said.attempt == time]
+        files = {file: name for name, file in of_it if file}
+        found.append(HandIn(student, of_it[0][0], folder, files, attempt=number if len(times) > 1 else 0, time=time))
+    return _bounded(found)

@@ -3,7 +3,6 @@
 import csv
 import math
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -13,8 +12,9 @@ from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
+from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
 from graphcam.tasks.sheet_tables import one_of
@@ -28,6 +28,7 @@ def make(
     out: str | Path,
     *,
     language: str = "en",
+    hand: str = "",
     workers: int = 1,
     cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
@@ -35,6 +36,7 @@ def make(
     """Make every student's handouts; how many students there are.
 
     language : of all handouts, and noted for the feedback
+    hand : of the students, by its name, and noted too; else as the exercise says
     workers, cluster : processes here, or the address of a dask scheduler, whose machines share no files with this one
 
     Raises
@@ -43,14 +45,16 @@ def make(
     OSError : no scheduler answers at the address
     """
     one_of("language", language, languages())
-    exercise, students, secret = find_exercise(name, language), read_roster(roster), read_secret(secret_file)
+    exercise, students, secret = find_exercise(name, language, hand), read_roster(roster), read_secret(secret_file)
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
             raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
     with whole_folder(out) as draft, executor_of(workers, cluster) as executor:
         answer_keys: list[AnswerKey] = []
-        for text, files in in_order(executor, partial(papers, exercise, secret), students):
+        variants = course_variants(exercise, (student.id for student in students), secret, executor)
+        jobs = zip(students, variants, strict=True)
+        for text, files in in_order(executor, papers, jobs):
             answer_keys.append(AnswerKey.from_json(text))
             for name_in_draft, data in files.items():
                 path = draft / name_in_draft
@@ -58,18 +62,18 @@ def make(
                 path.write_bytes(data)
             step(len(answer_keys), len(students))
         kept = AnswerKeys(draft / TEACHER)
-        kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language)
+        kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language, hand=hand)
         # Who hands in is told by it, whatever a learning system calls the folders.
         (draft / TEACHER / ROSTER).write_bytes(Path(roster).read_bytes())
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
 
 
-def papers(exercise: Exercise, secret: bytes, student: Student) -> tuple[str, dict[str, bytes]]:
+def papers(job: tuple[Student, tuple[Variant, AnswerKey]]) -> tuple[str, dict[str, bytes]]:
     """One student's answer key as text, and the bytes of all files about the student by their paths in the course."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
-    variant, answer_key = issue(exercise, student.id, secret)
+    student, (variant, answer_key) = job
     name, text = folder_name(student.id), answer_key.to_json()
     with TemporaryDirectory(prefix="graphcam-") as scratch:
         place = Path(scratch)

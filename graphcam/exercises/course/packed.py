@@ -1,10 +1,12 @@
 """A zip of all submissions, as a learning system gives it: unpacked aside, nothing but what can hold answers."""
 
+import os
 import stat
 import zipfile
 import zlib
 from collections.abc import Generator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from datetime import datetime
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
@@ -60,12 +62,20 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
             (folder / (path if entry.is_dir() else path.parent)).mkdir(parents=True, exist_ok=True)
             if not entry.is_dir() and path.suffix.strip().lower() in ENDINGS:
                 left -= _write(archive, entry, folder / path)
+                _keep_time(entry, folder / path)
         # What zlib and the checks of the archive say; a name that is too long, or twice there.
         except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
         if left < 0:
             raise TaskError(str(place), "the size", "more", f"{MOST_BYTES} bytes unpacked", "look into it by hand")
     return refused
+
+
+def _keep_time(entry: zipfile.ZipInfo, path: Path) -> None:
+    """Give a file the time that the archive has of it, which is that of the machine's zone."""
+    with suppress(ValueError, OverflowError):
+        changed = datetime(*entry.date_time).timestamp()
+        os.utime(path, (changed, changed))
 
 
 def _unsafe(entry: zipfile.ZipInfo, path: PurePosixPath) -> Caption | None:

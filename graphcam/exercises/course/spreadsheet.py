@@ -25,11 +25,13 @@ def cell(value: object) -> str:
     >>> cell("a;=1+1"), cell("Anna; Ben")
     ("a;'=1+1", 'Anna; Ben')
     """
+    if isinstance(value, str):
+        return _guarded(value)
     if value is None:
         return ""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, int | float):
+    if isinstance(value, (int, float)):
         return f"{value:.10g}"
     return _guarded(str(value))
 

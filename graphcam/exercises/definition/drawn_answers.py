@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.pencil import Pencil
@@ -70,12 +71,18 @@ def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
 
 def per_mm(chain: Chain, asked: Asked) -> float:
     """Units of the answer in one millimetre of paper; NaN for an angle or a scale, which has no length."""
+    if not is_length(chain, asked):
+        return math.nan
     if asked.points or asked.of == "paper":
         return 1.0
-    reading = construction_of(chain, asked.construction).readings[asked.reading]
-    if asked.of == "scale" or reading.unit == "rad":
-        return math.nan
-    return reading.per_mm
+    return construction_of(chain, asked.construction).readings[asked.reading].per_mm
+
+
+def is_length(chain: Chain, asked: Asked) -> bool:
+    """Whether the answer is measured as a length, on paper or times a scale: an angle or a scale is not."""
+    if asked.points or asked.of != "value":
+        return asked.of != "scale"
+    return construction_of(chain, asked.construction).readings[asked.reading].unit != "rad"
 
 
 def place_of(chain: Chain, asked: Asked) -> int:
@@ -146,12 +153,20 @@ FOLLOWING = {
 def rescaled(construction: Construction, name: str, scale: NDArray[np.float64]) -> Construction:
     """The construction read with another scale, and with it the scales that follow from that one."""
     factor = scale / np.asarray(construction.readings[name].scale)
-    following = FOLLOWING[name] if construction.name in ("integration", "differentiation") else (name,)
+    following = FOLLOWING.get(name, (name,)) if construction.name in ("integration", "differentiation") else (name,)
     readings = dict(construction.readings)
     for each in following:
         if each in readings:
             readings[each] = replace(readings[each], scale=np.asarray(readings[each].scale) * factor)
     return replace(construction, readings=readings)
+
+
+def redrawn(chain: Chain, board: Board) -> Chain:
+    """Everything drawn from the start with other givens; the diagrams stay where motion, ordinate and poles do."""
+    before = chain.board
+    same = (board.motion, board.ordinate, board.poles) == (before.motion, before.ordinate, before.poles)
+    done = {"acceleration": chain.acceleration, "integration": chain.integration} if same else {}
+    return replace(chain, board=board, done=done)
 
 
 def read_as(construction: Construction, name: str, paper: NDArray[np.float64]) -> Construction:

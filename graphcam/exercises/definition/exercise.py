@@ -1,18 +1,15 @@
 """What an exercise is: a task with open parameters, the answers asked, and the mistakes it can tell."""
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
-import numpy as np
-
 from graphcam.drafting.marks import Points
-from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError, nearest
+from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.given.ranges import positive
 from graphcam.language import ENGLISH, language, languages
@@ -121,39 +118,6 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class SteadyPencil(Pencil):
-    """A :class:`~graphcam.Pencil` with the stream of random numbers that NumPy promises never to change.
-
-    Marks must not change with the version of a library, and a variant's parameters rest on them too.
-
-    >>> float(SteadyPencil(line=1.0, seed=1).stream("inversion").standard_normal(1)[0])
-    0.3506619882060858
-    """
-
-    def stream(self, construction: str) -> Stream:
-        """As of any pencil, but of the frozen generator."""
-        return np.random.RandomState([self.seed, *construction.encode()])
-
-
-@dataclass(frozen=True)
-class HandTable:
-    """``[hand]``: how exactly a careful student draws (standard deviations; see :class:`~graphcam.Pencil`).
-
-    >>> HandTable().pencil(samples=5).protractor < 0.01
-    True
-    """
-
-    line: float = 0.15
-    dividers: float = 0.2
-    division: float = 0.5
-    protractor_deg: float = 0.25
-
-    def pencil(self, samples: int, seed: int = 0) -> Pencil:
-        """As many careful hands."""
-        return SteadyPencil(self.line, self.dividers, self.division, math.radians(self.protractor_deg), samples, seed)
-
-
-@dataclass(frozen=True)
 class Exercise:
     """An exercise as its file says it.
 
@@ -167,10 +131,11 @@ class Exercise:
     answers : in the order of the construction, which is the order in which mistakes travel
     misconceptions : names from the catalogue of :mod:`~graphcam.exercises.definition.mistakes`, with an argument
         after a colon where one is taken ("wrong-law: cosine")
+    alike : pairs of them that the answers need not tell from one another: both are named then
     axes, sheet : what the student's worksheet shows: empty axes of diagrams over the cam angle, and so many steps of
         each construction, which are then given
-    hand : the careful student
-    careful : part of the careful students who may lose any point
+    hand : the students for whom the tolerances are made, the table ``[hand]``
+    careful : part of those who draw everything right who may lose any point
     policy : what answers that are not right earn, the table ``[marks]``
     """
 
@@ -180,6 +145,7 @@ class Exercise:
     task: Mapping[str, Any]
     answers: tuple[Asked, ...]
     misconceptions: tuple[str, ...] = ()
+    alike: tuple[tuple[str, str], ...] = ()
     axes: tuple[Diagram, ...] = ()
     sheet: Mapping[str, int] = field(default_factory=dict[str, int])
     hand: HandTable = field(default_factory=HandTable)
@@ -202,10 +168,12 @@ class Exercise:
             raise DesignError("answers", doubled[0], "named once each")
         for asked in self.answers:
             one_of("kind", asked.kind, ("number", "points", "curve"))
-        for name in self.policy.caps:
+        named = [("marks.caps", name) for name in self.policy.caps]
+        named += [("alike", name) for pair in self.alike for name in pair]
+        for where, name in named:
             if name not in self.misconceptions:
                 remedy = nearest(name, self.misconceptions) if self.misconceptions else "list it there"
-                raise DesignError("marks.caps", name, "one of the misconceptions of this exercise", remedy)
+                raise DesignError(where, name, "one of the misconceptions of this exercise", remedy)
 
     @property
     def tell(self) -> Tell:

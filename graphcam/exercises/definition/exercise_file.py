@@ -8,7 +8,8 @@ from typing import Any
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.exercises.definition.drawn_answers import ask, board_chain
-from graphcam.exercises.definition.exercise import Asked, Exercise, HandTable, Parameter
+from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
+from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import fill_in
@@ -29,14 +30,18 @@ def library() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
 
 
-def find_exercise(name: str, language: str = ENGLISH.name) -> Exercise:
+def find_exercise(name: str, language: str = ENGLISH.name, hand: str = "") -> Exercise:
     """An exercise by its name in the library, or by the path of its file; its texts in a language.
+
+    hand : another one than the file names, for whose students the tolerances are made; see :data:`hands.HANDS`
 
     Raises
     ------
     TaskError : there is none of that name, or its file is wrong
+    DesignError : there is no such hand
     """
-    return load_exercise(exercise_path(name), language)
+    exercise = load_exercise(exercise_path(name), language)
+    return dataclasses.replace(exercise, hand=dataclasses.replace(exercise.hand, name=hand)) if hand else exercise
 
 
 def exercise_path(name: str) -> Path:

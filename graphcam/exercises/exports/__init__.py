@@ -8,5 +8,8 @@ class LearningSystem(StrEnum):
 
     MOODLE = "moodle"
     MOODLE_CLOZE = "moodle-cloze"
+    CANVAS = "canvas"
+    QTI = "qti"
+    PRAIRIELEARN = "prairielearn"
     NBGRADER = "nbgrader"
     GRADESCOPE = "gradescope"

@@ -7,13 +7,18 @@ from pathlib import Path
 from graphcam.errors import DesignError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.roster import Student
+from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.exports import LearningSystem
+from graphcam.exercises.exports.canvas import write_quizzes
 from graphcam.exercises.exports.gradescope import student_by_email, write_autograder
 from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.exports.moodle_cloze import Issued, cloze_xml
+from graphcam.exercises.exports.moodle_cloze import cloze_xml
 from graphcam.exercises.exports.nbgrader import write_course
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.exports.prairielearn import write_question
+from graphcam.exercises.exports.qti import write_package
+from graphcam.exercises.exports.question_parts import Issued
+from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import one_of
@@ -30,11 +35,13 @@ def export(
     secret: bytes | None = None,
     step: Callable[[int, int], None] = lambda done, total: None,
     language: str = ENGLISH.name,
+    hand: str = "",
 ) -> None:
     """Write the export for some students, or for as many variants that are nobody's, into a new folder.
 
     name : of an exercise, or the path of its file, which travels with the export
     language : of all that students read
+    hand : of the students, by its name; else as the exercise says
     secret : of the course; without one a new one is drawn and written into the folder, for the teacher
 
     Raises
@@ -47,27 +54,40 @@ def export(
     if folder.exists():
         raise OutputError(folder, "it is there already", "name a new folder, or remove that one first")
     one_of("language", language, languages())
-    exercise = find_exercise(name, language)
+    exercise = find_exercise(name, language, hand)
     emails = student_by_email(students)
     key = secret or secrets.token_hex(32).encode()
     issued: list[Issued] = []
-    for student in students:
-        issued.append(Issued(student, *issue(exercise, student.id, key)))
+    variants = course_variants(exercise, (student.id for student in students), key)
+    for student, (variant, answer_key) in zip(students, variants, strict=True):
+        issued.append(Issued(student, variant, answer_key))
         step(len(issued), len(students))
-    answer_keys = [each.answer_key for each in issued]
     with whole_folder(folder) as draft:
         kept = AnswerKeys(draft / TEACHER)
-        kept.keep_course(exercise_path(name), key, version=exercise.version, language=language, emails=emails)
-        for answer_key in answer_keys:
-            kept.keep(answer_key.student, answer_key.to_json())
-        match target:
-            case LearningSystem.MOODLE:
-                (draft / f"{exercise.name}.xml").write_text(moodle_xml(exercise, answer_keys), encoding="utf-8")
-            case LearningSystem.MOODLE_CLOZE:
-                (draft / f"{exercise.name}.xml").write_text(cloze_xml(exercise, issued), encoding="utf-8")
-            case LearningSystem.NBGRADER:
-                write_course(draft, exercise, answer_keys)
-            case LearningSystem.GRADESCOPE:
-                write_autograder(draft, key)
+        noted = {"version": exercise.version, "language": language, "hand": hand, "emails": emails}
+        kept.keep_course(exercise_path(name), key, **noted)
+        for each in issued:
+            kept.keep(each.student.id, each.answer_key.to_json())
+        _write(target, draft, exercise, issued, key)
         if secret is None:
             (draft / TEACHER / "secret").write_bytes(key)
+
+
+def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Sequence[Issued], secret: bytes) -> None:
+    """Write what the system reads into a folder that has the teacher's files already."""
+    match target:
+        case LearningSystem.MOODLE:
+            text = moodle_xml(exercise, [each.answer_key for each in issued])
+            (folder / f"{exercise.name}.xml").write_text(text, encoding="utf-8")
+        case LearningSystem.MOODLE_CLOZE:
+            (folder / f"{exercise.name}.xml").write_text(cloze_xml(exercise, issued), encoding="utf-8")
+        case LearningSystem.CANVAS:
+            write_quizzes(folder / f"{exercise.name}.zip", exercise, issued)
+        case LearningSystem.QTI:
+            write_package(folder / f"{exercise.name}.zip", exercise, issued)
+        case LearningSystem.PRAIRIELEARN:
+            write_question(folder / "questions" / exercise.name, exercise, issued)
+        case LearningSystem.NBGRADER:
+            write_course(folder, exercise, [each.answer_key for each in issued])
+        case LearningSystem.GRADESCOPE:
+            write_autograder(folder, secret)

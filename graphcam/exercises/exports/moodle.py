@@ -5,16 +5,14 @@ with no marks and the feedback that belongs to them.  Moodle takes the first tha
 they are read back exactly.
 """
 
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import sentence
+from graphcam.exercises.exports.question_parts import FAR_OFF, RIGHT, asked_text, mistaken
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.words import Caption, say
 
 ONE_DXF = {
     "responseformat": "noinline",
@@ -24,17 +22,6 @@ ONE_DXF = {
     "filetypeslist": ".dxf",
 }
 """What an essay's question takes."""
-RIGHT = say("Right.")
-FAR_OFF = say("Farther off than a careful hand draws or calculates.")
-"""Of an answer that is neither right nor a catalogued mistake's."""
-
-
-class Mistaken(NamedTuple):
-    """What a student with a catalogued mistake answers, how far about it, and what the student is told."""
-
-    value: float
-    tolerance: float
-    said: Caption
 
 
 def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
@@ -57,13 +44,11 @@ def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
 
 def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> None:
     title, tell = f"{exercise.title}: {asked.name}", exercise.tell
-    text = sentence(asked.text, answer_key.parameters, tell)
+    text = asked_text(exercise, answer_key, asked)
     if asked.kind != "number":
         # Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades.
-        how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
-        _question(quiz, "essay", title, f"{text} {tell(how)}", defaultgrade=repr(asked.marks), penalty="0", **ONE_DXF)
+        _question(quiz, "essay", title, text, defaultgrade=repr(asked.marks), penalty="0", **ONE_DXF)
         return
-    text += f" [{tell(asked.unit_said)}]" if asked.unit else ""
     question = _question(quiz, "numerical", title, text, defaultgrade=repr(asked.marks), penalty="0", hidden="0")
     key = answer_key.keys[asked.name]
     _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(RIGHT))
@@ -71,19 +56,6 @@ def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked)
         _answer(question, 0, repr(wrong.value), repr(wrong.tolerance), tell(wrong.said))
     _answer(question, 0, "*", "0", tell(FAR_OFF))
     _settings(question, unitgradingtype="0", showunits="3")
-
-
-def mistaken(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> Iterator[Mistaken]:
-    """What the catalogued mistakes answer where a number is asked, none of it within the key's tolerance."""
-    key, place = answer_key.keys[asked.name], exercise.answers.index(asked)
-    for name, values in answer_key.hypotheses.items():
-        value, scatter = values[place].value, values[place].scatter
-        assert isinstance(value, float)
-        assert isinstance(scatter, float)
-        # A mistake made elsewhere leaves this answer right.
-        room = abs(value - float(str(key.expected.value))) - key.tolerance
-        if room > 0:
-            yield Mistaken(value, min(answer_key.bound * scatter, room), misconception(name).said)
 
 
 def add_category(quiz: Element, *names: str) -> None:

@@ -5,23 +5,28 @@ catalogued mistakes answer, without marks.  Moodle takes the first that matches.
 question are multiplied alike.
 """
 
-import math
 from base64 import b64encode
 from collections.abc import Sequence
-from fractions import Fraction
 from html import escape
-from io import BytesIO
-from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphcam.errors import TaskError
-from graphcam.exercises.course.handouts import instructions, worksheet
-from graphcam.exercises.course.roster import Student, folder_name
+from graphcam.exercises.course.handouts import instructions
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.variant import Variant, sentence
-from graphcam.exercises.exports.moodle import FAR_OFF, RIGHT, add_category, add_text, mistaken
+from graphcam.exercises.exports.moodle import add_category, add_text
+from graphcam.exercises.exports.question_parts import (
+    APART,
+    FAR_OFF,
+    PRINT_IT,
+    RIGHT,
+    Issued,
+    asked_text,
+    check_numbers,
+    mistaken,
+    whole_marks,
+    worksheet_pdf,
+)
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.words import say
 
 WORKSHEET = "worksheet.pdf"
 ANYTHING = "0:1e12"
@@ -31,14 +36,6 @@ ENTITIES = {ord(sign): f"&#{ord(sign)};" for sign in '{}#~/\\"'}
 
 Moodle decodes entities in feedback; behind a backslash it finds only ``}`` and ``#`` again.
 """
-
-
-class Issued(NamedTuple):
-    """A student's variant with its key."""
-
-    student: Student
-    variant: Variant
-    answer_key: AnswerKey
 
 
 def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
@@ -52,9 +49,7 @@ def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
     >>> cloze_xml(find_exercise("acceleration-and-scales"), []).count("question")
     2
     """
-    if all(asked.kind != "number" for asked in exercise.answers):
-        remedy = "export with --format moodle, which asks for drawings"
-        raise TaskError(f"exercise {exercise.name}", "answers", "all drawn", "one or more numbers", remedy)
+    check_numbers(exercise)
     quiz = Element("quiz")
     add_category(quiz, exercise.title)
     for each in issued:
@@ -62,7 +57,7 @@ def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
         add_text(question, "name", f"{exercise.title}: {folder_name(each.student.id)}")
         text = add_text(question, "questiontext", question_text(exercise, each), format="html")
         file = SubElement(text, "file", name=WORKSHEET, path="/", encoding="base64")
-        file.text = b64encode(_pdf(each)).decode("ascii")
+        file.text = b64encode(worksheet_pdf(each)).decode("ascii")
         add_text(question, "generalfeedback", "", format="html")
         SubElement(question, "penalty").text = "0"
     indent(quiz)
@@ -72,41 +67,22 @@ def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
 def question_text(exercise: Exercise, issued: Issued) -> str:
     """What the question says, in HTML: the task, the worksheet, and every answer with its blank."""
     tell, answer_key = exercise.tell, issued.answer_key
-    print_it = _shown(tell(say("The worksheet: print it true to scale and draw on it.")))
     lines = [
         f"<h4>{_shown(exercise.title)}</h4>",
         f"<p>{_shown(instructions(issued.variant))}</p>",
-        f'<p><a href="@@PLUGINFILE@@/{WORKSHEET}">{print_it}</a></p>',
+        f'<p><a href="@@PLUGINFILE@@/{WORKSHEET}">{_shown(tell(PRINT_IT))}</a></p>',
     ]
-    times = whole_number_factor(exercise)
+    weights = whole_marks(exercise)
     for asked in exercise.answers:
-        said = sentence(asked.text, answer_key.parameters, tell)
+        said = asked_text(exercise, answer_key, asked)
         if asked.kind == "number":
-            said += f" [{tell(asked.unit_said)}]" if asked.unit else ""
-            lines.append(f"<p>{_shown(said)} {_blank(exercise, answer_key, asked, times)}</p>")
+            lines.append(f"<p>{_shown(said)} {_blank(exercise, answer_key, asked, weights[asked.name])}</p>")
         else:
-            how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
-            apart = say("Hand it in separately: its marks are not part of this question.")
-            lines.append(f"<p>{_shown(f'{said} {tell(how)} {tell(apart)}')}</p>")
+            lines.append(f"<p>{_shown(f'{said} {tell(APART)}')}</p>")
     return "\n".join(lines)
 
 
-def whole_number_factor(exercise: Exercise) -> int:
-    """The least number by which the marks of all answers that are numbers become whole.
-
-    >>> from dataclasses import replace
-    >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> exercise = find_exercise("acceleration-and-scales")
-    >>> answers = [replace(asked, marks=marks) for asked, marks in zip(exercise.answers, (0.5, 0.75, 2.0))]
-    >>> whole_number_factor(replace(exercise, answers=tuple(answers)))
-    4
-    """
-    # Of the shortest decimal, not of the binary fraction behind it.
-    marks = [Fraction(repr(asked.marks)) for asked in exercise.answers if asked.kind == "number"]
-    return math.lcm(*(each.denominator for each in marks))
-
-
-def _blank(exercise: Exercise, answer_key: AnswerKey, asked: Asked, times: int) -> str:
+def _blank(exercise: Exercise, answer_key: AnswerKey, asked: Asked, weight: int) -> str:
     key = answer_key.keys[asked.name]
     tell = exercise.tell
     answers = [f"={key.expected.value!r}:{key.tolerance!r}#{_feedback(tell(RIGHT))}"]
@@ -115,7 +91,6 @@ def _blank(exercise: Exercise, answer_key: AnswerKey, asked: Asked, times: int) 
         for wrong in mistaken(exercise, answer_key, asked)
     ]
     answers.append(f"%0%{ANYTHING}#{_feedback(tell(FAR_OFF))}")
-    weight = Fraction(repr(asked.marks)) * times
     return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
 
 
@@ -131,11 +106,3 @@ def _feedback(text: str) -> str:
 def _shown(text: str) -> str:
     """Text as HTML that holds no blank."""
     return escape(text, quote=False).translate(ENTITIES)
-
-
-def _pdf(issued: Issued) -> bytes:
-    from graphcam.sheets.matplotlib_renderer import write_pdf
-
-    file = BytesIO()
-    write_pdf(worksheet(issued.variant, issued.student), file)
-    return file.getvalue()

@@ -6,21 +6,19 @@ User Guide.  Nothing is built or downloaded.
 
 import base64
 import hashlib
-import zipfile
 from collections.abc import Iterator
 from importlib import metadata, resources
 from pathlib import Path, PurePosixPath
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise_file import exercise_path, library
+from graphcam.exercises.exports.repeatable_zip import write_zip
 
 PACKAGE = "graphcam"
 LIBRARY = f"{PACKAGE}/exercises/library"
 """Where the exercises lie in an installed package; in a checkout they stand at the top level."""
 TAG = "py3-none-any"
 SAYS = f"Wheel-Version: 1.0\nGenerator: {PACKAGE}\nRoot-Is-Purelib: true\nTag: {TAG}\n"
-EARLIEST = (1980, 1, 1, 0, 0, 0)
-"""Date of all files, the first that a zip can tell: the same files make the same wheel."""
 
 
 def write_wheel(folder: Path) -> Path:
@@ -40,11 +38,7 @@ def write_wheel(folder: Path) -> Path:
     record = [f"{name},sha256={_digest(data)},{len(data)}" for name, data in held.items()]
     held[f"{about}/RECORD"] = "\n".join([*record, f"{about}/RECORD,,", ""]).encode()
     wheel = folder / f"{PACKAGE}-{distribution.version}-{TAG}.whl"
-    with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, data in held.items():
-            file = zipfile.ZipInfo(name, EARLIEST)
-            file.external_attr = 0o644 << 16
-            archive.writestr(file, data, zipfile.ZIP_DEFLATED)
+    write_zip(wheel, held)
     return wheel
 
 

@@ -11,6 +11,7 @@ import zipfile
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -18,17 +19,23 @@ from typing import Any
 import graphcam
 from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
-from graphcam.errors import GraphcamError, TaskError, installed
+from graphcam.errors import TaskError, installed
 from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
 from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
+from graphcam.exercises.course.hidden_names import hidden_names
+from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
 from graphcam.exercises.course.packed import unpacked
+from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.grading.attempts import LAST, AttemptRule
+from graphcam.exercises.grading.deadlines import LatePenalty
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
-from graphcam.exercises.grading.overrides import OVERRIDES, Override, overridden, read_overrides
-from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.reports.report_files import write_feedback, write_reports
+from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules
+from graphcam.exercises.grading.teacher_tables import HandedInCourse, TeacherTables, late_rules
+from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
+from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
@@ -157,6 +164,11 @@ class Course:
     trusted : whether the students are trusted, without which level L1 is refused
     roster : of the students, instead of the one that the course was made for
     overrides : marks given by hand, instead of those in the teacher's folder
+    deadline : with its zone, for all without an extension in the teacher's folder; None where there is none
+    late : what a late hand-in loses
+    attempts : which one counts
+    anonymous : the pages hide who the students are
+    show_right : the students' pages show what would have been right, which no deadline may still be ahead of
     """
 
     folder: Path
@@ -173,6 +185,11 @@ class Course:
     roster: Path | None = None
     overrides: Path | None = None
     marks: Mapping[str, Any] = field(default_factory=dict[str, Any])
+    deadline: datetime | None = None
+    late: LatePenalty = NO_PENALTY
+    attempts: AttemptRule = LAST
+    anonymous: bool = False
+    show_right: bool = False
 
 
 def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> str:
@@ -212,35 +229,63 @@ def _graded(
 ) -> str:
     """Grade what was handed in and write all reports; what was done, in a sentence."""
     exercise = assignment.exercise
-    by_hand = _overrides(course, kept, exercise, hand_ins)
+    handed_in = HandedInCourse(kept, exercise, hand_ins, course.roster)
+    late = late_rules(handed_in, course.deadline, course.late)
+    if course.show_right:
+        _check_nobody_waits(late, datetime.now(UTC))
+    tables = TeacherTables.read(handed_in, course.overrides, late, course.attempts)
+    names = _shown_names(course, assignment, hand_ins)
     store = Store.beside(course.out, assignment)
     with store.held():
         store.clear_pages(course.out)
         with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
             records = grade_folder(hand_ins, assignment, pool, store, kept, step)
-        # The store stays free of them, so that a line that is taken back leaves the marks that were found.
-        records = overridden(exercise, records, by_hand)
-        answer_keys = _answer_keys(kept, records)
-        names = write_reports(course.out, exercise, records, answer_keys, refused)
+        # The store stays free of it, so that a line that is taken back leaves the marks that were found.
+        records = tables.settled(records)
+        answer_keys = KeysAsNeeded(kept, [record["student"] for record in records])
+        notes = GroupNotes(refused, tables.requests, course.feedback, names)
+        files = write_reports(course.out, exercise, records, answer_keys, notes)
         if course.feedback is not None:
             store.note_pages(course.feedback)
-            write_feedback(course.feedback, exercise, records, answer_keys)
+            write_feedback(course.feedback, exercise, records, answer_keys, names, right=course.show_right)
         told = [f"not graded: {one.place}: {one.why}" for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, records, kept.folder / ENTERED)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
     watched = f" (memory watched, {assignment.memory} MiB for all processes)" if assignment.memory else ""
-    where = f"in {course.out.parent}: {', '.join(names)}"
+    where = f"in {course.out.parent}: {', '.join(files)}"
     done = f"{len(records)} hand-ins, graded at level {course.level}{watched}, {where}"
     return "\n".join([done, *map(_line, told)])
 
 
-def _overrides(course: Course, kept: AnswerKeys, exercise: Exercise, hand_ins: Sequence[HandIn]) -> list[Override]:
-    path = course.overrides or kept.folder / OVERRIDES
-    if course.overrides is None and not path.exists():
-        return []
-    return read_overrides(path, exercise, [one.student for one in hand_ins])
+def _check_nobody_waits(late: LateRules | None, now: datetime) -> None:
+    """See that the last deadline is past before what is right is shown.
+
+    Raises
+    ------
+    TaskError : it is not
+    """
+    if late is not None and not late.deadlines.past(now):
+        last = late.deadlines.last.isoformat(" ", timespec="minutes")
+        remedy = "wait until then, or leave the option out"
+        raise TaskError("--show-right", "the last deadline, extensions included,", last, "past", remedy)
+
+
+def _shown_names(course: Course, assignment: Assignment, hand_ins: Sequence[HandIn]) -> ShownNames:
+    """The students' names on the pages.
+
+    Raises
+    ------
+    OutputError : names are to be hidden in a folder that has pages under the ids
+    """
+    if not course.anonymous:
+        return ShownNames()
+    students = {one.student for one in hand_ins}
+    pages = [course.feedback / f"{folder_name(student)}.html" for student in students if course.feedback]
+    if course.feedback and any(page.exists() for page in pages):
+        raise OutputError(course.feedback, "it has pages under the students' ids", "name another folder")
+    return ShownNames(hidden_names(assignment.secret, assignment.exercise.name, students))
 
 
 def _line(text: str) -> str:
@@ -264,7 +309,7 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     noted = kept.exercise()
     if not noted and not course.exercise:
         raise TaskError(str(course.folder), "the exercise", "not noted there", "known", "name it with --exercise")
-    exercise = find_exercise(course.exercise or noted, kept.language())
+    exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand())
     if noted and exercise.name != Path(noted).stem:
         made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
         raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")
@@ -280,14 +325,6 @@ def _with_marks(exercise: Exercise, changes: Mapping[str, Any]) -> Exercise:
     """
     caps = {**exercise.policy.caps, **changes.get("caps", {})}
     return replace(exercise, policy=replace(exercise.policy, **{**changes, "caps": caps}))
-
-
-def _answer_keys(kept: AnswerKeys, records: Records) -> dict[str, AnswerKey]:
-    found: dict[str, AnswerKey] = {}
-    for record in records:
-        with suppress(GraphcamError):
-            found[record["student"]] = AnswerKey.from_json(kept.find(record["student"]))
-    return found
 
 
 def grade_folder(
@@ -320,7 +357,7 @@ def grade_folder(
     # Code takes so long that it travels alone, else one worker is left with the rest.
     batch = BATCH if assignment.level is Level.L0 else 1
     for submission, graded in results(pool, partial(grade, assignment), unfinished(), batch):
-        if graded is not None and graded.answer_key and graded.answer_key != submission.answer_key:
+        if graded is not None and graded.answer_key:
             kept.keep(submission.student, graded.answer_key)
         record = graded.record if graded is not None else unmarked(assignment, submission.student, CRASHED)
         found[submission.place] = record.to_dict()

@@ -1,7 +1,6 @@
 """One submission: the bytes that lie in its folder, and their grading, which workers do here or on another machine."""
 
 import hashlib
-import os
 import signal
 import threading
 from collections.abc import Generator
@@ -12,7 +11,7 @@ from pathlib import Path
 from types import FrameType
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.course.hand_ins import HandIn
+from graphcam.exercises.course.hand_ins import HandIn, answers_folder
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -67,11 +66,7 @@ def read_hand_in(hand_in: HandIn, answer_key: str = "", assignment: str = "") ->
 
     assignment : name of the folder in the student's that counts if it is there, as nbgrader collects
     """
-    folder, within = hand_in.path, hand_in.path / assignment
-    if hand_in.names is None and os.path.isdir(within) and not os.path.islink(folder):  # noqa: PTH112, PTH114
-        # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
-        folder = within
-    files, notes = read_files(folder, hand_in.names)
+    files, notes = read_files(answers_folder(hand_in, assignment), hand_in.names)
     said = (*hand_in.notes, *notes)
     return Submission(hand_in.student, hand_in.place, files, said, answer_key)
 
@@ -139,14 +134,17 @@ def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
 
 
 def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerKey, str]:
-    """The student's answer key and its text; what a file says counts only where the secret says the same."""
+    """The student's answer key, and its text if it had to be made.
+
+    What a file says counts only where the secret says the same.
+    """
     exercise = assignment.exercise
     if submission.answer_key:
         known = AnswerKey.from_json(submission.answer_key)
         variant = drawn(exercise, submission.student, assignment.secret, known.draw)
         same = (known.exercise, known.version, known.student) == (exercise.name, exercise.version, submission.student)
         if same and dict(known.parameters) == dict(variant.parameters):
-            return known, submission.answer_key
+            return known, ""
     # Whoever has an answer key needs nothing that draws.
     from graphcam.exercises.key.keying import issue
 

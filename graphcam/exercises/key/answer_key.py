@@ -113,7 +113,7 @@ class AnswerKey:
     careful : part of careful hands who lose any point by it
     keys : by the answer's name
     hypotheses : by the misconception's name, what a student with that mistake answers, in the order of the answers
-    alike : pairs of misconceptions, or of one and "careful", that these answers cannot tell apart
+    alike : pairs of misconceptions that these answers cannot tell apart, as the exercise permits
     dependences : by the answer's name, how it follows from the student's own earlier answers
     """
 
@@ -128,6 +128,10 @@ class AnswerKey:
     hypotheses: Mapping[str, Hypothesis]
     alike: tuple[tuple[str, str], ...]
     dependences: Mapping[str, Dependence]
+
+    def not_told_from(self, name: str) -> frozenset[str]:
+        """The other misconceptions that these answers cannot tell from that one."""
+        return frozenset(other for pair in self.alike if name in pair for other in pair if other != name)
 
     def to_json(self) -> str:
         """As text; numbers as short as they are exact."""

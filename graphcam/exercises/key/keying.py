@@ -1,6 +1,6 @@
 """Making an answer key: the variant drawn by a perfect hand, by many careful ones, and with every mistake.
 
-Parameters are drawn until every catalogued mistake can be told.
+Parameters are drawn until every catalogued mistake can be told, and until no one number is right in most answers.
 """
 
 import numpy as np
@@ -11,9 +11,10 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
+from graphcam.exercises.key.coinciding import HALF, by_one_number
 from graphcam.exercises.key.redrawing import dependences
 from graphcam.exercises.key.scatter import answers_of, bulges_of, deviations, distances, expected, torn
-from graphcam.exercises.key.separation import alike, hypotheses, passing, perfect_hands, promising
+from graphcam.exercises.key.separation import alike, hypotheses, passing, perfect_hands, permitted, promising
 
 HANDS = 2000
 """Careful hands behind the tolerances."""
@@ -26,8 +27,9 @@ MOST_DRAWS = 400
 def draw_key(variant: Variant) -> AnswerKey | None:
     """The answer key of a variant; None where its answers cannot tell every mistake from every other.
 
-    Nor has one a variant whose diagrams find no room on the worksheet.  What is quickly found out comes first: of
-    several draws most are turned away.
+    Named together are those that the exercise lets be alike.  None has a variant either whose diagrams find no room on
+    the worksheet, or in which one number handed in for all answers earns more than half of the marks.  What is quickly
+    found out comes first: of several draws most are turned away.
 
     Raises
     ------
@@ -44,7 +46,8 @@ def draw_key(variant: Variant) -> AnswerKey | None:
     if not promising(exercise, drawn):
         return None
     wrong = hypotheses(exercise, drawn)
-    if alike(exercise, wrong):
+    not_told = alike(exercise, wrong)
+    if not permitted(exercise, not_told):
         return None
     hands = answers_of(exercise, drawn.right.by(exercise.hand.pencil(HANDS)))
     if torn(exercise, drawn.right, hands):
@@ -53,11 +56,11 @@ def draw_key(variant: Variant) -> AnswerKey | None:
     keys = expected(exercise, drawn.answers, far, drawn.lengths, bulges_of(exercise, drawn.right))
     off = deviations(exercise, keys, far)
     bound = float(np.quantile(off.max(axis=1), 1 - MARGIN * exercise.careful))
-    if passing(exercise, keys, wrong, bound):
+    tolerances = [bound * float(np.max(key.scatter)) for key in keys]
+    if passing(exercise, keys, wrong, bound) or by_one_number(exercise, keys, tolerances) > HALF:
         return None
     # Not by their standard deviation, which rounding keeps from nought.
     by_hand = [bool(np.any(samples != samples[0])) for samples in hands]
-    tolerances = [bound * float(np.max(key.scatter)) for key in keys]
     rows = zip(exercise.answers, keys, tolerances, drawn.lengths, by_hand, strict=True)
     return AnswerKey(
         *(exercise.name, exercise.version, variant.student, variant.draw, variant.parameters),
@@ -65,21 +68,23 @@ def draw_key(variant: Variant) -> AnswerKey | None:
         careful=float(np.mean(off.max(axis=1) > bound)),
         keys={asked.name: Key(key, most, most / length, is_drawn) for asked, key, most, length, is_drawn in rows},
         hypotheses={name: Hypothesis.of(values) for name, values in wrong.items()},
-        alike=(),
+        alike=not_told,
         dependences=dependences(exercise, drawn.right, keys, bound),
     )
 
 
-def issue(exercise: Exercise, student: str, secret: bytes) -> tuple[Variant, AnswerKey]:
-    """The student's variant and its answer key: the first draw in which every mistake can be told from every other.
+def issue(exercise: Exercise, student: str, secret: bytes, first: int = 0) -> tuple[Variant, AnswerKey]:
+    """The student's variant and its answer key: the first draw that :func:`draw_key` does not turn away.
 
     The same exercise, student and secret give the same variant on every machine.
+
+    first : the draw to begin with
 
     Raises
     ------
     DesignError : no draw can be diagnosed
     """
-    for draw in range(MOST_DRAWS):
+    for draw in range(first, first + MOST_DRAWS):
         candidate = drawn(exercise, student, secret, draw)
         answer_key = draw_key(candidate)
         if answer_key:

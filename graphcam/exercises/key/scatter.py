@@ -10,8 +10,9 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired
 from graphcam.drafting.marks import Points
 from graphcam.drafting.slips import EVENLY
-from graphcam.exercises.definition.drawn_answers import ask, construction_of, per_mm
+from graphcam.exercises.definition.drawn_answers import ask, construction_of, is_length, per_mm
 from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.hands import ManyHands
 from graphcam.exercises.key.expectation import Expected, Floats, distance_to_curve
 from graphcam.given.motion import FULL_TURN
 
@@ -29,17 +30,19 @@ PROFILES = ("inversion", "working_profile")
 
 def answers_of(exercise: Exercise, chain: Chain) -> Drawn:
     """What the hands that drew this answer: many hands round as asked, a perfect one without samples does not."""
-    samples = chain.pencil.samples
-    given: Drawn = []
-    for asked in exercise.answers:
-        answer = np.asarray(curve_of(chain, asked) if asked.kind == "curve" else ask(chain, asked))
-        if samples is None:
-            given.append(answer)
-        elif asked.kind == "number":
-            given.append(np.round(np.broadcast_to(answer, (samples,)), asked.decimals))
-        else:
-            given.append(np.broadcast_to(answer, (samples, answer.shape[-1])))
-    return given
+    return [_given(chain, asked) for asked in exercise.answers]
+
+
+def _given(chain: Chain, asked: Asked) -> NDArray[Any]:
+    answer = np.asarray(curve_of(chain, asked) if asked.kind == "curve" else ask(chain, asked))
+    pencil = chain.pencil
+    if pencil.samples is None:
+        return answer
+    stretched = pencil.stretched if isinstance(pencil, ManyHands) else np.ones(pencil.samples)
+    if asked.kind == "number":
+        # An angle or a scale is what it was, whatever becomes of the paper.
+        return np.round(answer * (stretched if is_length(chain, asked) else np.ones(pencil.samples)), asked.decimals)
+    return answer * stretched[:, None]
 
 
 def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float) -> float:
@@ -47,7 +50,8 @@ def least_scatter(exercise: Exercise, asked: Asked, value: float, length: float)
 
     length : units of the answer in one mm of paper, NaN for what is not a length
     """
-    read = 0.0 if math.isnan(length) else length * math.hypot(exercise.hand.line, exercise.hand.division * EVENLY)
+    errors = exercise.hand.errors
+    read = 0.0 if math.isnan(length) else length * math.hypot(errors.line.middle, errors.division.middle * EVENLY)
     return max(EVENLY * 10.0**-asked.decimals, CALCULATED * abs(value), read)
 
 
@@ -84,7 +88,7 @@ def expected(
             least = least_scatter(exercise, asked, float(value), length)
             found.append(Expected(float(value), max(least, float(np.sqrt(np.mean(apart**2))))))
             continue
-        scatter = np.maximum(np.sqrt(np.mean(apart**2, axis=0) / 2), exercise.hand.line)
+        scatter = np.maximum(np.sqrt(np.mean(apart**2, axis=0) / 2), exercise.hand.errors.line.middle)
         # The worst of many points strays farther than one number does; in this unit it strays as far.
         worst = float(np.quantile((apart / scatter).max(axis=1), 0.95))
         found.append(Expected(np.asarray(value), scatter * worst / NORMAL_95, bulge))

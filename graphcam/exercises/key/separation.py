@@ -1,6 +1,6 @@
 """Whether the answers can tell every catalogued mistake from careful work and from every other mistake."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -66,9 +66,14 @@ def hypotheses(exercise: Exercise, drawn: PerfectHands) -> dict[str, tuple[Expec
     return found
 
 
-def alike(exercise: Exercise, wrong: dict[str, tuple[Expected, ...]]) -> list[tuple[str, str]]:
+def alike(exercise: Exercise, wrong: Mapping[str, Sequence[Expected]]) -> tuple[tuple[str, str], ...]:
     """The pairs of mistakes that the answers do not tell apart."""
-    return [(a, b) for a, b in combinations(wrong, 2) if not _told(exercise, wrong[a], wrong[b])]
+    return tuple((a, b) for a, b in combinations(wrong, 2) if not _told(exercise, wrong[a], wrong[b]))
+
+
+def permitted(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> bool:
+    """Whether the exercise lets all these pairs be alike."""
+    return {frozenset(pair) for pair in pairs} <= {frozenset(pair) for pair in exercise.alike}
 
 
 def passing(
@@ -105,12 +110,15 @@ def _gap(asked: Asked, a: Expected, b: Expected) -> NDArray[np.float64]:
 
 
 def promising(exercise: Exercise, drawn: PerfectHands) -> bool:
-    """Whether no mistake answers plainly too near to the key or to another, by the rounding alone.
+    """Whether no mistake answers plainly too near to the key or to one that it must be told from, by rounding alone.
 
     It takes no careful hands, so it costs little; nothing that could be told apart is turned away.
     """
-    rows = [drawn.answers, *drawn.wrong_answers.values()]
-    if not all(np.isfinite(value).all() for row in rows for value in row):
+    rows = {CAREFUL: drawn.answers, **drawn.wrong_answers}
+    if not all(np.isfinite(value).all() for row in rows.values() for value in row):
         return False
-    values = [expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths) for row in rows]
-    return all(_told(exercise, a, b) for a, b in combinations(values, 2))
+    values = {
+        name: expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths)
+        for name, row in rows.items()
+    }
+    return permitted(exercise, alike(exercise, values))

@@ -8,6 +8,7 @@ Numbers alone are compared, not what is drawn.  Right numbers prove nothing, nor
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -18,6 +19,8 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Floats
 
 Flags = NDArray[np.bool_]
+Students = NDArray[np.intp]
+"""Students by their places in the course."""
 FALSE_ALARM = 0.005
 """A pair is named where chance brings any in at most so many honest courses; of each of the two kinds."""
 RELATED = 10.0
@@ -27,8 +30,10 @@ COPIED_PART = 0.5
 """Who takes wrong numbers over is held to take over this part of them."""
 FEWEST = 2
 """Answers that must agree: a single one may be a slip of the pen."""
-ROWS = 256
+ROWS = 64
 """Students compared with all others at a time, which bounds the memory."""
+PAIRS = 1 << 16
+"""Pairs looked at closely at a time, which bounds the memory too."""
 ALIKE_KEYS = 6.0
 """Two keys nearer than so many scatters ask for the same number: a mistake that both make brings the same."""
 UNIT_NORMAL = 1 / math.sqrt(2 * math.pi)
@@ -54,6 +59,53 @@ class CourseNumbers:
     mistaken_scatter: Floats
     drawn: Flags
 
+    @cached_property
+    def suspected(self) -> Students:
+        """Those who have enough wrong numbers to be told by them."""
+        return np.flatnonzero(self.wrong.sum(axis=1) >= FEWEST)
+
+    @cached_property
+    def reach(self) -> Floats:
+        """The tolerances of the keys (students, answers)."""
+        return self.bound[:, None] * self.scatter
+
+    @cached_property
+    def anywhere(self) -> Floats:
+        """The density of each number of the suspected (students, answers) where the numbers of this course lie."""
+        numbers = np.full_like(self.given, np.nan)
+        numbers[self.suspected] = self.given[self.suspected]
+        found = np.empty_like(self.given)
+        for a in range(found.shape[1]):
+            # Many give the same number.
+            given, which = np.unique(numbers[:, a], return_inverse=True)
+            some = np.split(given, range(ROWS, given.size, ROWS))
+            by_key = [_density(each[:, None], self.value[:, a], self.scatter[:, a]).mean(axis=1) for each in some]
+            middle, width = float(np.mean(self.value[:, a])), float(np.std(self.value[:, a]))
+            wide = _density(given, middle, max(width, float(np.max(self.scatter[:, a]))))
+            # What lies beyond all keys may be anything: the least density that arithmetic bears.
+            found[:, a] = np.maximum((np.concatenate(by_key) + wide) / 2, 1e-300)[which]
+        return found
+
+    @cached_property
+    def brought(self) -> NDArray[np.uint8]:
+        """Which mistakes bring each given number (students, answers, bytes), a bit a mistake."""
+        reach = self.bound[:, None, None] * self.mistaken_scatter
+        return np.packbits((np.abs(self.given[:, None] - self.mistaken) <= reach).swapaxes(1, 2), axis=2)
+
+    @cached_property
+    def step(self) -> Floats:
+        """How coarsely each given number was rounded (students, answers)."""
+        return _steps(self.given)
+
+    @cached_property
+    def said(self) -> NDArray[np.intp]:
+        """How many students of the course gave the same number (students, answers), each counted too."""
+        count = np.zeros_like(self.given, dtype=np.intp)
+        for a in range(count.shape[1]):
+            course, given = np.sort(self.given[:, a]), self.given[:, a]
+            count[:, a] = np.searchsorted(course, given, side="right") - np.searchsorted(course, given, side="left")
+        return count
+
 
 @dataclass(frozen=True)
 class AlikePair:
@@ -78,15 +130,15 @@ def alike_pairs(
 
     records : as JSON takes them;  answer_keys : by student; who has none is not compared
     """
-    known = [record for record in records if record["student"] in answer_keys]
     names = [asked.name for asked in exercise.answers if asked.kind == "number"]
-    if len(known) < 2 or not names:
+    read = [_student_numbers(exercise, each, key) for each in records if (key := answer_keys.get(each["student"]))]
+    if len(read) < 2 or not names:
         return []
-    numbers = course_numbers(exercise, known, answer_keys)
-    students = [str(record["student"]) for record in known]
+    students, numbers = [each.student for each in read], _course_numbers(read)
     found: list[AlikePair] = []
     for i, j, probability in of_another_variant(numbers):
-        fits = _fits(numbers, i, j)
+        off = np.abs(numbers.given[i] - numbers.value[j])
+        fits = numbers.wrong[i] & (off <= numbers.reach[j])
         found.append(_pair(students[i], students[j], "variant", names, fits, probability))
     for i, j, probability in same_wrong_numbers(numbers):
         same = _same_wrong(numbers, np.array([i]), np.array([j]))[0][0]
@@ -94,30 +146,50 @@ def alike_pairs(
     return sorted(found, key=lambda pair: (pair.probability, pair.student, pair.other))
 
 
-def course_numbers(
-    exercise: Exercise, records: Sequence[Mapping[str, Any]], answer_keys: Mapping[str, AnswerKey]
-) -> CourseNumbers:
-    """The numbers of these records, each of which has an answer key."""
+@dataclass(frozen=True, eq=False)
+class _StudentNumbers:
+    """What :class:`CourseNumbers` has of one student; of the answer key, which is larger, nothing else is kept.
+
+    numbers : given, value, scatter (3, answers);  mistaken : value and scatter (mistakes, answers, 2)
+    """
+
+    student: str
+    numbers: Floats
+    wrong: Flags
+    bound: float
+    mistaken: Floats
+    drawn: Flags
+
+
+def _student_numbers(exercise: Exercise, record: Mapping[str, Any], key: AnswerKey) -> _StudentNumbers:
     places = [place for place, asked in enumerate(exercise.answers) if asked.kind == "number"]
-    names = [exercise.answers[place].name for place in places]
-    keys = [answer_keys[record["student"]] for record in records]
-    answers = [[record["answers"][place] for place in places] for record in records]
-    # A row (value, scatter) an answer, of every mistake of every student.
-    said = [
-        [[each.said[place] for place in places] for name in exercise.misconceptions if (each := key.hypotheses[name])]
-        for key in keys
-    ]
-    mistaken = np.array(said, dtype=np.float64).reshape(len(keys), -1, len(places), 2)
-    expected = [[key.keys[name].expected for name in names] for key in keys]
+    keys = [key.keys[exercise.answers[place].name] for place in places]
+    answers = [record["answers"][place] for place in places]
+    said = [[key.hypotheses[name].said[place] for place in places] for name in exercise.misconceptions]
+    expected = [each.expected for each in keys]
+    numbers = [map(_number, answers), (each.value for each in expected), (each.scatter for each in expected)]
+    return _StudentNumbers(
+        str(record["student"]),
+        np.array([list(row) for row in numbers], dtype=np.float64),
+        np.array([answer["outcome"] == "wrong" for answer in answers], dtype=np.bool_),
+        key.bound,
+        np.array(said, dtype=np.float64).reshape(len(said), len(places), 2),
+        np.array([each.drawn for each in keys], dtype=np.bool_),
+    )
+
+
+def _course_numbers(students: Sequence[_StudentNumbers]) -> CourseNumbers:
+    given, value, scatter = np.stack([each.numbers for each in students], axis=1)
+    mistaken = np.array([each.mistaken for each in students])
     return CourseNumbers(
-        given=np.array([[_number(each) for each in row] for row in answers]),
-        wrong=np.array([[each["outcome"] == "wrong" for each in row] for row in answers]),
-        value=np.array([[each.value for each in row] for row in expected], dtype=np.float64),
-        scatter=np.array([[each.scatter for each in row] for row in expected], dtype=np.float64),
-        bound=np.array([key.bound for key in keys]),
+        given=given,
+        wrong=np.array([each.wrong for each in students]),
+        value=value,
+        scatter=scatter,
+        bound=np.array([each.bound for each in students]),
         mistaken=mistaken[..., 0],
         mistaken_scatter=mistaken[..., 1],
-        drawn=np.array([any(key.keys[name].drawn for key in keys) for name in names]),
+        drawn=np.any([each.drawn for each in students], axis=0),
     )
 
 
@@ -128,49 +200,58 @@ def of_another_variant(numbers: CourseNumbers) -> list[tuple[int, int, float]]:
     where the numbers of this course lie: half of that follows the keys of all students, half is a normal distribution
     as wide as they are.
     """
-    wrong = np.flatnonzero(numbers.wrong.sum(axis=1) >= FEWEST)
+    wrong = numbers.suspected
     pairs = RELATED * wrong.size * (len(numbers.given) - 1)
     found: list[tuple[int, int, float]] = []
     for rows in np.split(wrong, range(ROWS, wrong.size, ROWS)):
-        gained = _gained(numbers, rows)
-        gained[np.arange(rows.size), rows] = -np.inf
-        for row, j in np.argwhere(gained >= math.log(max(pairs, 1) / FALSE_ALARM)).tolist():
-            i = int(rows[row])
-            if np.count_nonzero(_fits(numbers, i, j)) >= FEWEST:
-                found.append((i, j, pairs * math.exp(-float(gained[row, j]))))
+        row, j = np.nonzero(_fitting(numbers, rows) >= FEWEST)
+        i = rows[row]
+        if not i.size:
+            continue
+        gained = _gained(numbers, rows, row, j)
+        named = (i != j) & (gained >= math.log(max(pairs, 1) / FALSE_ALARM))
+        found += [(int(i[k]), int(j[k]), pairs * math.exp(-float(gained[k]))) for k in np.flatnonzero(named)]
     return found
 
 
-def _gained(numbers: CourseNumbers, rows: NDArray[np.intp]) -> Floats:
-    """The logarithm of the likelihood ratio (rows, students) of every key to the student's own explanations."""
-    given = numbers.given[rows]
-    other = np.zeros((rows.size, len(numbers.given)))
-    anywhere = np.empty(given.shape)
+def _fitting(numbers: CourseNumbers, rows: Students) -> NDArray[np.uint8]:
+    """How many wrong numbers of each student lie within the tolerance of every key (rows, students)."""
+    count = np.zeros((rows.size, len(numbers.given)), dtype=np.uint8)
+    for a in range(numbers.given.shape[1]):
+        given = np.where(numbers.wrong[rows, a], numbers.given[rows, a], np.nan)
+        count += np.abs(given[:, None] - numbers.value[:, a]) <= numbers.reach[:, a]
+    return count
+
+
+def _gained(numbers: CourseNumbers, rows: Students, row: Students, key: Students) -> Floats:
+    """The logarithm of the likelihood ratio (pairs,) of another's key to the student's own explanations.
+
+    rows : students;  row, key : of every pair the student's place in ``rows``, and whose key
+    """
+    given, anywhere = numbers.given[rows], numbers.anywhere[rows]
+    other = np.zeros(row.size)
     for a in range(given.shape[1]):
-        by_key = _density(given[:, a, None], numbers.value[:, a], numbers.scatter[:, a])
-        middle, width = float(np.mean(numbers.value[:, a])), float(np.std(numbers.value[:, a]))
-        wide = _density(given[:, a], middle, max(width, float(np.max(numbers.scatter[:, a]))))
-        # What lies beyond all keys may be anything: the least density that arithmetic bears.
-        anywhere[:, a] = np.maximum((by_key.mean(axis=1) + wide) / 2, 1e-300)
-        other += np.log(np.maximum(by_key, anywhere[:, a, None]))
+        by_key = _density(given[row, a], numbers.value[key, a], numbers.scatter[key, a])
+        other += np.log(np.maximum(by_key, anywhere[row, a]))
     own = np.maximum(_density(given, numbers.value[rows], numbers.scatter[rows]), anywhere)
     mistaken = _density(given[:, None], numbers.mistaken[rows], numbers.mistaken_scatter[rows])
     # The own key is an explanation too, where no mistake is catalogued.
     explained = np.log(np.maximum(mistaken, own[:, None])).sum(axis=2)
     best = np.maximum(explained.max(axis=1, initial=-np.inf), np.log(own).sum(axis=1))
-    return other - best[:, None]
+    return other - best[row]
 
 
 def _density(given: Floats, value: Floats | float, scatter: Floats | float) -> Floats:
     """The normal density; nought where nothing is given."""
     with np.errstate(over="ignore"):
-        return np.nan_to_num(np.exp(-0.5 * ((given - value) / scatter) ** 2) * (UNIT_NORMAL / scatter))
-
-
-def _fits(numbers: CourseNumbers, i: int, j: int) -> Flags:
-    """The wrong numbers (answers,) of student i that lie within the tolerance of student j."""
-    off = np.abs(numbers.given[i] - numbers.value[j])
-    return numbers.wrong[i] & (off <= numbers.bound[j] * numbers.scatter[j])
+        # In place: three thousand students have millions of pairs.
+        found = np.asarray((given - value) / scatter)
+        found *= found
+        found *= -0.5
+        np.exp(found, out=found)
+        found *= UNIT_NORMAL / scatter
+    found[np.isnan(found)] = 0.0
+    return found
 
 
 def same_wrong_numbers(numbers: CourseNumbers) -> list[tuple[int, int, float]]:
@@ -179,38 +260,45 @@ def same_wrong_numbers(numbers: CourseNumbers) -> list[tuple[int, int, float]]:
     Of numbers that are wrong in both and that no mistake brings to both, each is the same by :func:`chance`, and with
     the probability ``COPIED_PART`` where one was taken over from the other.
     """
-    wrong = np.flatnonzero(numbers.wrong.sum(axis=1) >= FEWEST)
+    wrong = numbers.suspected
     pairs = wrong.size * (wrong.size - 1) // 2
     found: list[tuple[int, int, float]] = []
     for rows in np.split(wrong, range(ROWS, wrong.size, ROWS)):
-        equal = np.zeros((rows.size, wrong.size), dtype=np.intp)
+        equal = np.zeros((rows.size, wrong.size), dtype=np.uint8)
         for a in range(numbers.given.shape[1]):
             equal += numbers.given[rows, a][:, None] == numbers.given[wrong, a]
         left, right = np.nonzero((rows[:, None] < wrong) & (equal >= FEWEST))
-        i, j = rows[left], wrong[right]
-        same, both = _same_wrong(numbers, i, j)
-        p = chance(numbers, i, j)
-        ratio = np.where(same, COPIED_PART / p, np.where(both, (1 - COPIED_PART) / np.maximum(1 - p, 1e-3), 1.0))
-        gained = np.log(ratio).sum(axis=1)
-        named = (gained >= math.log(max(pairs, 1) / FALSE_ALARM)) & (np.count_nonzero(same, axis=1) >= FEWEST)
-        found += [(int(i[k]), int(j[k]), pairs * math.exp(-float(gained[k]))) for k in np.flatnonzero(named)]
+        for some in np.split(np.arange(left.size), range(PAIRS, left.size, PAIRS)):
+            found += _named_by_wrong_numbers(numbers, rows[left[some]], wrong[right[some]], pairs)
     return found
 
 
-def _same_wrong(numbers: CourseNumbers, i: NDArray[np.intp], j: NDArray[np.intp]) -> tuple[Flags, Flags]:
+def _named_by_wrong_numbers(
+    numbers: CourseNumbers, i: Students, j: Students, pairs: int
+) -> list[tuple[int, int, float]]:
+    """Those of these pairs that are named, where so many were compared."""
+    same, both = _same_wrong(numbers, i, j)
+    enough = np.count_nonzero(same, axis=1) >= FEWEST
+    i, j, same, both = i[enough], j[enough], same[enough], both[enough]
+    p = chance(numbers, i, j)
+    ratio = np.where(same, COPIED_PART / p, np.where(both, (1 - COPIED_PART) / np.maximum(1 - p, 1e-3), 1.0))
+    gained = np.log(ratio).sum(axis=1)
+    named = np.flatnonzero(gained >= math.log(max(pairs, 1) / FALSE_ALARM))
+    return [(int(i[k]), int(j[k]), pairs * math.exp(-float(gained[k]))) for k in named]
+
+
+def _same_wrong(numbers: CourseNumbers, i: Students, j: Students) -> tuple[Flags, Flags]:
     """Of pairs the answers (pairs, answers) that are wrong in both and the same, and those that are wrong in both.
 
     Left out are those that one mistake brings to both, and what is only calculated from the same sizes.
     """
-    reach = numbers.bound[:, None, None] * numbers.mistaken_scatter
-    brought = np.abs(numbers.given[:, None] - numbers.mistaken) <= reach
-    shared = (brought[i] & brought[j]).any(axis=1)
+    shared = (numbers.brought[i] & numbers.brought[j]).any(axis=2)
     alike = np.abs(numbers.value[i] - numbers.value[j]) <= ALIKE_KEYS * (numbers.scatter[i] + numbers.scatter[j])
     both = numbers.wrong[i] & numbers.wrong[j] & ~shared & (numbers.drawn | ~alike)
     return both & (numbers.given[i] == numbers.given[j]), both
 
 
-def chance(numbers: CourseNumbers, i: NDArray[np.intp], j: NDArray[np.intp]) -> Floats:
+def chance(numbers: CourseNumbers, i: Students, j: Students) -> Floats:
     """The probability (pairs, answers) that two honest wrong numbers are the same.
 
     At most: both draw the same wrong thing, and two careful hands then read the same digits with the probability
@@ -219,12 +307,8 @@ def chance(numbers: CourseNumbers, i: NDArray[np.intp], j: NDArray[np.intp]) -> 
     # A wrong drawing that is smaller scatters less.
     size = np.abs(numbers.given[i]) / np.maximum(np.maximum(np.abs(numbers.value[i]), np.abs(numbers.value[j])), 1e-9)
     scatter = np.minimum(numbers.scatter[i], numbers.scatter[j]) * np.clip(size, 1e-3, 1.0)
-    by_hand = _steps(numbers.given[i]) / (2 * math.sqrt(math.pi) * scatter)
-    others = np.empty_like(numbers.given[i])
-    for a in range(others.shape[1]):
-        course, said = np.sort(numbers.given[:, a]), numbers.given[i, a]
-        count = np.searchsorted(course, said, side="right") - np.searchsorted(course, said, side="left")
-        others[:, a] = (count - 2) / len(numbers.given)
+    by_hand = numbers.step[i] / (2 * math.sqrt(math.pi) * scatter)
+    others = (numbers.said[i] - 2) / len(numbers.given)
     return np.clip(np.maximum(by_hand, others), 1e-6, 1.0)
 
 

@@ -1,7 +1,7 @@
 """Answers beside the key, how far off they are, and which catalogued mistake explains them, in units of scatter."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,12 +20,14 @@ FAR = 5.0
 ANYWHERE = 16.0
 """What a wrong number that is anywhere costs, in twice the logarithm of the probability: a mistake that brings numbers
 more than four standard deviations off explains them no better."""
-MOST = 2 / 3
-"""A mistake that does not look like so much of the wrong answers, by their marks, is not named."""
+MOST = 0.85
+"""A mistake that does not look like so much of the answers that are wrong or would be by it, is not named; by marks."""
 LARGER = 100.0
 """A hand's error grows with the length that is drawn, up to this factor."""
 ALIKE = 0.1
 """A mistake that is at least this part as probable as the best one is not told from it."""
+NOT_TOLD = 1e-3
+"""One that the answers of the variant do not tell from the best one, if it is at least this part as probable."""
 SURE = 0.5
 """A diagnosis less probable than this, together with those alike, is not made."""
 HOPELESS = 30.0
@@ -82,47 +84,52 @@ class _Explanation(NamedTuple):
     like : the places of the wrong answers that look like what the mistake brings
     near : those of them that give it its name: not what may be nought by its scatter
     explained : those of them that are what it brings, as exactly as an answer must be that earns its marks
+    against : the places of the right answers that the mistake would have made wrong
     """
 
     badness: float
     like: frozenset[int]
     near: frozenset[int]
     explained: frozenset[int]
+    against: frozenset[int]
 
 
 def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple[Diagnosis, frozenset[int]] | None:
     """The most probable mistake and the places of the answers that it brings; None where none looks like any."""
     # "Something else": the right answers as a careful hand gives them, each wrong one anywhere.
     other = sum(map(_as_something_else, compared))
-    wrong = {each.place: each.asked.marks for each in compared if each.wrong}
     fits = {
         name: fit
         for name, fit in _explanations(answer_key, compared, other).items()
-        if fit.near and _explains_most(fit.like, wrong)
+        if fit.near and _explains_most(fit, compared)
     }
     if not fits:
         return None
     least = min(other, *(fit.badness for fit in fits.values()))
     weights = {name: math.exp((least - fit.badness) / 2) for name, fit in fits.items()}
     best = max(weights, key=lambda name: weights[name])
-    alike = tuple(name for name in weights if name != best and weights[name] >= ALIKE * weights[best])
+    not_told = answer_key.not_told_from(best)
+    least_part = {name: NOT_TOLD if name in not_told else ALIKE for name in weights if name != best}
+    alike = tuple(name for name, part in least_part.items() if weights[name] >= part * weights[best])
     total = sum(weights.values()) + math.exp((least - other) / 2)
     if sum(weights[name] for name in (best, *alike)) < SURE * total:
         return None
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
 
 
-def _explains_most(like: frozenset[int], wrong: Mapping[int, float]) -> bool:
-    """Whether a mistake looks like most of the wrong answers, each counted by its marks."""
-    return sum(wrong[place] for place in like) >= MOST * sum(wrong.values())
+def _explains_most(fit: _Explanation, compared: Sequence[ComparedAnswer]) -> bool:
+    """Whether a mistake looks like most of what is wrong, or would be by it, each answer counted by its marks."""
+    touched = sum(each.asked.marks for each in compared if each.wrong or each.place in fit.against)
+    return sum(each.asked.marks for each in compared if each.place in fit.like) >= MOST * touched
 
 
 def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
     """How well every mistake fits; one that the numbers make hopeless is left out where something is drawn."""
     bound, hypotheses = answer_key.bound, answer_key.hypotheses
-    numbers = [(each.place, each.given, each.wrong) for each in compared if isinstance(each.given, float)]
+    numbers = [(each.place, each.given, each.key) for each in compared if isinstance(each.given, float)]
+    wrong = frozenset(each.place for each in compared if each.wrong)
     drawn = [each for each in compared if not isinstance(each.given, float)]
-    fits = {name: _numbers_fit(values, numbers, bound) for name, values in hypotheses.items()}
+    fits = {name: _numbers_fit(values, numbers, wrong, bound) for name, values in hypotheses.items()}
     if not drawn:
         return fits
     # A drawing takes longer to compare than all numbers: only with what these leave possible.
@@ -131,26 +138,32 @@ def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], oth
     return {name: _with_drawn(fit, hypotheses[name], drawn, bound) for name, fit in possible.items()}
 
 
-def _numbers_fit(values: Hypothesis, numbers: Sequence[tuple[int, float, bool]], bound: float) -> _Explanation:
-    """How well a mistake fits the numbers: of each its place, itself, and whether it is wrong."""
+def _numbers_fit(
+    values: Hypothesis, numbers: Sequence[tuple[int, float, Expected]], wrong: frozenset[int], bound: float
+) -> _Explanation:
+    """How well a mistake fits the numbers: of each its place, itself, and its key."""
     badness = 0.0
     like: list[int] = []
     similar: list[int] = []
     explained: list[int] = []
+    against: list[int] = []
     # Most of the time of marking wrong work is spent here.
-    for place, given, wrong in numbers:
+    for place, given, key in numbers:
         value, scatter = values.said[place]
         off = (given - value) / scatter
         near = -FAR <= off <= FAR
         badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
-        if near and wrong:
+        if place not in wrong:
+            if not near and abs(key.deviation(value, "number")) > bound:
+                against.append(place)
+        elif near:
             like.append(place)
-        # A mistake that makes an answer small is not made by who answers nought.
-        if near and wrong and abs(given) > bound * scatter:
-            similar.append(place)
-            if abs(off) <= bound:
-                explained.append(place)
-    return _Explanation(badness, frozenset(like), frozenset(similar), frozenset(explained))
+            # A mistake that makes an answer small is not made by who answers nought.
+            if abs(given) > bound * scatter:
+                similar.append(place)
+                if abs(off) <= bound:
+                    explained.append(place)
+    return _Explanation(badness, *map(frozenset, (like, similar, explained, against)))
 
 
 def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedAnswer], bound: float) -> _Explanation:
@@ -158,7 +171,8 @@ def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedA
     near = {each.place for each in drawn if each.wrong and off[each.place] <= FAR}
     explained = {place for place in near if off[place] <= bound}
     badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
-    return _Explanation(badness, fit.like | near, fit.near | near, fit.explained | explained)
+    against = {each.place for each in drawn if not each.wrong and off[each.place] > FAR}
+    return _Explanation(badness, fit.like | near, fit.near | near, fit.explained | explained, fit.against | against)
 
 
 def _as_something_else(answer: ComparedAnswer) -> float:

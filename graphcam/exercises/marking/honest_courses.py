@@ -65,7 +65,7 @@ def honest_students(exercise: Exercise, secret: bytes, students: int) -> HonestS
         # Never the seed of the hands that the answer key was made from.
         chain = board_chain(variant.task, exercise.hand.pencil(HANDS, 1 + k))
         listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
-        kinds = ([answers_of(exercise, chain)], listed, list(unlisted(exercise, chain)))
+        kinds = ([answers_of(exercise, chain)], listed, [answers for _, answers in unlisted(exercise, chain)])
         for records, drawings in zip((found.careful, found.catalogued, found.unlisted), kinds, strict=True):
             given = [submission(exercise, drawn, row) for drawn in drawings for row in range(HANDS)]
             records.append([mark(exercise, answer_keys[student], answers).to_dict() for answers in given])

@@ -126,5 +126,5 @@ def _marked(judged: Judged, answer: ComparedAnswer | None, marks: float) -> Mark
     outcome = "partial" if judged.outcome == "wrong" and marks > 0 else judged.outcome
     given: Any = answer.given
     if isinstance(given, np.ndarray):
-        given = [[z.real, z.imag] for z in given.tolist()]
+        given = np.column_stack((given.real, given.imag)).tolist()
     return Marked(name, outcome, marks, of, given, *answer.off)

@@ -14,25 +14,44 @@ from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.given.laws import LAWS
 
 
-def unlisted(exercise: Exercise, chain: Chain) -> Iterator[Drawn]:
-    """The answers of the hands of a drawing with every catalogued mistake that its exercise does not list.
+def unlisted_names(exercise: Exercise) -> list[str]:
+    """Every catalogued mistake that the exercise does not list, with every argument that has to do with its answers.
 
-    Another law is taken as often as there are laws; what cannot be drawn here is left out.
+    Another law is taken as often as there are laws.
     """
-    names = [name for name, entry in CATALOGUE.items() if not entry.takes]
-    names += [f"wrong-law: {law}" for law in LAWS]
-    for name in names:
-        if name in exercise.misconceptions:
-            continue
+    asked = exercise.answers
+    diagrams = ["integration"] + ["differentiation"] * any(each.construction == "differentiation" for each in asked)
+    lengths = dict.fromkeys(f"{each.construction}.{each.reading}" for each in asked if each.reading)
+    names: list[str] = []
+    for name, entry in CATALOGUE.items():
+        if entry.takes == "the name of a law":
+            names += [f"{name}: {law}" for law in LAWS]
+        elif entry.takes.startswith("a construction"):
+            names += [f"{name}: {length}" for length in lengths]
+        else:
+            names += [f"{name}: {diagram}" for diagram in diagrams] if entry.takes else [name]
+    return [name for name in names if name not in exercise.misconceptions]
+
+
+def unlisted(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
+    """The names and the answers of the hands of a drawing with every mistake that its exercise does not list.
+
+    Left out are what cannot be drawn here, and what is stroke by stroke the drawing with a mistake that is listed, such
+    as another law where that is the law of the other phase.
+    """
+    listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
+    for name in unlisted_names(exercise):
         try:
             answers = answers_of(exercise, misconception(name).change(chain))
         except GraphcamError:
             continue
-        if all(np.isfinite(values).all() for values in answers):
-            yield answers
+        finite = all(np.isfinite(values).all() for values in answers)
+        if finite and not any(all(map(np.array_equal, answers, others)) for others in listed):
+            yield name, answers
 
 
 def without(answer_key: AnswerKey, name: str) -> AnswerKey:
-    """The answer key that does not know one mistake."""
-    others = {other: each for other, each in answer_key.hypotheses.items() if other != name}
+    """The answer key that knows neither one mistake nor those that it does not tell from it."""
+    unknown = {name, *answer_key.not_told_from(name)}
+    others = {other: each for other, each in answer_key.hypotheses.items() if other not in unknown}
     return replace(answer_key, hypotheses=others)

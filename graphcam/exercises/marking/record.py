@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 from graphcam.exercises.definition.exercise import Value
 
+PLAIN = (str, int, bool, type(None))
+"""Types of values that are strict JSON as they are."""
 Outcome = Literal["right", "follow-through", "partial", "wrong", "missing", "unreadable"]
 
 
@@ -78,6 +80,8 @@ class Record:
     def to_dict(self) -> dict[str, Any]:
         """As strict JSON takes it.
 
+        >>> _strict([[1.0, 2.0], [math.inf, -math.inf]])
+        [[1.0, 2.0], [None, None]]
         >>> marked = Marked("v", "right", 1.0, 1.0, given=2.0, deviation=math.inf)
         >>> Record("s", "e", 1, 0, {}, (marked,), 1.0, 1.0, None, False, ()).to_dict()["answers"][0]["deviation"]
         """
@@ -85,15 +89,17 @@ class Record:
 
 
 def _strict(value: Any) -> Any:
-    # A drawn curve has a hundred numbers, so they are looked at first.
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if value is None or isinstance(value, (str, int)):
-        return value
     if isinstance(value, (Record, Marked, Diagnosis)):
         value = vars(value)
     if isinstance(value, dict):
-        return {key: _strict(each) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
+        # Most fields are plain: a call each would take longest of making a record.
+        return {key: each if type(each) in PLAIN else _strict(each) for key, each in value.items()}
+    if isinstance(value, list):
+        # A drawn curve has a hundred numbers: one that is not finite makes their sum so.
+        points: list[list[float]] = value
+        return points if math.isfinite(sum(map(sum, points))) else [list(map(_strict, point)) for point in points]
+    if isinstance(value, tuple):
         return [_strict(each) for each in value]
     return value

@@ -11,15 +11,20 @@ from typing import Any
 from graphcam.constructions.chain import Chain
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, Exercise
+from graphcam.exercises.definition.hands import HANDS, HandTable
 from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.exercises.marking.copy_gain import VARIANTS, CopyGain, copy_gain
+from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.outside import unlisted, without
+from graphcam.exercises.marking.record import Diagnosis
 from graphcam.workers import executor_of, in_order
 
+SPARSELY = 5
+"""Of so many variants one is done with the mistakes that are not listed too: there are several times as many."""
 NOTHING = "none"
 """In the matrix: no catalogued mistake was named."""
 
@@ -45,10 +50,27 @@ class OutsideCount:
     named: int = 0
 
 
+@dataclass(frozen=True)
+class HandCount:
+    """Students of one kind of hand who draw everything right, and how many of them lose any point."""
+
+    hands: int = 0
+    losing: int = 0
+
+    @property
+    def rate(self) -> float:
+        """Part of them."""
+        return self.losing / self.hands if self.hands else 0.0
+
+
 @dataclass
 class _Tally:
-    """What is counted of like submissions, over all variants."""
+    """What is counted of like submissions, over all variants.
 
+    made : the mistake of all of them, where it is one that is looked for
+    """
+
+    made: str = ""
     hands: int = 0
     accepted: int = 0
     wrong: int = 0
@@ -67,7 +89,7 @@ class _Tally:
         self.accepted += sum(record.total >= record.of for record in records)
         self.wrong += sum(record.diagnosis is not None or record.total < record.of for record in records)
         self.too_exact += sum(record.too_exact for record in records)
-        self.named.update(record.diagnosis.misconception if record.diagnosis else NOTHING for record in records)
+        self.named.update(_name_of(record.diagnosis, answer_key, self.made) for record in records)
 
     def add(self, other: _Tally) -> None:
         """Add what was counted elsewhere."""
@@ -78,14 +100,23 @@ class _Tally:
         self.named.update(other.named)
 
 
+def _name_of(diagnosis: Diagnosis | None, answer_key: AnswerKey, made: str) -> str:
+    """What was named: the mistake made, too, where it is named with one that the answers cannot tell from it."""
+    if diagnosis is None:
+        return NOTHING
+    together = made in diagnosis.alike and diagnosis.misconception in answer_key.not_told_from(made)
+    return made if together else diagnosis.misconception
+
+
 @dataclass(frozen=True)
 class _VariantTally:
     """What is counted of the students of one variant, or of several: careful ones, and those with each mistake.
 
-    outside, left_out : as of a :class:`Simulation`
+    populations, outside, left_out : as of a :class:`Simulation`
     """
 
     careful: _Tally
+    populations: dict[str, _Tally]
     wrong: dict[str, _Tally]
     outside: _Tally
     left_out: _Tally
@@ -93,11 +124,15 @@ class _VariantTally:
     @staticmethod
     def of(exercise: Exercise) -> _VariantTally:
         """With nothing counted yet."""
-        return _VariantTally(_Tally(), {name: _Tally() for name in exercise.misconceptions}, _Tally(), _Tally())
+        populations = {name: _Tally() for name in HANDS}
+        wrong = {name: _Tally(name) for name in exercise.misconceptions}
+        return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally())
 
     def add(self, other: _VariantTally) -> None:
         """Add what was counted of another variant."""
         self.careful.add(other.careful)
+        for name, tally in self.populations.items():
+            tally.add(other.populations[name])
         for name, tally in self.wrong.items():
             tally.add(other.wrong[name])
         self.outside.add(other.outside)
@@ -108,12 +143,14 @@ class _VariantTally:
 class Simulation:
     """What many simulated students showed.
 
-    losing : careful hands that lost any point; too_exact : those remarked on as exact as a program
-    rows : by the misconception's name
+    careful : students with the hands of the exercise who draw everything right
+    losing : those of them who lost any point; too_exact : those remarked on as exact as a program
+    rows : by the misconception's name; named is also one that stands beside another which its answers cannot tell
     issued : how many variants were issued at the first draw of the parameters, at the second, and so on: the first in
         which all mistakes could be told
-    outside : hands with catalogued mistakes that the exercise does not list
+    outside : hands with catalogued mistakes that the exercise does not list, on every fifth variant
     left_out : hands with each of its mistakes, marked as if that one were not listed
+    populations : by the name of the hand, students who draw everything right with it and are marked by the same keys
     copies : what a careful student of one variant earns by the key of another
     """
 
@@ -128,6 +165,7 @@ class Simulation:
     outside: OutsideCount = OutsideCount()
     left_out: OutsideCount = OutsideCount()
     copies: CopyGain = field(default_factory=CopyGain)
+    populations: dict[str, HandCount] = field(default_factory=dict[str, HandCount])
 
     @property
     def outside_named(self) -> float:
@@ -187,7 +225,8 @@ def simulate(
     issued: Counter[int] = Counter()
     done: list[tuple[AnswerKey, Answers]] = []
     with executor_of(workers, cluster) as executor:
-        counted = in_order(executor, partial(_counted, exercise, secret, hands), range(variants))
+        course = course_variants(exercise, (f"student {k}" for k in range(variants)), secret, executor)
+        counted = in_order(executor, partial(_counted, exercise, hands), enumerate(course))
         for k, (draw, of_variant, careful_work) in enumerate(counted, 1):
             issued[draw] += 1
             whole.add(of_variant)
@@ -207,6 +246,7 @@ def simulate(
         _outside_count(whole.outside),
         _outside_count(whole.left_out),
         copy_gain(exercise, done),
+        {name: HandCount(each.hands, each.hands - each.accepted) for name, each in whole.populations.items()},
     )
 
 
@@ -216,23 +256,26 @@ def _outside_count(tally: _Tally) -> OutsideCount:
 
 
 def _counted(
-    exercise: Exercise, secret: bytes, hands: int, k: int
+    exercise: Exercise, hands: int, job: tuple[int, tuple[Variant, AnswerKey]]
 ) -> tuple[int, _VariantTally, list[tuple[AnswerKey, Answers]]]:
-    """Of the variant ``k``: its draw, what was counted of the students who did it, the work of a careful one.
+    """Of a variant with its number: its draw, what was counted of the students who did it, the work of a careful one.
 
     That work, with the answer key, is there for the first variants alone: it is marked by the keys of all others.
     """
-    variant, answer_key = issue(exercise, f"student {k}", secret)
+    k, (variant, answer_key) = job
     found = _VariantTally.of(exercise)
     # Never the seed of the hands that the answer key was made from.
     drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
     found.careful.mark(exercise, answer_key, drawn)
+    for name, tally in found.populations.items():
+        tally.mark(exercise, answer_key, drawn.by(HandTable(name).pencil(hands, 1 + k)))
     for name, tally in found.wrong.items():
         wrongly = misconception(name).change(drawn)
         tally.mark(exercise, answer_key, wrongly)
         found.left_out.mark(exercise, without(answer_key, name), wrongly)
-    for answers in unlisted(exercise, drawn):
-        found.outside.mark_answers(exercise, answer_key, answers, hands)
+    if k % SPARSELY == 0:
+        for _, answers in unlisted(exercise, drawn):
+            found.outside.mark_answers(exercise, answer_key, answers, hands)
     careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < VARIANTS else []
     return variant.draw, found, careful_work
 

@@ -1,6 +1,7 @@
 """What an answer may be: a finite number, or points in mm of paper."""
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -56,9 +57,15 @@ def points(name: str, value: object) -> Points:
     )
     if len(pairs) > MOST_POINTS:
         raise UnreadableError(say("{answer} has more than {most} points", answer=shown(name), most=MOST_POINTS))
-    if not all(isinstance(pair, (list, tuple)) and len(pair) == 2 for pair in pairs):
+    if not {*map(type, pairs)} <= {list, tuple} or {*map(len, pairs)} != {2}:
         raise UnreadableError(say("{answer} must be points [x, y] in mm of paper", answer=shown(name)))
-    return np.array([number(name, x) for pair in pairs for x in pair]).view(np.complex128)
+    numbers = [*chain.from_iterable(pairs)]
+    # Looked at together, which is faster, and one by one only to say which of them is wrong.
+    if {*map(type, numbers)} <= {int, float} and min(numbers) >= -GREATEST and max(numbers) <= GREATEST:
+        found = np.array(numbers, dtype=np.float64)
+        if np.isfinite(found).all():
+            return found.view(np.complex128)
+    return np.array([number(name, x) for x in numbers]).view(np.complex128)
 
 
 def decimal(name: str, text: str) -> float:

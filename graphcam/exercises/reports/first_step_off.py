@@ -1,6 +1,7 @@
 """Where a student's construction first goes off: the step, the notebook on it, and the drawing as it stands before.
 
 The drawing holds nothing of an answer that was not given right: it ends before the first step that shows any of them.
+Only where what is right may be shown, it has the step that is off as well.
 """
 
 import re
@@ -64,6 +65,7 @@ class StepOff:
 
     construction, step : their titles;  notebook : its number, 0 where none is about it
     picture : None where nothing is drawn before that step
+    told : whether the picture has that step as well, as it should be
     """
 
     answer: str
@@ -71,10 +73,14 @@ class StepOff:
     step: Words
     notebook: int
     picture: StepPicture | None
+    told: bool
 
 
-def first_step_off(exercise: Exercise, record: dict[str, Any]) -> StepOff | None:
-    """The step of a record that is off first; None where none is, or where the variant is not known."""
+def first_step_off(exercise: Exercise, record: dict[str, Any], *, right: bool = False) -> StepOff | None:
+    """The step of a record that is off first; None where none is, or where the variant is not known.
+
+    right : whether what is right may be shown
+    """
     # What draws is for the pages alone; grading starts without it.
     from graphcam.plots.step_board import ancestors
 
@@ -85,15 +91,16 @@ def first_step_off(exercise: Exercise, record: dict[str, Any]) -> StepOff | None
     chain = board_chain(fill_in(exercise, record["parameters"]))
     construction = construction_of(chain, asked.construction)
     steps = construction.steps()
-    hidden = [each for each, own in marked if own["outcome"] != "right"]
-    last = min(shown_by(construction, each) for each in hidden if each.construction == asked.construction)
+    off = shown_by(construction, asked, PASSED_ON)
+    hidden = [] if right else [each for each, own in marked if own["outcome"] != "right"]
+    within = [shown_by(construction, each) for each in hidden if each.construction == asked.construction]
+    last = min(within, default=off + 1)
     closed = {each.construction for each in hidden}
     before = [step for each in ancestors(construction) if each.name not in closed for step in each.steps()]
-    step = steps[shown_by(construction, asked, PASSED_ON)]
     own, joined = _own(chain, asked, answer["given"]), asked.kind != "points"
     shown = _picture(before, steps[:last], exercise.tell, own, joined=joined) if last else None
     notebook = NOTEBOOKS.get(construction.name, 0)
-    return StepOff(asked.name, construction.meaning.title, step.title, notebook, shown)
+    return StepOff(asked.name, construction.meaning.title, steps[off].title, notebook, shown, right)
 
 
 def shown_by(construction: Construction, asked: Asked, through: tuple[Kind, ...] = TOLD_BY) -> int:

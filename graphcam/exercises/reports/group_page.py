@@ -2,8 +2,8 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
@@ -14,13 +14,17 @@ from graphcam.exercises.definition.exercise import Asked, Exercise, Kind
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey, Key
+from graphcam.exercises.key.expectation import Floats
 from graphcam.exercises.marking.copies import FALSE_ALARM, AlikePair
 from graphcam.exercises.marking.exactness import FALSE_ALARMS
-from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
+from graphcam.exercises.reports.answered_requests import AnsweredRequest
+from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_place
+from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
-from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along, key_line
+from graphcam.exercises.reports.late_hand_ins import earned, late_report, part_left
+from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along
 from graphcam.exercises.reports.web_pages import page
-from graphcam.words import Caption, say
+from graphcam.words import Caption, say, sequence
 
 WIDTH, HEIGHT, LETTERS = 640, 70, 18
 """Pixels: of the chart, and of the line of labels under it."""
@@ -102,9 +106,9 @@ class StepErrors:
 
 @dataclass(frozen=True)
 class Mistake:
-    """A catalogued mistake: who made it, and what it cost."""
+    """A catalogued mistake, or several that were named together: who made it, and what it cost."""
 
-    name: str
+    names: tuple[str, ...]
     students: tuple[str, ...]
     lost: float
 
@@ -148,15 +152,21 @@ def bar_of(deviation: float | None) -> int:
 
 def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
     """The diagnosed mistakes, the costliest first."""
-    found: dict[str, list[dict[str, Any]]] = {}
+    found: dict[tuple[str, ...], list[dict[str, Any]]] = {}
     for record in records:
-        if record["diagnosis"]:
-            found.setdefault(record["diagnosis"]["misconception"], []).append(record)
+        if diagnosis := record["diagnosis"]:
+            found.setdefault(tuple(sorted([diagnosis["misconception"], *diagnosis["alike"]])), []).append(record)
     listed = [
-        Mistake(name, tuple(each["student"] for each in made), sum(each["of"] - each["total"] for each in made))
-        for name, made in found.items()
+        Mistake(names, tuple(each["student"] for each in made), sum(each["of"] - earned(each) for each in made))
+        for names, made in found.items()
     ]
-    return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.name))
+    return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.names))
+
+
+def _said(names: Sequence[str]) -> Caption:
+    """What is said of a mistake; of several that were named together, that it is one of them."""
+    said = [misconception(name).said for name in names]
+    return said[0] if len(said) == 1 else say("One of these: {mistakes}", mistakes=sequence(said, " "))
 
 
 def group_page(
@@ -165,15 +175,18 @@ def group_page(
     answer_keys: Mapping[str, AnswerKey],
     pairs: Sequence[AlikePair] = (),
     refused: Sequence[Refused] = (),
+    requests: Sequence[AnsweredRequest] = (),
 ) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
 
     answer_keys : by student, as far as they are known
     pairs : whose numbers agree beyond chance
     refused : what is not graded
+    requests : questions of students
     """
     steps, found = step_errors(exercise, records), mistakes(records)
-    bound = median(each.bound for each in answer_keys.values()) if answer_keys else 0.0
+    bounds, drawn = _compared(exercise, records, answer_keys)
+    bound = median(bounds) if bounds else 0.0
     return page(
         "group.html",
         exercise,
@@ -187,6 +200,8 @@ def group_page(
         weak=sorted((step for step in steps if step.earned < WEAK), key=lambda step: step.earned),
         marks=_marks(exercise, records),
         policies=_policies(records),
+        requests=requests,
+        lateness=late_report(records),
         steps=[(step, _chart(step, bound)) for step in steps],
         items=item_statistics(records),
         alpha=cronbach_alpha(earned_parts(records) * [asked.marks for asked in exercise.answers])
@@ -194,22 +209,26 @@ def group_page(
         else math.nan,
         groups=variant_groups(records, lambda value: sentence("{value}", {"value": value}, exercise.tell)),
         mistakes=found,
-        said={mistake.name: misconception(mistake.name).said for mistake in found},
+        said={mistake.names: _said(mistake.names) for mistake in found},
         pairs=pairs,
         copies_by_chance=100 * 2 * FALSE_ALARM,
         false_alarms=FALSE_ALARMS,
-        drawn=[(asked, _bundle(found), _farthest(found)) for asked, found in _drawn(exercise, records, answer_keys)],
+        drawn=[(each.asked, each.bundle(), each.pictures()) for each in drawn if each.off],
     )
 
 
 def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
-    """The average marks as they are, and as they would be by another policy."""
-    totals = {
-        "total": say("This policy"),
-        "without_follow_through": say("Without follow-through"),
-        "without_caps": say("Without caps on mistakes"),
-    }
-    return [(said, sum(record[name] for record in records) / len(records)) for name, said in totals.items() if records]
+    """The average marks as they are, and as they would be by another policy, where that pays anyone otherwise."""
+    own = [record["total"] for record in records]
+    others = [
+        (say("Without follow-through"), [part_left(record) * record["without_follow_through"] for record in records]),
+        (say("Without caps on mistakes"), [part_left(record) * record["without_caps"] for record in records]),
+        (say("Without the penalty for lateness"), [earned(record) for record in records]),
+    ]
+    # Marks with a penalty are rounded to hundredths.
+    paying = [(said, marks) for said, marks in others if not np.allclose(marks, own, rtol=0, atol=0.01)]
+    rows = [(say("This policy"), own), *paying] if paying else []
+    return [(said, sum(marks) / len(marks)) for said, marks in rows]
 
 
 def _marks(exercise: Exercise, records: Sequence[dict[str, Any]]) -> Chart:
@@ -227,39 +246,54 @@ def _chart(step: StepErrors, bound: float) -> Chart:
     return stacked(step.bars, [*ends, *ticks], (0.5 - inside, 0.5 + inside))
 
 
-def _drawn(
+@dataclass(eq=False)
+class _Drawings:
+    """What is shown of all drawings of one answer; the keys of thousands would fill the memory.
+
+    off : how far each lies off along its key;  tolerances : of their keys;  farthest : those farthest off
+    """
+
+    asked: Asked
+    off: list[Floats] = field(default_factory=list[Floats])
+    tolerances: list[float] = field(default_factory=list[float])
+    farthest: list[HandedInDrawing] = field(default_factory=list[HandedInDrawing])
+
+    def add(self, drawing: HandedInDrawing) -> None:
+        """Compare one with its key."""
+        self.off.append(deviations_along(drawing.key.expected, points_of(drawing.answer), drawing.kind))
+        self.tolerances.append(drawing.key.tolerance)
+        # Of two that are equally far off the former stays the first.
+        ranked = sorted([*self.farthest, drawing], key=lambda each: -each.answer["off_paper"])
+        self.farthest = ranked[:LARGEST_PICTURES]
+
+    def bundle(self) -> Bundle:
+        """All of them in one picture."""
+        return bundle(self.off, median(self.tolerances))
+
+    def pictures(self) -> list[tuple[HandedInDrawing, CurvePicture]]:
+        """Those farthest off, each in a picture of its own."""
+        return [(each, _picture(each)) for each in self.farthest]
+
+
+def _compared(
     exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
-) -> Iterator[tuple[Asked, list[HandedInDrawing]]]:
-    """Every answer that somebody drew, with the drawings that can be compared with their keys."""
-    known = [record for record in records if record["student"] in answer_keys]
-    for place, asked in enumerate(exercise.answers):
-        if asked.kind == "number":
+) -> tuple[list[float], list[_Drawings]]:
+    """The bounds of all keys, and the drawings of every answer that is drawn, in one way through the keys."""
+    bounds: list[float] = []
+    # The answers of a record stand in the order of the exercise.
+    drawn = {place: _Drawings(asked) for place, asked in enumerate(exercise.answers) if asked.kind != "number"}
+    for record in records:
+        answer_key = answer_keys.get(record["student"])
+        if answer_key is None:
             continue
-        # The answers of a record stand in the order of the exercise.
-        answers = [(record["student"], record["answers"][place]) for record in known]
-        found = [
-            HandedInDrawing(student, asked.kind, answer, answer_keys[student].keys[asked.name])
-            for student, answer in answers
-            if answer["off_paper"] is not None
-        ]
-        if found:
-            yield asked, found
-
-
-def _farthest(drawings: list[HandedInDrawing]) -> list[tuple[HandedInDrawing, CurvePicture]]:
-    farthest = sorted(drawings, key=lambda each: -each.answer["off_paper"])[:LARGEST_PICTURES]
-    return [(each, _picture(each)) for each in farthest]
-
-
-def _bundle(drawings: list[HandedInDrawing]) -> Bundle:
-    off = [deviations_along(each.key.expected, points_of(each.answer), each.kind) for each in drawings]
-    return bundle(off, median(each.key.tolerance for each in drawings))
+        bounds.append(answer_key.bound)
+        for place, each in drawn.items():
+            answer, key = record["answers"][place], answer_key.keys[each.asked.name]
+            if answer["off_paper"] is not None:
+                each.add(HandedInDrawing(record["student"], each.asked.kind, answer, key))
+    return bounds, list(drawn.values())
 
 
 def _picture(drawing: HandedInDrawing) -> CurvePicture:
-    key, own = drawing.key.expected, points_of(drawing.answer)
-    stations = np.atleast_1d(np.asarray(key.value))
-    curves = [("key", stations, False), ("own", own, drawing.kind == "curve")]
-    if drawing.kind == "curve":
-        curves.insert(0, ("key", key_line(key), True))
-    return picture(curves, worst_place(key, drawing.answer, drawing.kind))
+    key = drawing.key.expected
+    return over_key(key, drawing.answer, drawing.kind, worst_place(key, drawing.answer, drawing.kind))

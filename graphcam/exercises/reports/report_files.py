@@ -1,18 +1,23 @@
 """All files of a graded course, written together; the grades are CSV that is safe to open in a spreadsheet."""
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.course.regrade_requests import RegradeRequest
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.copies import AlikePair, alike_pairs
+from graphcam.exercises.reports.answered_requests import answered, page_links
 from graphcam.exercises.reports.group_page import group_page
+from graphcam.exercises.reports.late_hand_ins import time_cells, time_columns
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
+from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.reports.student_page import student_page
 from graphcam.files import whole_folder
 
@@ -23,53 +28,109 @@ LONG = (
 BY_HAND = ("student", "answer", "found", "marks", "comment")
 
 
+@dataclass(frozen=True)
+class GroupNotes:
+    """What the reports tell besides the records.
+
+    refused : what is not graded;  requests : questions of students
+    pages : the folder of the students' pages, None where none are written
+    names : of the students on the pages
+    """
+
+    refused: Sequence[Refused] = ()
+    requests: Sequence[RegradeRequest] = ()
+    pages: Path | None = None
+    names: ShownNames = field(default_factory=ShownNames)
+
+
+IDS = ShownNames()
+"""The students go by their ids."""
+NOTHING_NOTED = GroupNotes()
+
+
 def write_reports(
     out: Path,
     exercise: Exercise,
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
-    refused: Sequence[Refused] = (),
+    notes: GroupNotes = NOTHING_NOTED,
 ) -> list[str]:
     """The grades, wide into ``out``; beside it long, for grade books, who agrees, the records, the group's report.
 
     Their names are given back.
 
-    refused : what is not graded, which has a table of its own where there is any
+    notes : what is not graded has a table of its own where there is any
 
     Raises
     ------
     OutputError : they cannot be written
     """
-    pairs = alike_pairs(exercise, records, answer_keys)
-    texts = {
-        out.name: wide_table(records),
-        **_by_hand(out, records),
-        # One row an answer, for statistics.
-        f"{out.stem}-long.csv": table(
-            LONG, (_long(record, answer) for record in records for answer in record["answers"])
-        ),
-        f"{out.stem}-copies.csv": copies_table(pairs),
-        # For grade books.
-        f"{out.stem}-moodle.csv": moodle_grades(exercise, records),
-        f"{out.stem}-canvas.csv": canvas_grades(exercise, records),
-        # A line a record.
-        f"{out.stem}.json": "[" + ",\n ".join(json.dumps(record, allow_nan=False) for record in records) + "]\n",
-        f"{out.stem}.html": group_page(exercise, records, answer_keys, pairs, refused),
-    }
-    not_graded = f"{out.stem}-not-graded.csv"
-    # The table of a former run would go on telling what is mended.
-    if refused or (out.parent / not_graded).exists():
-        texts[not_graded] = table(("folder", "why"), ([one.place, one.why] for one in refused))
+    names: list[str] = []
     with whole_folder(out.parent) as draft:
-        for name, text in texts.items():
-            (draft / name).write_text(text, encoding="utf-8", newline="")
-    return list(texts)
+        # One after the other, each gone from memory before the next is made.
+        for name, parts in _texts(out, exercise, records, answer_keys, notes):
+            with (draft / name).open("w", encoding="utf-8", newline="") as file:
+                file.writelines(parts)
+            names.append(name)
+    return names
+
+
+def _texts(
+    out: Path,
+    exercise: Exercise,
+    records: Sequence[dict[str, Any]],
+    answer_keys: Mapping[str, AnswerKey],
+    notes: GroupNotes,
+) -> Iterator[tuple[str, Iterable[str]]]:
+    """The names of the files, each with its text in parts."""
+    yield out.name, [wide_table(records)]
+    for name, text in _by_hand(out, records).items():
+        yield name, [text]
+    # One row an answer, for statistics.
+    yield (
+        f"{out.stem}-long.csv",
+        [table(LONG, (_long(record, answer) for record in records for answer in record["answers"]))],
+    )
+    pairs = alike_pairs(exercise, records, answer_keys)
+    yield f"{out.stem}-copies.csv", [copies_table(pairs)]
+    # For grade books.
+    yield f"{out.stem}-moodle.csv", [moodle_grades(exercise, records)]
+    yield f"{out.stem}-canvas.csv", [canvas_grades(exercise, records)]
+    yield f"{out.stem}.json", _json_lines(records)
+    not_graded, names = f"{out.stem}-not-graded.csv", notes.names
+    shown = names.records(records)
+    links = page_links([record["student"] for record in shown], notes.pages, out.parent)
+    requests = list(answered(names.requests(notes.requests), shown, links))
+    refused = names.refused(notes.refused, not_graded)
+    keys = names.answer_keys(answer_keys)
+    yield f"{out.stem}.html", [group_page(exercise, shown, keys, names.pairs(pairs), refused, requests)]
+    if names.hidden:
+        rows = sorted([name, one] for one, name in names.hidden.items())
+        yield f"{out.stem}-ids.csv", [table(("name", "student"), rows)]
+    # The table of a former run would go on telling what is mended.
+    if notes.refused or (out.parent / not_graded).exists():
+        yield not_graded, [table(("folder", "why"), ([one.place, one.why] for one in notes.refused))]
+
+
+def _json_lines(records: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """A list in JSON, a line a record."""
+    for k, record in enumerate(records):
+        yield (",\n " if k else "[") + json.dumps(record, allow_nan=False)
+    yield "]\n" if records else "[]\n"
 
 
 def write_feedback(
-    folder: Path, exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
+    folder: Path,
+    exercise: Exercise,
+    records: Sequence[dict[str, Any]],
+    answer_keys: Mapping[str, AnswerKey],
+    names: ShownNames = IDS,
+    *,
+    right: bool = False,
 ) -> None:
-    """A page for every student, under the student's name as a file's name.
+    """A page for every student, under the student's id or hidden name as a file's name.
+
+    right : whether the pages show what would have been right
 
     Raises
     ------
@@ -77,8 +138,9 @@ def write_feedback(
     """
     with whole_folder(folder) as draft:
         for record in records:
-            text = student_page(exercise, record, answer_keys.get(record["student"]))
-            (draft / f"{folder_name(record['student'])}.html").write_text(text, encoding="utf-8")
+            name, answer_key = names.of(record["student"]), answer_keys.get(record["student"])
+            text = student_page(exercise, {**record, "student": name}, answer_key, right=right)
+            (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8")
 
 
 def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
@@ -93,10 +155,11 @@ def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
 
 
 def wide_table(records: Sequence[dict[str, Any]]) -> str:
-    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks."""
+    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, and what a deadline made."""
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
-    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes"]
-    return table(head, (_wide(record, names) for record in records))
+    times = time_columns(records)
+    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", *times]
+    return table(head, ([*_wide(record, names), *time_cells(record, times)] for record in records))
 
 
 def copies_table(pairs: Iterable[AlikePair]) -> str:

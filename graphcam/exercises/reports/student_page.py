@@ -1,4 +1,4 @@
-"""The page a student gets: what was right, where to look again, the own curve; never the key."""
+"""The page a student gets: what was right, where to look again, the own curve; the key only where that is asked for."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -7,8 +7,10 @@ from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
+from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.first_step_off import first_step_off
 from graphcam.exercises.reports.web_pages import page
+from graphcam.report.markdown import number
 from graphcam.words import Caption, Words, say
 
 OUTCOMES = {
@@ -29,26 +31,41 @@ class AnswerRow:
 
     text : what was asked, with the variant's numbers
     said : what is to be said of the answer, in place of its outcome alone
+    right : what would have been right; empty where that is not shown
     """
 
     asked: Asked
     answer: dict[str, Any]
     text: str
     said: Words
+    right: Words
 
 
-def student_page(exercise: Exercise, record: dict[str, Any], answer_key: AnswerKey | None) -> str:
+def student_page(
+    exercise: Exercise, record: dict[str, Any], answer_key: AnswerKey | None, *, right: bool = False
+) -> str:
     """The feedback on one record as HTML.
 
-    answer_key : tells where on the student's own curve it is farthest off; of the key nothing is shown
+    answer_key : tells where on the student's own curve it is farthest off
+    right : whether what would have been right is shown; without it nothing of the key is
     """
     marked = list(zip(exercise.answers, record["answers"], strict=True))
+    shown = answer_key if right else None
     rows = [
-        AnswerRow(asked, answer, sentence(asked.text, record["parameters"], exercise.tell), _about(answer, record))
+        AnswerRow(
+            asked,
+            answer,
+            sentence(asked.text, record["parameters"], exercise.tell),
+            _about(answer, record),
+            _right(asked, shown),
+        )
         for asked, answer in marked
     ]
     drawn = [(asked, answer) for asked, answer in marked if isinstance(answer["given"], list)]
-    pictures = [(_caption(answer), _own(asked, answer, answer_key)) for asked, answer in drawn]
+    pictures = [
+        (_caption(answer, told=shown is not None), _own(asked, answer, answer_key, told=shown is not None))
+        for asked, answer in drawn
+    ]
     return page(
         "feedback.html",
         exercise,
@@ -56,7 +73,7 @@ def student_page(exercise: Exercise, record: dict[str, Any], answer_key: AnswerK
         rows=rows,
         remarks=_remarks(record),
         pictures=pictures,
-        step=first_step_off(exercise, record),
+        step=first_step_off(exercise, record, right=shown is not None),
     )
 
 
@@ -82,16 +99,34 @@ def _begin(answer: dict[str, Any]) -> str:
     return f"{answer['name']}: "
 
 
-def _caption(answer: dict[str, Any]) -> Caption:
-    if answer["outcome"] in ("wrong", "partial") and answer["station"] is not None:
-        return say(
-            "{name}: your drawing; look again about the circle, which stands enlarged beside it.", name=answer["name"]
-        )
-    return say("{name}: your drawing.", name=answer["name"])
+def _right(asked: Asked, answer_key: AnswerKey | None) -> Words:
+    """What would have been right, and within what it counts as right."""
+    if answer_key is None:
+        return ""
+    key = answer_key.keys[asked.name]
+    if not isinstance(key.expected.value, float):
+        return say("right: see the drawing")
+    value, tolerance = number(key.expected.value, asked.decimals), number(key.tolerance, asked.decimals + 1)
+    return say("right: {value} ± {tolerance}", value=value, tolerance=tolerance)
 
 
-def _own(asked: Asked, answer: dict[str, Any], answer_key: AnswerKey | None) -> CurvePicture:
+def _caption(answer: dict[str, Any], *, told: bool) -> Caption:
+    name, off = answer["name"], answer["outcome"] in ("wrong", "partial") and answer["station"] is not None
+    if told and off:
+        return say("{name}: your drawing red, the right one blue; circled where you are farthest off.", name=name)
+    if told:
+        return say("{name}: your drawing red, the right one blue.", name=name)
+    if off:
+        return say("{name}: your drawing; look again about the circle, which stands enlarged beside it.", name=name)
+    return say("{name}: your drawing.", name=name)
+
+
+def _own(asked: Asked, answer: dict[str, Any], answer_key: AnswerKey | None, *, told: bool) -> CurvePicture:
+    """The student's drawing, circled where it is farthest off, and over the key where that is told."""
+    key = None if answer_key is None else answer_key.keys[asked.name].expected
     spot = None
-    if answer_key is not None and answer["outcome"] in ("wrong", "partial"):
-        spot = worst_place(answer_key.keys[asked.name].expected, answer, asked.kind)
+    if key is not None and answer["outcome"] in ("wrong", "partial"):
+        spot = worst_place(key, answer, asked.kind)
+    if key is not None and told:
+        return over_key(key, answer, asked.kind, spot)
     return picture([("own", points_of(answer), asked.kind == "curve")], spot)

@@ -1,0 +1,160 @@
+"""Mistakes about the cam centre: the follower's place, the sense of rotation, circles, permitted angles, the roller."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.drawn_translating import DrawnTranslating
+from graphcam.constructions.working_profile import working_profile
+from graphcam.drafting.ink import say
+from graphcam.errors import DesignError
+from graphcam.exercises.definition.catalogue import usual
+from graphcam.exercises.definition.drawn_answers import read_as, redrawn, rescaled
+from graphcam.given.follower import Rotation, sense
+from graphcam.given.limits import Limits
+
+
+@usual(say("The offset looks laid off on the other side of the cam centre."))
+def offset_sign(chain: Chain) -> Chain:
+    """The follower's line on the other side of the cam centre."""
+    follower = chain.board.follower
+    if follower.place is None or follower.place_name != "offset":
+        raise DesignError("offset", "not given", "given where its sign is to be mistaken")
+    return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-follower.place)))
+
+
+@usual(say("The cam looks turned in the other sense: v is turned by 90° in the sense of the cam's rotation."))
+def rotation_sense(chain: Chain) -> Chain:
+    """The cam turned in the other sense."""
+    return redrawn(chain, replace(chain.board, rotation=_other(chain.board.rotation)))
+
+
+@usual(say("The positions look numbered with the rotation: by inversion the frame goes round against it."))
+def numbering_sense(chain: Chain) -> Chain:
+    """The positions of the follower numbered with the rotation."""
+    return _inverted(chain, chain.prime_radius, _other(chain.board.rotation))
+
+
+@usual(say("The base circle looks taken for the prime circle: the prime circle runs through the roller's centre."))
+def base_circle(chain: Chain) -> Chain:
+    """The circle of the profile's least radius where the prime circle is asked."""
+    return _about_circle(chain, chain.prime_radius - chain.roller_radius)
+
+
+@usual(
+    say("The roller's radius looks added to the prime radius: the prime circle is that of the roller's centre already.")
+)
+def roller_added(chain: Chain) -> Chain:
+    """The prime radius taken for that of the profile's least circle, and the roller's radius added."""
+    return _about_circle(chain, chain.prime_radius + chain.roller_radius)
+
+
+@usual(say("The prime radius looks taken for a diameter."))
+def prime_diameter(chain: Chain) -> Chain:
+    """A prime circle of half the size."""
+    return _about_circle(chain, chain.prime_radius / 2)
+
+
+def _about_circle(chain: Chain, radius: float) -> Chain:
+    """Pressure angle and inversion drawn about a circle of another radius [mm]."""
+    # The scale of the profile stays what it is, so the task's own prime radius does not change.
+    board = chain.board
+    measured = board.follower.pressure_angle(chain.integration, board.rotation, radius, chain.place, chain.pencil)
+    return _inverted(chain.going_on_from(measured), radius, board.rotation)
+
+
+@usual(say("The displacements look laid off from the offset circle: they start at the prime circle."))
+def offset_circle(chain: Chain) -> Chain:
+    """The displacements laid off from the points where the tangents touch the circle e."""
+    # A hair more than the circle e itself, which a tangent meets in one point or, by rounding, in none.
+    return _inverted(chain, abs(chain.place) * (1 + 1e-9), chain.board.rotation)
+
+
+@usual(say("Cam angles look used as polar angles of the points: a point does not lie on the ray of its cam angle."))
+def polar_angle(chain: Chain) -> Chain:
+    """The points of the pitch curve, at their radii, on the rays of the cam angles from the first of them on."""
+    inverted, stations = chain.inversion, chain.board.stations
+    pitch = inverted.points["pitch"]
+    rays = np.exp(-1j * sense(chain.board.rotation) * (stations.phi - stations.phi[0]))
+    placed = np.abs(pitch) * (pitch / np.abs(pitch))[..., :1] * rays
+    readings = {
+        **inverted.readings,
+        "x": replace(inverted.readings["x"], paper=placed.real),
+        "y": replace(inverted.readings["y"], paper=placed.imag),
+        "polar_angle": replace(inverted.readings["polar_angle"], paper=np.angle(placed)),
+    }
+    return chain.going_on_from(replace(inverted, readings=readings, points={**inverted.points, "pitch": placed}))
+
+
+@usual(
+    say(
+        "The tangent's angle looks laid off where v and s have different scales: redraw v in the scale of s, "
+        "or correct the angle."
+    )
+)
+def unequal_scales(chain: Chain) -> Chain:
+    """The lengths of v from its own diagram laid off beside s, in the scale of v."""
+    integrated, board = chain.integration, chain.board
+    laid_off = rescaled(integrated, "v", np.asarray(integrated.readings["s"].scale))
+    place = board.follower.place
+    region = board.follower.least_radius(laid_off, board.rotation, board.limits, place, chain.pencil)
+    return chain.going_on_from(region)
+
+
+@usual(say("The permitted angles of rise and return look exchanged."))
+def limits_swapped(chain: Chain) -> Chain:
+    """The rise at the return's permitted angle, the return at the rise's."""
+    limits = chain.board.limits
+    if limits.return_ is None:
+        raise DesignError("limits", "without one of the return", "two where they are to be swapped")
+    return redrawn(chain, replace(chain.board, limits=Limits(limits.return_, limits.rise, limits.rest)))
+
+
+@usual(say("The permitted angle looks laid off from the wrong axis: it is measured from the line of motion."))
+def limit_from_the_horizontal(chain: Chain) -> Chain:
+    """The permitted angles laid off from the axis across the motion."""
+    limits = chain.board.limits
+    back = None if limits.return_ is None else math.pi / 2 - limits.return_
+    return redrawn(chain, replace(chain.board, limits=Limits(math.pi / 2 - limits.rise, back, limits.rest)))
+
+
+@usual(say("A diameter looks given for the radius of curvature."))
+def diameter_for_radius(chain: Chain) -> Chain:
+    """The radius of curvature doubled."""
+    return chain.going_on_from(read_as(chain.curvature, "rho", 2 * chain.curvature.readings["rho"].paper))
+
+
+@usual(say("The profile looks drawn on the far side of the roller: it lies between the roller's centre and the cam's."))
+def roller_outside(chain: Chain) -> Chain:
+    """The outer envelope of the roller's circles."""
+    profile, pitch = chain.working_profile, chain.inversion.points["pitch"]
+    outer = np.abs(2 * pitch - profile.points["touch"])
+    return chain.going_on_from(read_as(profile, "radius", outer))
+
+
+@usual(say("The roller looks drawn with its diameter for its radius."))
+def roller_diameter(chain: Chain) -> Chain:
+    """Circles of the roller's diameter about its centre, where its radius is given."""
+    return chain.going_on_from(working_profile(chain.inversion, 2 * chain.roller_radius, chain.pencil))
+
+
+@usual(say("The greater of the rule's candidates looks taken: the smaller one is the limit."))
+def rule_greater(chain: Chain) -> Chain:
+    """The greatest of what the rule for the roller proposes."""
+    greatest = chain.roller.readings["candidates"].paper.max(axis=-1)
+    return chain.going_on_from(read_as(chain.roller, "roller_radius", greatest))
+
+
+def _other(rotation: Rotation) -> Rotation:
+    return "cw" if rotation == "ccw" else "ccw"
+
+
+def _inverted(chain: Chain, prime_radius: float, rotation: Rotation) -> Chain:
+    """The inversion alone drawn otherwise."""
+    follower = chain.board.follower
+    inverted = follower.inversion(
+        chain.integration, rotation, prime_radius, chain.place, chain.profile_scale, chain.pencil
+    )
+    return chain.going_on_from(inverted)

@@ -1,0 +1,40 @@
+"""The catalogue of mistakes: how one is entered, and how it is found by its name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Caption
+
+Change = Callable[[Chain], Chain]
+M = TypeVar("M", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class CatalogueEntry:
+    """A mistake of the catalogue.
+
+    said : to the student; ``{argument}`` stands for the argument
+    change : the change itself, or of a mistake that takes an argument the function that makes it of that
+    takes : what the argument is; empty where there is none
+    """
+
+    said: Caption
+    change: Callable[..., Any]
+    takes: str
+
+
+CATALOGUE: dict[str, CatalogueEntry] = {}
+"""Every misconception that an exercise may name, by that name: the function's, with hyphens."""
+
+
+def usual(said: Caption, takes: str = "") -> Callable[[M], M]:
+    """Enter a function into the catalogue."""
+
+    def entered(mistake: M) -> M:
+        """Under its own name."""
+        CATALOGUE[mistake.__name__.replace("_", "-")] = CatalogueEntry(said, mistake, takes)
+        return mistake
+
+    return entered

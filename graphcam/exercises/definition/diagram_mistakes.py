@@ -1,0 +1,204 @@
+"""Mistakes in the diagrams over the cam angle: laws, phases, ordinates, scales, poles, slopes, stations."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.ink import Construction, say
+from graphcam.errors import DesignError, nearest
+from graphcam.exercises.definition.catalogue import Change, usual
+from graphcam.exercises.definition.drawn_answers import construction_of, read_as, redrawn, rescaled, with_ordinates
+from graphcam.given.laws import LAWS
+from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+
+Moving = Rise | Return
+
+
+@usual(
+    say("The diagram looks drawn by another law of motion ({argument}): read in the task which law is asked."),
+    takes="the name of a law",
+)
+def wrong_law(law: str) -> Change:
+    """All moving phases by another law."""
+    if law not in LAWS:
+        raise DesignError("law", law, "one of the known laws", nearest(law, LAWS))
+
+    def by_law(phase: Phase) -> Phase:
+        """The phase by that law; a dwell has none."""
+        return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
+
+    return lambda chain: _moved_by(chain, [by_law(phase) for phase in chain.board.motion.phases])
+
+
+@usual(say("The laws of rise and return look exchanged: each phase has its own."))
+def laws_swapped(chain: Chain) -> Chain:
+    """The law of the first moving phase in the second, and that of the second in the first."""
+    return _two_phases(chain, lambda own, other: replace(own, law=other.law, ratio=other.ratio))
+
+
+@usual(say("The cam angles of rise and return look exchanged: each phase has its own."))
+def angles_swapped(chain: Chain) -> Chain:
+    """The first moving phase over the angle of the second, and the second over that of the first."""
+    return _two_phases(chain, lambda own, other: replace(own, angle=other.angle))
+
+
+@usual(say("Half the lift looks drawn: the follower rises by the whole of it."))
+def lift_halved(chain: Chain) -> Chain:
+    """All moving phases with half of their lift."""
+    return _two_phases(chain, lambda own, _: replace(own, lift=own.lift / 2))
+
+
+def _two_phases(chain: Chain, change: Callable[[Moving, Moving], Moving]) -> Chain:
+    """The first two moving phases changed: each by itself and the other."""
+    phases = list(chain.board.motion.phases)
+    first, second = [k for k, phase in enumerate(phases) if not isinstance(phase, Dwell)][:2]
+    a, b = phases[first], phases[second]
+    assert not isinstance(a, Dwell)
+    assert not isinstance(b, Dwell)
+    phases[first], phases[second] = change(a, b), change(b, a)
+    return _moved_by(chain, phases)
+
+
+def _moved_by(chain: Chain, phases: list[Phase]) -> Chain:
+    return redrawn(chain, replace(chain.board, motion=Motion(phases)))
+
+
+@usual(
+    say("Both ordinates look chosen freely: only one is chosen, the other follows from the areas that must be equal.")
+)
+def ordinates_equal(chain: Chain) -> Chain:
+    """Every phase drawn with the ordinate that was chosen for the first rise."""
+    return _other_ordinates(chain, lambda ratio: 1 / ratio)
+
+
+@usual(say("The ratio of the ordinates looks turned round: the shorter phase has the longer ordinate."))
+def ordinates_swapped(chain: Chain) -> Chain:
+    """The ratio of the other phases' ordinates to the chosen one turned round."""
+    return _other_ordinates(chain, lambda ratio: 1 / ratio**2)
+
+
+def _other_ordinates(chain: Chain, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Chain:
+    # The greatest ordinate of every phase over the chosen one, and what the mistake makes of it.
+    ratio = chain.acceleration.readings["greatest"].paper / chain.board.ordinate
+    return chain.going_on_from(with_ordinates(chain.acceleration, change(ratio)))
+
+
+@usual(
+    say("The ordinate at the end of each part looks taken for the one at its middle, where the chord has its slope.")
+)
+def end_ordinate(chain: Chain) -> Chain:
+    """The ordinate at the end of each part in place of the one at its middle."""
+    before = chain.acceleration.readings["before"].paper
+    ends = before[..., chain.board.stations.left + 1]
+    return chain.going_on_from(read_as(chain.acceleration, "middles", ends))
+
+
+@usual(
+    say("The scale of the cam angle looks taken in degrees: derivatives are per radian, so it counts in rad/mm."),
+    takes="integration or differentiation",
+)
+def degree_for_radian(name: str) -> Change:
+    """The scale of the cam angle in degrees a millimetre in the scales of v and a of the construction of that name."""
+    return lambda chain: _wrong_scales(chain, name, (math.degrees(1), math.degrees(1)))
+
+
+@usual(
+    say(
+        "The pole distance looks left out of a scale: a longer pole makes a flatter curve, and the scale "
+        "makes up for it."
+    ),
+    takes="integration or differentiation",
+)
+def pole_forgotten(name: str) -> Change:
+    """The scales of v and a without the pole distances in the construction of that name."""
+
+    def forgotten(chain: Chain) -> Chain:
+        """The chain with those scales."""
+        first, second = chain.board.poles if name == "differentiation" else chain.board.poles[::-1]
+        return _wrong_scales(chain, name, (1 / first, 1 / second))
+
+    return forgotten
+
+
+def _wrong_scales(chain: Chain, name: str, divisors: tuple[float, float]) -> Chain:
+    """The scale of v divided by the first number, that of a by both."""
+    v = rescaled_by(construction_of(chain, name), "v", 1 / divisors[0])
+    return chain.going_on_from(rescaled_by(v, "a", 1 / divisors[1]))
+
+
+def rescaled_by(construction: Construction, name: str, factor: float) -> Construction:
+    """The construction with a scale, and those that follow from it, times a factor."""
+    return rescaled(construction, name, np.asarray(construction.readings[name].scale) * factor)
+
+
+@usual(
+    say("A length looks given as it was measured on paper: times its scale it is the value that was asked."),
+    takes="a construction and its reading, such as integration.v",
+)
+def scale_forgotten(place: str) -> Change:
+    """A length on paper taken for the value; ``place`` is a construction and its reading, joined by a point."""
+    name, _, reading = place.partition(".")
+
+    def forgotten(chain: Chain) -> Chain:
+        """The chain that goes on from the millimetres themselves."""
+        construction = construction_of(chain, name)
+        return chain.going_on_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
+
+    return forgotten
+
+
+@usual(say("The slope looks turned upside down: it is the rise over the run."))
+def slope_inverted(chain: Chain) -> Chain:
+    """Run over rise for rise over run: every ordinate H/(rise/run)."""
+    derived = chain.differentiation
+    v = derived.readings["v"].paper
+    with np.errstate(divide="ignore"):
+        return chain.going_on_from(read_as(derived, "v", derived.givens.poles[0] ** 2 / v))
+
+
+@usual(say("The slope of a chord looks set down at its end: it belongs to the middle of the part."))
+def chord_at_its_end(chain: Chain) -> Chain:
+    """The value of a chord set down at its end: in the middle of the next part stands the mean of two chords."""
+    derived = chain.differentiation
+    v = derived.readings["v"].paper
+    return chain.going_on_from(read_as(derived, "v", (v + np.roll(v, 1, axis=-1)) / 2))
+
+
+@usual(
+    say("The two pole distances look exchanged on the drawing, while the scales are those of the right ones."),
+    takes="integration or differentiation",
+)
+def poles_swapped(name: str) -> Change:
+    """The diagrams of the construction of that name drawn with each other's pole, and read with the scales given."""
+
+    def swapped(chain: Chain) -> Chain:
+        """The chain with those diagrams."""
+        drawn = construction_of(redrawn(chain, replace(chain.board, poles=chain.board.poles[::-1])), name)
+        for reading in ("v", "a"):
+            given = np.asarray(construction_of(chain, name).readings[reading].scale)
+            drawn = rescaled(drawn, reading, given)
+        return chain.going_on_from(drawn)
+
+    return swapped
+
+
+@usual(
+    say("The diagrams look read one place too late: count the stations, or the parts, as the task does."),
+    takes="integration or differentiation",
+)
+def station_too_late(name: str) -> Change:
+    """At every station the ordinate of the next one, in the diagrams of the construction of that name."""
+
+    def late(chain: Chain) -> Chain:
+        """The chain that goes on from those ordinates."""
+        drawn = construction_of(chain, name)
+        read = ("s", "v") if name == "integration" else ("rise", "v")
+        for reading in read:
+            drawn = read_as(drawn, reading, np.roll(drawn.readings[reading].paper, -1, axis=-1))
+        return chain.going_on_from(drawn)
+
+    return late

@@ -1,0 +1,64 @@
+"""The variants of a whole course, told apart: nobody earns much with the answers of a neighbour."""
+
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Executor
+from dataclasses import replace
+from functools import partial
+
+from graphcam.exercises.definition.exercise import Answers, Exercise
+from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.keying import issue
+from graphcam.exercises.marking.copy_gain import HALF
+from graphcam.exercises.marking.marking import mark
+from graphcam.workers import in_order
+
+GROUP = 40
+"""A variant is held against those of so many students before it in the roster: a group that sits together."""
+LUCK = 1.25
+"""A copy may be right by luck: an answer counts that is off by so many tolerances."""
+MOST_TIMES = 20
+"""So often at most a variant is drawn again: an exercise with few parameters has not enough of them for a group."""
+
+
+def course_variants(
+    exercise: Exercise, students: Iterable[str], secret: bytes, executor: Executor | None = None
+) -> Iterator[tuple[Variant, AnswerKey]]:
+    """A variant for each of these students, in their order, with its answer key.
+
+    One is drawn again by which, or for which, a copy from one of the forty before earns more than half of the marks.
+    The same exercise, secret and students in the same order give the same variants; who is added at the end changes
+    none.
+
+    Raises
+    ------
+    DesignError : there is a student for whom no draw of the parameters can be diagnosed
+    """
+    before: deque[AnswerKey] = deque(maxlen=GROUP)
+    names = list(students)
+    first = in_order(executor, partial(_first, exercise, secret), names)
+    for student, (variant, answer_key) in zip(names, first, strict=True):
+        for _ in range(MOST_TIMES):
+            if not any(too_near(exercise, answer_key, other) for other in before):
+                break
+            variant, answer_key = issue(exercise, student, secret, variant.draw + 1)
+        before.append(answer_key)
+        yield variant, answer_key
+
+
+def _first(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
+    return issue(exercise, student, secret)
+
+
+def too_near(exercise: Exercise, one: AnswerKey, other: AnswerKey) -> bool:
+    """Whether the right answers of one of two variants earn more than half of the marks in the other."""
+    return any(
+        (record := mark(exercise, replace(to, bound=LUCK * to.bound), right_answers(copied))).total > HALF * record.of
+        for to, copied in ((one, other), (other, one))
+    )
+
+
+def right_answers(answer_key: AnswerKey) -> Answers:
+    """What a perfect hand answers."""
+    return Answers({name: key.expected.value for name, key in answer_key.keys.items()})
