@@ -69,6 +69,7 @@ def _steps(sized: SizedCam, region: FeasibleRegion, size: complex) -> list[Step]
     span, rise = max(e1 - e0, MARGIN * r1), max(r1 - r0, MARGIN * r1)
 
     def place(e: Floats | float, radius: Floats | float) -> Points:
+        """Places on paper [mm] of an offset and a prime radius [mm]."""
         across, up = (np.asarray(e) - e0) / span, (np.asarray(radius) - r0) / rise
         return np.asarray(across * size.real + UP * up * size.imag)
 

@@ -168,6 +168,7 @@ def _in_order(leaves: Sequence[Leaf], views: Sequence[Panel]) -> list[Leaf]:
     rank = {panel.view.name: k for k, panel in enumerate(views)}
 
     def place(leaf: Leaf) -> float:
+        """Where a page stands: the mean rank of its views; the first view comes first, a page without views last."""
         ranks = [rank[name] for name in leaf.views]
         if not ranks:
             return math.inf

@@ -7,6 +7,10 @@ from typing import Any, TypeVar
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption
 
+A_LAW = "the name of a law"
+A_DIAGRAM = "integration or differentiation"
+A_READING = "a construction and its reading, such as integration.v"
+"""What mistakes take, as a message says it."""
 Change = Callable[[Chain], Chain]
 M = TypeVar("M", bound=Callable[..., Any])
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest
-from graphcam.exercises.definition.catalogue import Change, usual
+from graphcam.exercises.definition.catalogue import A_DIAGRAM, A_LAW, A_READING, Change, usual
 from graphcam.exercises.definition.drawn_answers import construction_of, read_as, redrawn, rescaled, with_ordinates
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
@@ -20,7 +20,7 @@ Moving = Rise | Return
 
 @usual(
     say("The diagram looks drawn by another law of motion ({argument}): read in the task which law is asked."),
-    takes="the name of a law",
+    takes=A_LAW,
 )
 def wrong_law(law: str) -> Change:
     """All moving phases by another law."""
@@ -99,7 +99,7 @@ def end_ordinate(chain: Chain) -> Chain:
 
 @usual(
     say("The scale of the cam angle looks taken in degrees: derivatives are per radian, so it counts in rad/mm."),
-    takes="integration or differentiation",
+    takes=A_DIAGRAM,
 )
 def degree_for_radian(name: str) -> Change:
     """The scale of the cam angle in degrees a millimetre in the scales of v and a of the construction of that name."""
@@ -111,7 +111,7 @@ def degree_for_radian(name: str) -> Change:
         "The pole distance looks left out of a scale: a longer pole makes a flatter curve, and the scale "
         "makes up for it."
     ),
-    takes="integration or differentiation",
+    takes=A_DIAGRAM,
 )
 def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
@@ -137,7 +137,7 @@ def rescaled_by(construction: Construction, name: str, factor: float) -> Constru
 
 @usual(
     say("A length looks given as it was measured on paper: times its scale it is the value that was asked."),
-    takes="a construction and its reading, such as integration.v",
+    takes=A_READING,
 )
 def scale_forgotten(place: str) -> Change:
     """A length on paper taken for the value; ``place`` is a construction and its reading, joined by a point."""
@@ -170,7 +170,7 @@ def chord_at_its_end(chain: Chain) -> Chain:
 
 @usual(
     say("The two pole distances look exchanged on the drawing, while the scales are those of the right ones."),
-    takes="integration or differentiation",
+    takes=A_DIAGRAM,
 )
 def poles_swapped(name: str) -> Change:
     """The diagrams of the construction of that name drawn with each other's pole, and read with the scales given."""
@@ -188,7 +188,7 @@ def poles_swapped(name: str) -> Change:
 
 @usual(
     say("The diagrams look read one place too late: count the stations, or the parts, as the task does."),
-    takes="integration or differentiation",
+    takes=A_DIAGRAM,
 )
 def station_too_late(name: str) -> Change:
     """At every station the ordinate of the next one, in the diagrams of the construction of that name."""

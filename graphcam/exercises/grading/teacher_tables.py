@@ -89,7 +89,7 @@ class TeacherTables:
         TaskError : one cannot be used
         """
         exercise = course.exercise
-        marks, asked, submitted = overrides or course.table(OVERRIDES), course.table(REQUESTS), None
+        marks, asked = overrides or course.table(OVERRIDES), course.table(REQUESTS)
         by_hand = read_overrides(marks, exercise, [one.student for one in course.hand_ins]) if marks else []
         answers = [*(answer.name for answer in exercise.answers), TOTAL]
         requests = read_requests(asked, answers, course.who_handed_in()) if asked else []

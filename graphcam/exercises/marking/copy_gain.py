@@ -6,12 +6,11 @@ from itertools import permutations
 
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.coinciding import HALF
 from graphcam.exercises.marking.marking import mark
 
-VARIANTS = 40
-"""Of so many variants at most every one is marked by every other's key: the work grows with the square."""
-HALF = 0.5
-"""A copy that earns more of the marks shows that the variants are too alike."""
+GROUP = 40
+"""Students who sit together.  Of so many every one is marked by every other's key: the work grows with the square."""
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,12 @@ from functools import partial
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.coinciding import HALF
 from graphcam.exercises.key.keying import issue
-from graphcam.exercises.marking.copy_gain import HALF
+from graphcam.exercises.marking.copy_gain import GROUP
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import in_order
 
-GROUP = 40
-"""A variant is held against those of so many students before it in the roster: a group that sits together."""
 LUCK = 1.25
 """A copy may be right by luck: an answer counts that is off by so many tolerances."""
 MOST_TIMES = 20
@@ -27,7 +26,8 @@ def course_variants(
 ) -> Iterator[tuple[Variant, AnswerKey]]:
     """A variant for each of these students, in their order, with its answer key.
 
-    One is drawn again by which, or for which, a copy from one of the forty before earns more than half of the marks.
+    One is drawn again by which, or for which, a copy from one of the group of forty before it in the roster earns more
+    than half of the marks.
     The same exercise, secret and students in the same order give the same variants; who is added at the end changes
     none.
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.errors import GraphcamError
+from graphcam.exercises.definition.catalogue import A_LAW, A_READING
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -24,9 +25,9 @@ def unlisted_names(exercise: Exercise) -> list[str]:
     lengths = dict.fromkeys(f"{each.construction}.{each.reading}" for each in asked if each.reading)
     names: list[str] = []
     for name, entry in CATALOGUE.items():
-        if entry.takes == "the name of a law":
+        if entry.takes == A_LAW:
             names += [f"{name}: {law}" for law in LAWS]
-        elif entry.takes.startswith("a construction"):
+        elif entry.takes == A_READING:
             names += [f"{name}: {length}" for length in lengths]
         else:
             names += [f"{name}: {diagram}" for diagram in diagrams] if entry.takes else [name]

@@ -16,7 +16,7 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.scatter import Drawn, answers_of
-from graphcam.exercises.marking.copy_gain import VARIANTS, CopyGain, copy_gain
+from graphcam.exercises.marking.copy_gain import GROUP, CopyGain, copy_gain
 from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.outside import unlisted, without
@@ -268,7 +268,10 @@ def _counted(
     drawn = board_chain(variant.task, exercise.hand.pencil(hands, 1 + k))
     found.careful.mark(exercise, answer_key, drawn)
     for name, tally in found.populations.items():
-        tally.mark(exercise, answer_key, drawn.by(HandTable(name).pencil(hands, 1 + k)))
+        if (table := HandTable(name)) == exercise.hand:
+            tally.add(found.careful)
+        else:
+            tally.mark(exercise, answer_key, drawn.by(table.pencil(hands, 1 + k)))
     for name, tally in found.wrong.items():
         wrongly = misconception(name).change(drawn)
         tally.mark(exercise, answer_key, wrongly)
@@ -276,7 +279,7 @@ def _counted(
     if k % SPARSELY == 0:
         for _, answers in unlisted(exercise, drawn):
             found.outside.mark_answers(exercise, answer_key, answers, hands)
-    careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < VARIANTS else []
+    careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < GROUP else []
     return variant.draw, found, careful_work
 
 
