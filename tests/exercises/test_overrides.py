@@ -72,7 +72,8 @@ def test_a_table_that_is_named_counts_instead_and_may_be_that_of_a_spreadsheet(c
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (f"{HEAD}Anna,{FIRST},1,\nDora,{FIRST},1,", r"line 3: student is 'Dora', but must be one who handed in"),
+        (f"{HEAD}Anna,{FIRST},1,\nDora,{FIRST},1,", r"line 3: student is .Dora., but must be one student who"),
+        (f"{HEAD}Dora,{FIRST},1,", "check the id; for work on paper make an empty folder of that name"),
         (f"{HEAD}Anna,v,1,", rf"line 2: answer is 'v', but must be one of {FIRST}, .*total"),
         (f"{HEAD}Anna,{FIRST},many,", r"line 2: marks is 'many', but must be a number from 0 to"),
         (f"{HEAD}Anna,{FIRST},nan,", r"line 2: marks is 'nan'"),
@@ -80,7 +81,7 @@ def test_a_table_that_is_named_counts_instead_and_may_be_that_of_a_spreadsheet(c
         (f"{HEAD}Anna,total,{EXERCISE.marks + 1},", rf"line 2: marks .* from 0 to {EXERCISE.marks:g}"),
         (f"{HEAD}Anna,{FIRST}", r"line 2: marks is ''"),
         (f"{HEAD}Anna,{FIRST},0,\nAnna,{FIRST},1,", r"line 3: answer is .* give each answer of a student once"),
-        ("Anna,total,1,\n", r"the first line is 'anna,total,1,', but must be student,answer,marks,comment"),
+        ("Anna,total,1,\n", r"the first line is 'anna,total,1,', but must be with student,answer,marks,comment"),
         (b"\xff", "not UTF-8"),
         (None, "the overrides is"),
     ],

@@ -28,13 +28,19 @@ class StudentLine:
 
 
 def student_lines(
-    path: Path, what: str, columns: Sequence[str], known: Recognition, who: str = "of the course"
+    path: Path,
+    what: str,
+    columns: Sequence[str],
+    known: Recognition,
+    who: str = "of the course",
+    absent: str = "check the id",
 ) -> Iterator[StudentLine]:
     """The lines of a CSV file about students, whom it names by id, e-mail address or name.
 
     what : the table, as a message names it: "the extensions"
     columns : headings that must be there, in any order and among others; the first is the student's
     known, who : the students that it may name, and in words which they are
+    absent : the remedy where a line names none of them
 
     Raises
     ------
@@ -50,7 +56,7 @@ def student_lines(
         said = cells.get(columns[0], "")
         meant = _meant(said, known)
         if len(meant) != 1:
-            remedy = f"it may mean {', '.join(meant)}; give the id" if meant else "check the id"
+            remedy = f"it may mean {', '.join(meant)}; give the id" if meant else absent
             raise TaskError(
                 str(path),
                 f"line {number}: {columns[0]}",

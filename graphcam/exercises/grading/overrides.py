@@ -1,14 +1,14 @@
 """Marks that a teacher gives by hand: a table that is read at every grading, so that they last."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
-from graphcam.exercises.course.spreadsheet import cell, read_table
+from graphcam.exercises.course.recognition import Recognition
+from graphcam.exercises.course.student_table import StudentLine, once, student_lines
 from graphcam.exercises.definition.exercise import Exercise
 
 OVERRIDES = "overrides.csv"
@@ -16,6 +16,8 @@ OVERRIDES = "overrides.csv"
 TOTAL = "total"
 """In place of an answer's name: the marks are for the whole hand-in."""
 COLUMNS = ("student", "answer", "marks", "comment")
+ABSENT = "check the id; for work on paper make an empty folder of that name"
+"""What to do about a student who did not hand in."""
 
 
 @dataclass(frozen=True)
@@ -28,55 +30,35 @@ class Override:
     comment: str
 
 
-def read_overrides(path: Path, exercise: Exercise, students: Iterable[str]) -> list[Override]:
+def read_overrides(path: Path, exercise: Exercise, known: Recognition) -> list[Override]:
     """The marks given by hand, from a CSV file with the columns student, answer, marks and comment.
 
-    students : who handed in
+    known : who handed in
 
     Raises
     ------
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
-    rows = read_table(path, "the overrides")
-    # An id that was copied from the table of grades may have the guard of its cell.
-    known = {cell(student): student for student in students}
-    known |= {student: student for student in known.values()}
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    found: dict[tuple[str, str], Override] = {}
-    head = [name.strip().lower() for name in rows[0][1]] if rows else []
-    if sorted(head) != sorted(COLUMNS):
-        raise TaskError(str(path), "the first line", ",".join(head), ",".join(COLUMNS), "give these columns")
-    for line, row in rows[1:]:
-        where = f"line {line}"
-        one = _override(str(path), where, dict(zip(head, row, strict=False)), known, possible)
-        if (one.student, one.answer) in found:
-            remedy = "give each answer of a student once"
-            raise TaskError(str(path), f"{where}: answer", one.answer, "another one", remedy)
-        found[one.student, one.answer] = one
-    return list(found.values())
+    lines = student_lines(path, "the overrides", COLUMNS, known, "who handed in", ABSENT)
+    return [_override(line, possible) for line in once(lines, ("answer",), "give each answer of a student once")]
 
 
-def _override(
-    path: str, where: str, row: Mapping[str, str], known: Mapping[str, str], possible: Mapping[str, float]
-) -> Override:
+def _override(line: StudentLine, possible: Mapping[str, float]) -> Override:
     """One line.
 
-    known : ids by how they may be written;  possible : marks by the answer's name
+    possible : marks by the answer's name
     """
-    student, answer = row.get("student", ""), row.get("answer", "").strip()
-    if student not in known:
-        remedy = "check the id; for work on paper make an empty folder of that name"
-        raise TaskError(path, f"{where}: student", student, "one who handed in", remedy)
-    if answer not in possible:
-        raise TaskError(path, f"{where}: answer", answer, f"one of {', '.join(possible)}", "check the name")
-    said = row.get("marks", "").strip()
+    if line["answer"] not in possible:
+        raise line.wrong("answer", f"one of {', '.join(possible)}", "check the name")
+    most = possible[line["answer"]]
     try:
-        marks = float(said.replace(",", "."))
+        marks = float(line["marks"].replace(",", "."))
     except ValueError:
         marks = math.nan
-    if not 0 <= marks <= possible[answer]:
-        raise TaskError(path, f"{where}: marks", said, f"a number from 0 to {possible[answer]:g}", "correct the line")
-    return Override(known[student], answer, marks, " ".join(row.get("comment", "").split()))
+    if not 0 <= marks <= most:
+        raise line.wrong("marks", f"a number from 0 to {most:g}", "correct the line")
+    return Override(line.student, line["answer"], marks, " ".join(line["comment"].split()))
 
 
 def overridden(

@@ -90,7 +90,7 @@ class TeacherTables:
         """
         exercise = course.exercise
         marks, asked = overrides or course.table(OVERRIDES), course.table(REQUESTS)
-        by_hand = read_overrides(marks, exercise, [one.student for one in course.hand_ins]) if marks else []
+        by_hand = read_overrides(marks, exercise, course.who_handed_in()) if marks else []
         answers = [*(answer.name for answer in exercise.answers), TOTAL]
         requests = read_requests(asked, answers, course.who_handed_in()) if asked else []
         times: list[HandInTime] = []
