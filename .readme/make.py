@@ -4,6 +4,7 @@ import shutil
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 
 from matplotlib.figure import Figure
 from PIL import Image
@@ -12,6 +13,7 @@ from playwright.sync_api import sync_playwright
 import graphcam as gc
 from graphcam.bench.bench_files import bench
 from graphcam.bench.bench_report import QUICK
+from graphcam.studio.local_studio import local_studio, opened_address
 
 HERE = Path(__file__).parent
 WIDTHS = {"coursework": 1800, "arm": 1200, "flat": 1200}
@@ -38,6 +40,23 @@ def player_picture(page_file: Path) -> Image.Image:
     return both
 
 
+def studio_picture() -> Image.Image:
+    """The studio in a browser: the region of the coursework task."""
+    with TemporaryDirectory() as folder, local_studio(Path(folder), "en") as server, sync_playwright() as playwright:
+        serving = Thread(target=server.run)
+        serving.start()
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+        page.goto(opened_address(server, gc.builtin_task()))
+        page.locator("#canvas .step").first.wait_for()
+        page.wait_for_timeout(3000)
+        shot = page.screenshot()
+        browser.close()
+        # It ends with its last tab.
+        serving.join()
+    return Image.open(BytesIO(shot)).convert("RGB")
+
+
 for name, width in WIDTHS.items():
     with TemporaryDirectory() as folder:
         files = gc.solve(gc.builtin_task(name)).write(folder)
@@ -49,6 +68,8 @@ for name, width in WIDTHS.items():
             player.quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "player.png", optimize=True)
     # Of all ways this one keeps grey lines grey.
     picture.quantize(COLOURS, Image.Quantize.FASTOCTREE).save(HERE / f"{name}.png", optimize=True)
+
+studio_picture().quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "studio.png", optimize=True)
 
 cam = gc.solve(gc.builtin_task()).cam
 plots, picture = Figure((12, 5.6), layout="tight"), BytesIO()

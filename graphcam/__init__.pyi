@@ -41,6 +41,7 @@ from .report.sizing_sheet import sizing_sheet as sizing_sheet
 from .solving.arcs_solution import ArcsSolution as ArcsSolution
 from .solving.solution import Solution as Solution
 from .solving.solve import solve as solve
+from .studio import studio as studio
 from .sweeps.designs import Designs as Designs
 from .sweeps.sweep import sweep as sweep
 from .tasks.arcs_task import ArcsTask as ArcsTask

@@ -6,19 +6,20 @@ A catalog is an ordinary gettext file, and it is there when its file is: nothing
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cache
-from gettext import GNUTranslations, NullTranslations
+from functools import cache, cached_property
 from importlib import resources
-from io import BytesIO
 from numbers import Real
 from pathlib import Path
 from typing import Any
 
+from graphcam.catalog import Catalog, read_catalog
 from graphcam.errors import DesignError
-from graphcam.words import Caption, Words
+from graphcam.words import Caption, Words, say_in
 
 MINUS = "−"
 """As wide as a plus; a hyphen is what a program reads."""
+DECIMAL_SIGN = say_in("decimal sign", ".")
+"""What stands before the decimals, which a catalog tells as it does every text."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +27,7 @@ class Language:
     """A language: how it says captions, and how it writes numbers.
 
     name : as in a task file, "en"
-    decimal : what stands before the decimals
-    translations : of the templates; what a catalog leaves out stays English
+    catalog : of the templates; what it leaves out stays English
 
     >>> from graphcam.words import say
     >>> russian = language("ru")
@@ -38,8 +38,12 @@ class Language:
     """
 
     name: str
-    decimal: str = "."
-    translations: NullTranslations = field(default_factory=NullTranslations, repr=False, compare=False)
+    catalog: Catalog = field(default_factory=Catalog, repr=False, compare=False)
+
+    @cached_property
+    def decimal(self) -> str:
+        """What stands before the decimals."""
+        return self._template(DECIMAL_SIGN)
 
     def text(self, words: Words) -> str:
         """What somebody who speaks the language writes."""
@@ -52,12 +56,9 @@ class Language:
         return template.format_map({name: _Written(value, self) for name, value in words.values.items()})
 
     def _template(self, caption: Caption) -> str:
-        one, many, context = caption.template, caption.plural, caption.context
-        if not one:  # the catalog's own header stands there
-            return ""
-        if many:
-            return self.translations.ngettext(one, many, caption.count)
-        return self.translations.pgettext(context, one) if context else self.translations.gettext(one)
+        if caption.plural:
+            return self.catalog.say_many(caption.template, caption.plural, caption.count)
+        return self.catalog.say(caption.template, caption.context)
 
 
 class _Written:
@@ -107,14 +108,4 @@ def language(name: str) -> Language:
         return ENGLISH
     if name not in languages():
         raise DesignError("language", name, "one of " + ", ".join(languages()))
-    # Only another language needs Babel.
-    from babel import Locale
-    from babel.messages.mofile import write_mo
-    from babel.messages.pofile import read_po
-
-    with (_folder() / f"{name}.po").open("rb") as file:
-        catalog = read_po(file, locale=name)
-    compiled = BytesIO()
-    write_mo(compiled, catalog)
-    compiled.seek(0)
-    return Language(name, Locale.parse(name).number_symbols["latn"]["decimal"], GNUTranslations(compiled))
+    return Language(name, read_catalog((_folder() / f"{name}.po").read_text(encoding="utf-8")))

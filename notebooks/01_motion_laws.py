@@ -24,7 +24,7 @@
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, chart, drawing, explore, picture_of, show_steps, table
+from graphcam.notebooks import Question, chart, picture_of, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -167,16 +167,13 @@ your_second_ordinate = None  # mm of paper
 second_ordinate.check(your_second_ordinate)
 
 # %% [markdown]
-# Move the law and watch the ordinates. The rise keeps its 50 mm; what the law changes is everything else.
+# Choose other laws for rise and return and watch the ordinates. The rise keeps its 50 mm; what the law changes is everything else.
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-def with_law(name):
-    phases = tuple(changed(p, {"law": name}) if p.kind != "dwell" else p for p in task.motion.phases)
-    return drawing(gc.solve(changed(task, {"motion.phases": phases})).drawn["acceleration"])
-
-
-explore(with_law, name=Slider("law of rise and return", tuple(gc.LAWS), "cosine", ("cosine", "cycloidal", "2-3", "3-4-5")))
+laws = ("cosine", "cycloidal", "2-3", "3-4-5")
+gc.studio(task, view="acceleration", stills={
+    f"law of rise and return: {law}": {"motion.phases[0].law": law, "motion.phases[2].law": law} for law in laws})
 
 # %% [markdown]
 # ## Drawn and exact

@@ -27,12 +27,9 @@ import graphcam as gc
 from graphcam.constructions.differentiation import differentiation
 from graphcam.notebooks import (
     Question,
-    Slider,
     changed,
     chart,
     compared,
-    drawing,
-    explore,
     picture_of,
     show_steps,
     table,
@@ -145,18 +142,10 @@ scale_a.check(your_mu_a)
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 smooth = changed(task, {"motion.phases": tuple(
     changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases)})
-
-
-def with_parts(parts, pole):
-    values = {"drawing.divisions": int(parts), "drawing.poles": (float(pole), 40.0)}
-    return drawing(gc.solve(changed(smooth, values)).drawn["integration"], "velocity")
-
-
-explore(
-    with_parts,
-    parts=Slider("parts of each phase", (4, 6, 8, 12, 16, 24), 12, (4, 24)),
-    pole=Slider("pole distance H₁, mm", (25, 30, 40, 50, 60), 40, (30, 60)),
-)
+gc.studio(smooth, view="velocity", stills={
+    **{f"parts of each phase: {parts}": {"drawing.divisions": parts} for parts in (4, 24)},
+    **{f"pole distance H₁, mm: {pole}": {"drawing.poles": [pole, 40]} for pole in (30, 60)},
+})
 
 # %% [markdown]
 # ## The way back: differentiation

@@ -29,12 +29,9 @@ import numpy as np
 import graphcam as gc
 from graphcam.notebooks import (
     Question,
-    Slider,
     changed,
     chart,
     compared,
-    drawing,
-    explore,
     picture_of,
     show_steps,
     table,
@@ -303,21 +300,11 @@ drawn_angle.check(your_angle_deg)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-def with_limits(rise_limit, return_limit, offset):
-    limits = {
-        "limits.pressure_angle_rise": float(rise_limit),
-        "limits.pressure_angle_return": None if return_limit == "none" else float(return_limit),
-        "follower.offset": None if offset == "free" else float(offset),
-    }
-    return drawing(gc.solve(changed(task, limits)).drawn["minimum_radius"])
-
-
-explore(
-    with_limits,
-    rise_limit=Slider("limit on the rise, °", (20, 25, 30, 35, 40, 45), 30, (25, 40)),
-    return_limit=Slider("limit on the return, °", (30, 40, 50, 60, 70, "none"), 50, ("none",)),
-    offset=Slider("offset, mm", ("free", -20, -10, 0, 10, 20), "free", (10,)),
-)
+gc.studio(task, view="combined", stills={
+    **{f"limit on the rise, °: {limit}": {"limits.pressure_angle_rise": limit} for limit in (25, 40)},
+    "limit on the return, °: none": {"limits.pressure_angle_return": None},
+    "offset, mm: 10": {"follower.offset": 10},
+})
 
 # %% [markdown]
 # ## Drawn and exact

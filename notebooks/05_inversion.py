@@ -26,7 +26,7 @@ from math import degrees
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, drawing, explore, show_steps, table
+from graphcam.notebooks import Question, changed, show_steps, table
 
 # %% [markdown]
 # ## Background: stop the cam
@@ -148,16 +148,11 @@ sense.check(your_sense)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-def with_size(prime_radius, offset):
-    values = {"cam.prime_radius": float(prime_radius), "follower.offset": float(offset), "follower.roller_radius": 10.0}
-    return drawing(gc.solve(changed(gc.builtin_task(), values)).drawn["inversion"])
-
-
-explore(
-    with_size,
-    prime_radius=Slider("prime radius, mm", (30, 36, 44, 52, 60, 80), 44, (30, 60)),
-    offset=Slider("offset, mm", (-20, -10, 0, 10, 20), -10, (10,)),
-)
+with_roller = changed(gc.builtin_task(), {"cam.prime_radius": 44.0, "follower.roller_radius": 10.0})
+gc.studio(with_roller, view="profile", stills={
+    **{f"prime radius, mm: {radius}": {"cam.prime_radius": radius} for radius in (30, 60)},
+    "offset, mm: 10": {"follower.offset": 10},
+})
 
 # %% [markdown]
 # ## Drawn and exact

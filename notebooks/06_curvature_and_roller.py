@@ -25,7 +25,7 @@ from math import degrees
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, show_steps, table
+from graphcam.notebooks import Question, changed, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -112,15 +112,11 @@ roller.check(your_roller)
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 small = changed(task, {
     "cam.prime_radius": 30.0,
+    "follower.roller_radius": 8.0,
     "motion.phases": tuple(changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases),
 })
-
-
-def with_roller(roller):
-    return drawing(gc.solve(changed(small, {"follower.roller_radius": float(roller)})).drawn["working_profile"])
-
-
-explore(with_roller, roller=Slider("roller radius, mm", (4, 8, 12, 16, 20, 24), 8, (8, 24)))
+gc.studio(small, view="profile", stills={
+    f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (8, 24)})
 
 # %% [markdown]
 # What the exact side says of the roller of 24 mm, and the largest one that avoids the cusps:

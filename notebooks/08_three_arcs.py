@@ -23,7 +23,7 @@
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, show_steps, table
+from graphcam.notebooks import Question, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -112,11 +112,8 @@ lift.check(your_lift)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-def with_roller(roller):
-    return drawing(gc.solve(changed(task, {"follower.roller_radius": float(roller)})).drawn["arc_diagrams"], "acceleration")
-
-
-explore(with_roller, roller=Slider("roller radius, mm", (0, 5, 10, 15, 20), 10, (0, 20)))
+gc.studio(task, view="acceleration", stills={
+    f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (0, 20)})
 
 # %% [markdown]
 # A larger roller makes the rods longer. The great step at $F$, where the short rod takes over, shrinks; the others hardly change, and none vanishes.

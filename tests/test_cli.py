@@ -207,8 +207,8 @@ main()
 
 @pytest.mark.parametrize(
     "module",
-    ["graphcam.cli", "typer", "graphcam.cli.solve", "numpy", "numpy.linalg", "graphcam.tasks.task", "pydantic",
-     "graphcam.report.output_folder", "matplotlib", "ezdxf"],
+    ["graphcam.cli", "typer", "graphcam.cli.solve", "numpy", "numpy.linalg", "graphcam.tasks.task",
+     "graphcam.tasks.dataclass_reader", "graphcam.report.output_folder", "matplotlib", "ezdxf"],
 )  # fmt: skip
 def test_an_interruption_is_one_line_from_the_first_moment(module, tmp_path):
     ran = subprocess.run([sys.executable, "-c", INTERRUPTED, module], cwd=tmp_path, capture_output=True, text=True)

@@ -15,9 +15,8 @@ from golden import FILE, TASKS, differences, solved, summary
 
 from graphcam.drafting import marks
 
-READINGS, MARKS, FITTED = 1e-12, 1e-9, 1e-9
-"""Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points; a fitted motion
-solves a system of equations, whose solution differs in more than the last digits between builds of one library."""
+READINGS, MARKS = 1e-12, 1e-9
+"""Permitted differences, of a value or of 1.  The sums over marks gather the rounding of many points."""
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 
 
@@ -41,9 +40,8 @@ def values(found):
 
 def test_every_reading_is_the_one_that_was_read_before(task):
     name, now = task
-    permitted = FITTED if name == "measured" else READINGS
-    assert differences(readings(BEFORE[name]), readings(now), permitted) == []
-    assert differences(values(BEFORE[name]), values(now), permitted) == []
+    assert differences(readings(BEFORE[name]), readings(now), READINGS) == []
+    assert differences(values(BEFORE[name]), values(now), READINGS) == []
 
 
 def test_every_mark_and_every_sheet_is_the_one_that_was_drawn_before(task):

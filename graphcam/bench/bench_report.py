@@ -15,11 +15,12 @@ from graphcam.bench.peers import Peer, peers
 from graphcam.bench.rows import Gauge, Row, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.solve_rows import WAITING
+from graphcam.bench.studio_rows import STUDIO
 from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
-SECTIONS: tuple[Section, ...] = (EXACT, BOUNDS, MEASURED, WAITING, CURVE)
+SECTIONS: tuple[Section, ...] = (EXACT, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
 """The tables of measured figures and goals, in order."""
 DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
 

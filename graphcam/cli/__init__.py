@@ -9,6 +9,7 @@ import graphcam
 from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
 from graphcam.cli.solve import solve
+from graphcam.cli.studio import studio
 
 app = typer.Typer(
     name="graphcam", add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich"
@@ -44,6 +45,6 @@ def options(
     """
 
 
-for command in (solve, notebook, bench, sweep, init):
+for command in (solve, studio, notebook, bench, sweep, init):
     app.command()(command)
 app.add_typer(exercise)

@@ -139,14 +139,21 @@ def make(
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
+    studio: Annotated[str, Option(metavar="URL", help="Where your studio's page is; each gets a link into it.")] = "",
+    studio_checks: Annotated[
+        bool, Option("--studio-checks", help="Let it say right and wrong: by hashes, which a program can guess.")
+    ] = False,
 ) -> None:
     """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
 
     [bold]Examples[/bold]
 
     graphcam exercise make pressure-angle --roster roster.csv --secret-file secret --out week-5
+
+    graphcam exercise make least-radius --roster roster.csv --secret-file secret --studio https://course.example/studio/
     """
     from graphcam.exercises.course.make import make as run
+    from graphcam.exercises.exports.studio_link import check_url, write_links
 
     progress = progress_lines(quiet=False)
 
@@ -155,8 +162,12 @@ def make(
         progress(f"student {done} of {total}")
 
     with one_message():
+        if studio:
+            check_url(studio)
         papers = {"language": language, "hand": hand}
         count = run(name, roster, secret_file, out, **papers, workers=workers, cluster=cluster, step=step)
+        if studio:
+            write_links(out, secret_file, studio, checks=studio_checks)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
 

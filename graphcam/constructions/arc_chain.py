@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
-from graphcam.constructions.arc_outline import three_arcs
+from graphcam.constructions.arc_outline import ARCS, three_arcs
 from graphcam.constructions.arc_roller import arc_roller
 from graphcam.constructions.arc_stations import ArcStations, divide_arcs
 from graphcam.constructions.drawings import Drawings, DrawnOnce
@@ -52,6 +52,8 @@ class ArcBoard:
 
         It is coarser where no page would take a centre that is found far away.
         """
+        if (kept := self.paper.kept(ARCS.name)) is not None:
+            return kept
         outer = math.hypot(*self.given.D) + 2 * self.roller_radius
         below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))
         usual = standard_scale(outer + below, min(self.paper.width, self.paper.height), self.paper.ratios)

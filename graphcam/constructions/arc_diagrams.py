@@ -124,7 +124,7 @@ def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
     # On the return the velocity goes as far down as it went up.
     size = (2 * high if name == "v" else high - low) or 1.0
     # The scale of a diagram is no drawing scale, so that the finer series serves every frame.
-    return standard_scale(size, height, GOST_2_302)
+    return rolled.givens.arcs.givens.paper.kept(name) or standard_scale(size, height, GOST_2_302)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------

@@ -64,7 +64,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [Step(say("Velocity and acceleration"), said, PLAN, (), why=FLAT)]
-    scale = _scale(rolled, places)
+    scale = _scale(rolled, places, PLAN)
     hand, velocities = showing(rolled), VelocityScale(scale, rolled.givens.omega)
     _crank_drive(hand, rolled, at, upright * mu_l / scale.per_mm)
     return [_velocity(hand, rolled, at, velocities), _acceleration(hand, rolled, at, velocities)]
@@ -78,12 +78,12 @@ def _at_scale(station: str, scale: VelocityScale) -> View:
     return replace(PLAN, title=title.where(name=station, **scales), mu_l=scale.mu_l.per_mm)
 
 
-def _scale(rolled: RollerOnArcs, places: Points) -> Scale:
+def _scale(rolled: RollerOnArcs, places: Points, view: View) -> Scale:
     """The largest standard scale at which places of the drawing of the roller fit a view of their own."""
     arcs = rolled.givens.arcs.givens
     size = arcs.mu_l.per_mm * complex(np.ptp(places.real), np.ptp(places.imag))
     usual = standard_scale(max(size.real, size.imag), SIZE, arcs.paper.ratios)
-    return coarsest(usual, arcs.paper.scale(size, BESIDE))
+    return arcs.paper.kept(view.name) or coarsest(usual, arcs.paper.scale(size, BESIDE))
 
 
 PLACES = ("B", "C", "K", "right", "beyond", "N", "M")
@@ -256,7 +256,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     hand, o = showing(rolled), rolled.acts["O"].first
     places: Points = np.concatenate([[0j], *(rolled.first(name) for name in "BNM")])
     known = places[~np.isnan(places)]
-    scale = _scale(rolled, known)
+    scale = _scale(rolled, known, ACCELERATIONS)
     b, n, m, across = (
         hand.enlarged(name, rolled.acts[name].first, o, mu / scale.per_mm)
         for name in ("B", "N", "M", "perpendiculars in N")

@@ -1,6 +1,7 @@
 """The stations of a roller on a cam of three arcs, and what lies on its board."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,12 +32,12 @@ class ArcStations:
     u: Floats
     spans: tuple[slice, ...]
 
-    @property
+    @cached_property
     def names(self) -> list[str]:
         """0, 1, 2 ... through the rise; where two arcs meet, the first one's end and the second one's start are one."""
         return [str(k - arc) for k, arc in enumerate(self.arc.tolist())]
 
-    @property
+    @cached_property
     def places(self) -> dict[str, list[int]]:
         """Which of the stations are of one name.
 
@@ -45,7 +46,7 @@ class ArcStations:
         """
         return {name: [k for k, each in enumerate(self.names) if each == name] for name in dict.fromkeys(self.names)}
 
-    @property
+    @cached_property
     def titles(self) -> list[Words]:
         """The names of all stations, with their arc where one name has two."""
         titles: list[Words] = []

@@ -22,7 +22,7 @@ from graphcam.constructions.pressure_angle import (
     shown_station,
 )
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
-from graphcam.constructions.views import ARM_ANGLES, REGION, at_scale
+from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
@@ -105,7 +105,7 @@ ACROSS = 0.2
 
 def _draw(measured: ArmAngles) -> list[Step]:
     k = shown_station(measured)
-    scale = _plan_scale(measured, k)
+    scale = plan_scale(measured, k)
     scales = VelocityScale(scale, measured.givens.omega)
     plan, decided, mu_l = _plan(measured, k, scale), measured.givens.adopted(), measured.givens.mu_l
     rounding = [adoption_step(decided, "c", mu_l.per_mm, at_scale(REGION, mu_l))] if decided else []
@@ -120,7 +120,7 @@ def _draw(measured: ArmAngles) -> list[Step]:
     ]
 
 
-def _plan_scale(measured: ArmAngles, k: int) -> Scale:
+def plan_scale(measured: ArmAngles, k: int) -> Scale:
     """The largest standard scale at which the arm is no longer than usual, and the paper takes the plan beside it."""
     givens, sigma = measured.givens, sense(measured.givens.rotation)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
@@ -130,7 +130,8 @@ def _plan_scale(measured: ArmAngles, k: int) -> Scale:
     d = b + sigma * v * arm
     places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
     size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
-    return coarsest(standard_scale(givens.arm, PLAN_ARM, givens.paper.ratios), givens.paper.scale(size, PLAN_BESIDE))
+    usual = standard_scale(givens.arm, PLAN_ARM, givens.paper.ratios)
+    return givens.paper.kept(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_BESIDE))
 
 
 def _centre(measured: ArmAngles) -> Step:

@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 from graphcam.constructions.axes import degrees
 from graphcam.constructions.curvature import curvature
@@ -108,6 +109,10 @@ class DrawnFollower(ABC):
         """
         return 0j
 
+    def with_positions_at(self, scale: float) -> Self:
+        """The same with its positions drawn at a scale [mm/mm], where they have one of their own."""
+        return self
+
     @abstractmethod
     def built(self, place: float | None, roller_radius: float) -> Follower:
         """The follower with these sizes."""
@@ -148,6 +153,7 @@ class Board:
     rounding : adopted sizes are multiples of it [mm]; None for the largest power of ten below r0/10, at most 1 mm
     paper : what the profile, or another view of its own, finds on the sheet
     omega : of the cam [rad/s], where the task gives a speed
+    station : whose velocity plan is asked for, None for the one that shows most
     refine : divides every part again, to see what finer parts would change
     """
 
@@ -166,6 +172,7 @@ class Board:
     paper: Paper
     omega: float | None = None
     refine: int = 1
+    station: int | None = None
 
     @cached_property
     def stations(self) -> Stations:

@@ -25,6 +25,7 @@ from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
 from graphcam.constructions.roller import roller_radius
 from graphcam.constructions.scheme import scheme
+from graphcam.constructions.views import PROFILE
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
@@ -120,8 +121,8 @@ class Chain(Drawings):
         drawn = follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
         # Asked for only where the steps are told: the region of a given cam need not be drawn for its angles.
         board = self.board
-        givens = replace(drawn.givens, adopted=self.adopted, paper=board.paper, omega=board.omega)
-        return replace(drawn, givens=givens)
+        told = {"adopted": self.adopted, "paper": board.paper, "omega": board.omega, "station": board.station}
+        return replace(drawn, givens=replace(drawn.givens, **told))
 
     @DrawnOnce
     def angle_diagram(self) -> Construction:
@@ -311,6 +312,8 @@ class Chain(Drawings):
     def profile_scale(self) -> Scale:
         """The largest standard scale at which the pitch curve, with its rollers or the phase angles, fits its room."""
         r0, board = self.prime_radius, self.board
+        if (kept := board.paper.kept(PROFILE.name)) is not None:
+            return kept
         rollers = board.roller_radius
         if rollers is None:
             rollers = min((term(rho=r0, r0=r0) for term in board.roller_rule), default=0.0)

@@ -170,7 +170,7 @@ def detail_of(curved: Curved) -> Detail | None:
         return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     paper = curved.givens.inverted.givens.paper
-    scale = standard_scale(float(curved.value("rho")), DETAIL, paper.ratios)
+    scale = paper.kept(CURVATURE.name) or standard_scale(float(curved.value("rho")), DETAIL, paper.ratios)
     times = curved.givens.inverted.givens.mu_l.per_mm / scale.per_mm
     shown, hub = (hand.enlarged(drawn.act.name, drawn, triple[1], times) for drawn in (triple, o))
     return Detail(hand, at_scale(CURVATURE, scale), scale.per_mm, times, shown, hub)

@@ -2,7 +2,8 @@
 
 import cmath
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -50,6 +51,10 @@ class DrawnOscillating(DrawnFollower):
     def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
         """The arm's own length, and those of all followers."""
         return [FollowerSize("arm", say("arm"), self.arm), *super().sizes(place, roller_radius)]
+
+    def with_positions_at(self, scale: float) -> Self:
+        """The same with the arm positions at that scale."""
+        return replace(self, mu_l=Scale(scale, "mm"))
 
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil

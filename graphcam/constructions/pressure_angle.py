@@ -18,7 +18,7 @@ from graphcam.constructions.axes import station_names, turning
 from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities, worked_station
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
-from graphcam.constructions.views import COMBINED
+from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
@@ -37,12 +37,14 @@ class MeasuredGivens(ToldByChain):
     """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs.
 
     omega : of the cam [rad/s], where the task gives a speed
+    station : whose plan is asked for, None for the one that shows most
     """
 
     integrated: Integrated
     rotation: Rotation
     prime_radius: float
     omega: float | None = field(default=None, kw_only=True)
+    station: int | None = field(default=None, kw_only=True)
 
 
 MeasuredAngles = Construction[MeasuredGivens]
@@ -119,9 +121,15 @@ SLOW = 0.25
 
 
 def shown_station(measured: MeasuredAngles) -> int:
-    """The station at which the plan is drawn: where the angle is greatest while the follower rises at some speed."""
+    """The station at which the plan is drawn: where the angle is greatest while the follower rises at some speed.
+
+    Of one that is asked for it is the nearest at which the follower does.
+    """
     # At rest the plan shrinks to a point, though the angle may be greatest there.
-    return int(np.argmax(np.where(moving_up(measured), np.abs(measured.first("alpha")), -1.0)))
+    possible, asked = moving_up(measured), measured.givens.station
+    if asked is not None:
+        return int(np.argmin(np.where(possible, np.abs(np.arange(possible.size) - asked), possible.size + asked)))
+    return int(np.argmax(np.where(possible, np.abs(measured.first("alpha")), -1.0)))
 
 
 def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
@@ -135,7 +143,7 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     k, mu, decided = shown_station(measured), measured.readings["s0"].per_mm, measured.givens.adopted()
     end, centre = measured.acts["ends"].first[k], measured.acts["centre"].first
-    scale = _plan_scale(measured, k, (end.place - centre.place) * mu)
+    scale = plan_scale(measured, k, (end.place - centre.place) * mu)
     scales = VelocityScale(scale, measured.givens.omega)
     shown = _Shown(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
     rounding = [adoption_step(decided, "e", mu, COMBINED)] if decided else []
@@ -146,7 +154,7 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     ]
 
 
-def _plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) -> Scale:
+def plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) -> Scale:
     """The largest standard scale at which the triangle is no taller than usual, and the paper takes the plan beside it.
 
     d : the end of v, from the cam centre [mm]
@@ -155,7 +163,8 @@ def _plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex)
     # v₁ lies across the radius: it is as wide as B lies high.
     triangle = np.ptp([0.0, d.real, v, d.real + v])
     size = complex(float(triangle) + d.imag, max(d.imag, abs(v)))
-    return coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_BESIDE))
+    usual = coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_BESIDE))
+    return paper.kept(PLAN.name) or usual
 
 
 @dataclass(frozen=True, eq=False)

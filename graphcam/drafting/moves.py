@@ -167,6 +167,14 @@ class FollowedBoard:
             found.append(Moves(tuple(draws), done, tuple(self.beside(new if step.parts else shown)), closing))
         return found
 
+    def passed(self, step: Step, readings: Iterable[Reading] = ()) -> None:
+        """A step of which nothing is told: afterwards all that it draws and reads lies on the board."""
+        drawn = [piece for part in step.parts for piece in pieces_of(part.draws)]
+        shown = [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
+        read = [all_of(each.act) for each in readings if each.act is not None]
+        for _ in self._needed([*drawn, *shown, *read]):
+            pass
+
     def _needed(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
         """What must be done for pieces, in order: what they are found from before themselves."""
         for piece in pieces:

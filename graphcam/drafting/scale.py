@@ -1,7 +1,8 @@
 """Scale factors: machine units per millimetre of paper."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from graphcam.errors import DesignError
 from graphcam.words import Caption, say
@@ -62,9 +63,15 @@ def standard_scale(size: float, room: float, ratios: Ratios) -> Scale:
     return Scale(10.0 ** math.ceil(math.log10(size / room)), "mm")
 
 
+NOTHING_HELD: Mapping[str, float] = {}
+"""No view keeps its scale."""
+
+
 @dataclass(frozen=True)
 class Paper:
     """What a view of its own finds on the sheet: its room [mm of paper], and the drawing scales of the standard.
+
+    held : scales [mm/mm] that views keep from an earlier drawing, by name, whatever would fit now
 
     >>> Paper(200, 100, ISO_5455).scale(complex(30, 20)).per_mm
     0.2
@@ -73,6 +80,11 @@ class Paper:
     width: float
     height: float
     ratios: Ratios
+    held: Mapping[str, float] = field(default_factory=lambda: NOTHING_HELD, hash=False)
+
+    def kept(self, view: str) -> Scale | None:
+        """The scale that a view keeps, if it does."""
+        return Scale(self.held[view], "mm") if view in self.held else None
 
     def scale(self, size: complex, beside: complex = 0j) -> Scale:
         """The largest standard scale for a view ``size`` mm of machine wide + i high.

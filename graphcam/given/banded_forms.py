@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 
 
@@ -38,7 +39,7 @@ class Forms:
 
     def __call__(self, z: Floats) -> Floats:
         """(m,) their values."""
-        return np.einsum("mw,mw->m", self.factors, z[self.unknowns])
+        return summed(self.factors * z[self.unknowns])
 
     def transposed(self, values: Floats, size: int) -> Floats:
         """(size,) the sum of values times forms."""

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
+from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.roots import roots
 from graphcam.given.spline_law import AT_REST, TURNING, spline_law
 
 DEFAULT_TOLERANCE = 0.01
@@ -34,8 +36,6 @@ WINDOW, ROWS_OF_A_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 MEDIAN = 0.6745
 """The median of |x| for a normal distribution of standard deviation 1."""
-SHARPEST = 1e-15
-"""Where a motion turns is sought until it is known to this [rad]; slow where the velocity is flat."""
 ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
 
@@ -229,8 +229,8 @@ def _scatter(phi: Floats, s: Floats) -> float:
     rows = np.arange(s.size)[:, None] + np.arange(WINDOW)
     x = phi[rows % s.size] + FULL_TURN * (rows // s.size)
     apart = (x[:, :, None] - x[:, None, :]) / (x[:, -1:, None] - x[:, :1, None]) + np.eye(WINDOW)
-    weights = 1 / np.prod(apart, axis=2)
-    left = np.sum(weights * s[rows % s.size], axis=1) / np.linalg.norm(weights, axis=1)
+    weights = 1 / np.cumprod(apart, axis=2)[..., -1]
+    left = summed(weights * s[rows % s.size]) / np.sqrt(summed(weights**2))
     parts = np.array_split(np.abs(left), max(s.size // ROWS_OF_A_PART, 1))
     return max(float(np.median(part)) for part in parts) / MEDIAN
 
@@ -258,13 +258,11 @@ def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
 
 def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
     """The cam angle [rad] between two legs where the velocity changes its sign."""
-    from scipy.optimize import brentq
-
     v = fitted.velocity
     before = np.linspace(leg.start, leg.end, SAMPLES)
     after = np.linspace(leg.end, following.end, SAMPLES)
     fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
-    return brentq(v, *fastest, xtol=SHARPEST, maxiter=1000)  # pyright: ignore[reportReturnType]
+    return float(roots(v, *fastest))
 
 
 def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:

@@ -20,19 +20,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.b_splines import KnottedSpline, basis_functions, solve_banded
 from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
 from graphcam.given.legs import LESS_NOISE, Leg
 from graphcam.given.motion import FULL_TURN
-
-if TYPE_CHECKING:
-    from scipy.interpolate import BSpline
 
 DEGREE = 5
 FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
@@ -62,8 +59,8 @@ class Fit:
     They reach over three turns, of which the first leg begins the middle one.
     """
 
-    spline: BSpline
-    velocity: BSpline
+    spline: KnottedSpline
+    velocity: KnottedSpline
     knots: Floats
 
 
@@ -176,25 +173,26 @@ class _Likelihood:
 
 
 def _likelihood(circle: _Circle, phi: Floats, s: Floats, legs: list[Leg], noise: float) -> _Likelihood:
-    from scipy.interpolate import BSpline
-    from scipy.ndimage import maximum_filter1d
-
     n = circle.knots.size
-    basis = BSpline.design_matrix(phi, circle.turns, DEGREE)
-    values: Floats = np.asarray(basis.data, dtype=np.float64).reshape(-1, DEGREE + 1)
-    rows = Forms(circle.index[basis.indices.reshape(-1, DEGREE + 1) % n], values)
+    numbers, values = basis_functions(circle.turns, DEGREE, phi)
+    rows = Forms(circle.index[numbers % n], values)
     velocity = circle.derivative(np.ones((n, 1)), DEGREE)
     acceleration = circle.derivative(velocity, DEGREE - 1)
     jerk = circle.derivative(acceleration, DEGREE - 2)
     lift, angle, one_way = _on_legs(phi, s, legs, circle.middles(DEGREE - 1))
     sways = np.minimum(SWAYS, SWAYS_OF_NOISE * np.sqrt(noise / lift)) * lift / angle**2
-    jerks = maximum_filter1d(JERKS * lift / angle**3.5, NEAR, mode="wrap")
+    jerks = _greatest_near(JERKS * lift / (angle * angle * angle * np.sqrt(angle)))
     part = circle.width(DEGREE - 1) / (DEGREE - 1)
     return _Likelihood(
         *(rows, noise, circle.forms(velocity), one_way, (ONE_WAY * angle / noise) ** 2),
-        *(circle.forms(_steps(acceleration)), maximum_filter1d(sways, NEAR, mode="wrap")),
+        *(circle.forms(_steps(acceleration)), _greatest_near(sways)),
         *(circle.forms(_steps(jerk)), jerks * np.sqrt(part)),
     )
+
+
+def _greatest_near(values: Floats) -> Floats:
+    """(n,) the greatest of each value and its neighbours around the turn."""
+    return np.max([np.roll(values, k) for k in range(-(NEAR // 2), NEAR // 2 + 1)], axis=0)
 
 
 def _on_legs(phi: Floats, s: Floats, legs: list[Leg], places: Floats) -> tuple[Floats, Floats, Floats]:
@@ -212,8 +210,6 @@ def _on_legs(phi: Floats, s: Floats, legs: list[Leg], places: Floats) -> tuple[F
 
 def _most_likely(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
     """The most likely unknowns, for rows that count so many times."""
-    from scipy.linalg import solveh_banded
-
     terms = given.rows, given.jerks, given.accelerations, given.velocity
     size, bands = int(given.velocity.unknowns.max()) + 1, max(term.bands for term in terms)
     measured = counts / given.noise**2
@@ -224,7 +220,7 @@ def _most_likely(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
     for _ in range(ROUNDS):
         weights = measured, jerk, acceleration, velocity
         band = np.sum([term.squared(w, size, bands) for term, w in zip(terms, weights, strict=True)], axis=0)
-        z = solveh_banded(band, right, lower=True, check_finite=False)
+        z = solve_banded(band, right)
         now = given.rows(z)
         if np.abs(now - before).max() < SETTLED * given.noise:
             break
@@ -238,8 +234,6 @@ def _most_likely(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
 
 def _closed(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
     """The spline of the unknowns, with velocities of the right sign, and closed, to the last digit."""
-    from scipy.interpolate import BSpline
-
     velocity = given.velocity(z)
     velocity[given.one_way * velocity < 0] = 0.0
     # The coefficients of s are sums of those of v: c_i = c_(i-1) + v_i (t_(i+5) - t_i)/5.
@@ -248,5 +242,5 @@ def _closed(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
     velocity[rises < 0] *= np.sum(rises[rises > 0]) / -np.sum(rises[rises < 0])
     c = z[circle.index[0]] + np.cumsum(velocity * widths) - velocity[0] * widths[0]
     turn = np.arange(circle.turns.size) % circle.knots.size
-    s = BSpline(circle.turns, c[turn[: -DEGREE - 1]], DEGREE)
-    return Fit(s, BSpline(circle.turns, velocity[turn[:-DEGREE]], DEGREE - 1), np.unique(circle.turns))
+    s = KnottedSpline(circle.turns, c[turn[: -DEGREE - 1]], DEGREE)
+    return Fit(s, KnottedSpline(circle.turns, velocity[turn[:-DEGREE]], DEGREE - 1), np.unique(circle.turns))

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 
 POWERS, RARER = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
@@ -65,8 +66,9 @@ class Surroundings:
         way = np.maximum(x[-1] - places, NO_WAY)[:, None]
         z = np.maximum(x - places[:, None], 0.0) / way
         rows = (x >= since[:, None]).astype(np.float64)
-        first = rows * z ** powers[:, None]
-        return _least_squares(np.stack([rows, first, first * z], axis=1), y, self.directions[side], powers)
+        square = z * z
+        first = rows * np.choose(powers[:, None] - POWERS[0], [square, square * z, square * square])
+        return _least_squares(np.stack([rows, first, first * z]), y, self.directions[side], powers)
 
 
 class _Squares(NamedTuple):
@@ -165,21 +167,22 @@ def _at_row(rows: Surroundings, side: int, end: float, power: int, level: float)
 def _least_squares(columns: Floats, y: Floats, direction: int, powers: Floats) -> _Squares:
     """The sums of squares for the columns 1, z^p, z^(p + 1); infinite where these would lead the other way.
 
-    columns : (m, 3, n), zero in rows that do not count
+    columns : (3, m, n), zero in rows that do not count
     """
-    gram, moments = columns @ columns.transpose(0, 2, 1), columns @ y
-    (a, b), (_, c) = gram[:, 1:, 1:].transpose(1, 2, 0)
+    one, first, second = columns
+    (n, p, q), (y_n, y_p, y_q) = summed(columns), summed(columns * y)
+    a, b, c = summed(first * first), summed(first * second), summed(second * second)
     determinant = a * c - b * b
     sound = determinant > SINGULAR * a * c
-    inverse = np.array([[c, -b], [-b, a]]) / np.where(sound, determinant, 1.0)
+    determinant = np.where(sound, determinant, 1.0)
     # What z^p and z^(p + 1) explain of the level's column, and of the rows.
-    of_level = np.einsum("ijm,mj->im", inverse, gram[:, 0, 1:])
-    of_rows = np.einsum("ijm,mj->im", inverse, moments[:, 1:])
-    weight = gram[:, 0, 0] - np.einsum("im,mi->m", of_level, gram[:, 0, 1:])
+    level_p, level_q = (c * p - b * q) / determinant, (a * q - b * p) / determinant
+    rows_p, rows_q = (c * y_p - b * y_q) / determinant, (a * y_q - b * y_p) / determinant
+    weight = n - (level_p * p + level_q * q)
     sound &= weight > NO_WAY
     weight = np.where(sound, weight, 1.0)
-    level = (moments[:, 0] - np.einsum("im,mi->m", of_level, moments[:, 1:])) / weight
-    first, second = direction * (of_rows - of_level * level)
-    sound &= (first > 0) & (powers * first + (powers + 1) * second > 0)
-    least = columns[:, 0] @ (y * y) - np.einsum("im,mi->m", of_rows, moments[:, 1:]) - weight * level**2
+    level = (y_n - (level_p * y_p + level_q * y_q)) / weight
+    times_p, times_q = direction * (rows_p - level_p * level), direction * (rows_q - level_q * level)
+    sound &= (times_p > 0) & (powers * times_p + (powers + 1) * times_q > 0)
+    least = summed(one * (y * y)) - (rows_p * y_p + rows_q * y_q) - weight * level**2
     return _Squares(np.where(sound, np.maximum(least, 0.0), np.inf), weight, level)

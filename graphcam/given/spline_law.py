@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
+from graphcam.given.b_splines import PiecewisePolynomial
+from graphcam.given.fixed_order import powers
 from graphcam.given.monotone_spline import DEGREE, Fit
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats
 
 if TYPE_CHECKING:
-    from scipy.interpolate import BSpline, PPoly
+    from scipy.interpolate import BSpline
 
 MEASURED = "measured"
 """The name of the law of a measured motion."""
@@ -35,8 +37,6 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     The pieces of the first half are series about their starts, those of the second about their ends, so that a small
     lift and a small missing lift keep their digits.
     """
-    from scipy.interpolate import PPoly
-
     angle = end - start
     slack = SAME_KNOT * angle
     inner = fit.knots[(fit.knots > start + slack) & (fit.knots < end - slack)]
@@ -46,12 +46,13 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     # Derivatives may jump at knots, so they are taken in the middle.
     half_width, middle = np.diff(u) / 2, start + angle * (u[:-1] + u[1:]) / 2
     derivatives = fit.spline(middle), *(fit.velocity(middle, nu=n) for n in range(DEGREE))
-    taylor = np.array([d * angle**n / math.factorial(n) / lift for n, d in enumerate(derivatives)])
+    units = powers(angle, DEGREE) / np.cumprod([1, *range(1, DEGREE + 1)]) / lift
+    taylor = np.array(derivatives) * units[:, None]
     ahead, back = _about(taylor, -half_width), -_about(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None]
     ahead[0] -= level / lift
     back[0] += top / lift
     ahead[: contact[0], 0] = back[: contact[1], -1] = 0.0
-    first, second = PPoly(ahead[::-1], u), PPoly(back[::-1, ::-1], (1.0 - u)[::-1])
+    first, second = PiecewisePolynomial(ahead, u), PiecewisePolynomial(back[:, ::-1], (1.0 - u)[::-1])
     half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
     splines = [first] * half + [second] * (u.size - 1 - half)
     places = np.where(np.arange(u.size - 1) < half, (u[:-1] + u[1:]) / 2, 1.0 - (u[:-1] + u[1:]) / 2)
@@ -59,23 +60,14 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     # One formula for all pieces of a half, so that many places in it are computed together.
     formulas = [partial(_spline, spline=first)] * half + [partial(_spline, spline=second)] * (u.size - 1 - half)
     edges, middle_edge = u[1:-1].tolist(), float(u[half])
-    return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=_peaks(first), trusted=True, fourths=fourths)
+    peaks = first.greatest(1), first.greatest(2)
+    return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=peaks, trusted=True, fourths=fourths)
 
 
 def _about(taylor: Floats, shift: Floats) -> Floats:
     """(6, p) the Taylor coefficients about places that are off by ``shift``."""
-    orders = range(DEGREE + 1)
-    return np.array([sum(math.comb(m, n) * taylor[m] * shift ** (m - n) for m in orders[n:]) for n in orders])
-
-
-def _peaks(f: PPoly) -> tuple[float, float]:
-    """The greatest |f'| and |f''|."""
-    found: list[float] = []
-    for order in (1, 2):
-        turning = f.derivative(order + 1).roots(extrapolate=False)
-        places = np.concatenate([turning[np.isfinite(turning)], f.x])
-        found.append(float(np.abs(f(places, nu=order)).max()))
-    return found[0], found[1]
+    orders, shifts = range(DEGREE + 1), powers(shift, DEGREE)
+    return np.array([sum(math.comb(m, n) * taylor[m] * shifts[m - n] for m in orders[n:]) for n in orders])
 
 
 def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[float, float] = (0.0, 0.0)) -> Law:
@@ -119,16 +111,16 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist(), fourths=fourths)
 
 
-def _spline(u: Floats, *, spline: BSpline | PPoly):
+def _spline(u: Floats, *, spline: BSpline | PiecewisePolynomial):
     """A spline and its first three derivatives."""
     return [spline(u, nu=order) for order in range(4)]
 
 
-def _fourth(spline: BSpline | PPoly, place: float) -> Fourth:
+def _fourth(spline: BSpline | PiecewisePolynomial, place: float) -> Fourth:
     """The fourth derivative of the piece that a place lies in."""
     return partial(_fourth_of_spline, spline=spline, fifth=abs(float(spline(place, nu=DEGREE))))
 
 
-def _fourth_of_spline(u: Floats, *, spline: BSpline | PPoly, fifth: float) -> tuple[Floats, float]:
+def _fourth_of_spline(u: Floats, *, spline: BSpline | PiecewisePolynomial, fifth: float) -> tuple[Floats, float]:
     """A quintic spline's fourth derivative, and the magnitude of its fifth between two knots."""
     return spline(u, nu=4), fifth

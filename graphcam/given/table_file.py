@@ -67,7 +67,23 @@ def read_table(path: Path, name: str, tolerance: float | None = None) -> CurveTa
     ------
     TaskError : there is no such file, or a line of it is wrong; the first is named
     """
-    lines = _lines(path)
+    return table_in(_text(path), name, str(path), tolerance)
+
+
+def table_in(text: str, name: str, path: str, tolerance: float | None = None) -> CurveTable:
+    r"""The table in the text of a CSV file.
+
+    path : how messages call it;  name, tolerance : as for :func:`read_table`
+
+    Raises
+    ------
+    TaskError : a line of it is wrong; the first is named
+
+    >>> rows = "".join(f"{15 * k},{min(k, 12)}\n" for k in range(24))
+    >>> table_in("phi_deg,a\n" + rows, "a.csv", "a.csv").rows[:2]
+    ((0.0, 0.0), (15.0, 1.0))
+    """
+    lines = text.rstrip().splitlines()
     column = _column(path, lines[0] if lines else "")
     rows = tuple(_row(path, number, line, column) for number, line in enumerate(lines[1:], _FIRST_ROW))
     phi, values = np.array(rows).reshape(-1, 2).T
@@ -76,32 +92,32 @@ def read_table(path: Path, name: str, tolerance: float | None = None) -> CurveTa
         check_rows(np.radians(phi), values, closes_to)
     except RowError as error:
         line = f"line {error.row + _FIRST_ROW}: {error.quantity}"
-        raise TaskError(str(path), line, error.value, error.limit, error.remedy) from None
+        raise TaskError(path, line, error.value, error.limit, error.remedy) from None
     return CurveTable(name, column, rows)
 
 
-def _lines(path: Path) -> list[str]:
+def _text(path: Path) -> str:
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise TaskError(str(path), "the table", why, "a CSV file that can be read", "check motion.table") from None
     try:
-        return content.decode("utf-8-sig").rstrip().splitlines()
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
         raise TaskError(str(path), f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
 
 
-def _column(path: Path, header: str) -> Column:
+def _column(path: str, header: str) -> Column:
     names = [name.strip() for name in header.split(",")]
     for column in get_args(Column):
         if names == [ANGLES, column]:
             return column
-    raise TaskError(str(path), "line 1", _short(header), f"one of {_HEADERS}", "name the two columns of the table")
+    raise TaskError(path, "line 1", _short(header), f"one of {_HEADERS}", "name the two columns of the table")
 
 
-def _row(path: Path, number: int, line: str, column: Column) -> tuple[float, float]:
+def _row(path: str, number: int, line: str, column: Column) -> tuple[float, float]:
     try:
         phi, value = (float(cell) for cell in line.split(","))
     except ValueError:
@@ -109,9 +125,9 @@ def _row(path: Path, number: int, line: str, column: Column) -> tuple[float, flo
     if not (math.isfinite(phi) and math.isfinite(value)):
         limit = f"two finite numbers, {ANGLES} and {column}"
         remedy = "write decimals with a point, and a comma between the numbers"
-        raise TaskError(str(path), f"line {number}", _short(line), limit, remedy)
+        raise TaskError(path, f"line {number}", _short(line), limit, remedy)
     if abs(value) > _MOST[column]:
-        raise TaskError(str(path), f"line {number}: {column}", value, f"at most {_MOST[column]:.15g}", REMEDY)
+        raise TaskError(path, f"line {number}: {column}", value, f"at most {_MOST[column]:.15g}", REMEDY)
     return phi, value
 
 

@@ -24,9 +24,9 @@ from graphcam.errors import DesignError
 from graphcam.given.impact import ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
+from graphcam.given.roots import roots
 from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.kinematics import Complexes, Values
-from graphcam.mechanism.roots import roots
 from graphcam.showing import Shown, in_lines
 
 SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.roots import roots
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.stationary import ROUNDING, Places, ValueAt, greatest, smooth_pieces, stationary_places
 from graphcam.showing import by_parts
@@ -151,7 +152,6 @@ class Contact:
 
     def _interval(self, phase: int, low: float, high: float) -> tuple[float, float]:
         """Where xi is negative in a stretch [rad]; empty if it begins and ends at the same angle."""
-        from scipy.optimize import brentq
 
         def xi(u: float) -> float:
             """The force at a part u of the phase, from 0 to 1."""
@@ -164,6 +164,6 @@ class Contact:
         if min(first, last) >= -slack:
             end = low
         elif first * last < 0:
-            root = float(brentq(xi, low, high, xtol=ROUNDING, rtol=ROUNDING))  # pyright: ignore[reportArgumentType]
+            root = float(roots(lambda u: np.asarray(xi(float(u))), low, high))
             start, end = (root, high) if last < 0 else (low, root)
         return float(self.motion.angle_at(phase, start)), float(self.motion.angle_at(phase, end))

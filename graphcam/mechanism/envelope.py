@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.roots import roots
 from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
-from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 
 Indices = NDArray[np.intp]

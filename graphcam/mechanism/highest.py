@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion, Moving
 from graphcam.given.motion_law import Law
+from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import ROUNDING, Places, at_places, smooth_pieces
 from graphcam.mechanism.taylor import Taylor
 

@@ -22,9 +22,9 @@ from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
+from graphcam.given.roots import roots
 from graphcam.mechanism.half_planes import Line
 from graphcam.mechanism.leg_places import legs
-from graphcam.mechanism.roots import roots
 from graphcam.mechanism.stationary import SAMPLES
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphcam.given.b_splines import basis_functions
 from graphcam.given.laws import Floats
 from graphcam.mechanism.envelope import Indices
 from graphcam.mechanism.kinematics import Complexes
@@ -58,23 +59,13 @@ class Basis:
 
 
 def basis(knots: Floats, degree: int, at: Floats) -> Basis:
-    """The B-splines over these knots at parameters (n,), by the recursion of Cox and de Boor.
+    """The B-splines over these knots at parameters (n,).
 
     >>> splines = basis(np.array([0.0, 0, 0, 1, 2, 2, 2]), 2, np.array([0.5, 2.0]))
     >>> splines.numbers.tolist(), splines.values.tolist()
     ([[0, 1, 2], [1, 2, 3]], [[0.25, 0.625, 0.125], [0.0, 0.0, 1.0]])
     """
-    part = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, knots.size - degree - 2)
-    values = np.ones((at.size, 1))
-    for k in range(1, degree + 1):
-        # Each B-spline of degree k - 1 is shared between two of degree k.
-        number = part[:, None] + np.arange(1 - k, 1)
-        share = (at[:, None] - knots[number]) / (knots[number + k] - knots[number])
-        raised = np.zeros((at.size, k + 1))
-        raised[:, :-1] += (1 - share) * values
-        raised[:, 1:] += share * values
-        values = raised
-    return Basis(part[:, None] + np.arange(-degree, 1), values, knots.size - degree - 1)
+    return Basis(*basis_functions(knots, degree, at), knots.size - degree - 1)
 
 
 def at_ends(knots: Floats, degree: int, derivative: int) -> tuple[Floats, Floats]:

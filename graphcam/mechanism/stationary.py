@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Dwell, Motion
+from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.roots import roots
 
 _CLOSEST = np.logspace(-12, -4, 25)
 # Fractions of a piece: dense at its ends, where a small prime radius or a steep limit moves the extremes to.

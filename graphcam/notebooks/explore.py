@@ -50,12 +50,9 @@ class Exploration:
         moved = [(name, value) for name, slider in self.sliders.items() for value in slider.shown]
         if not moved:
             return self.draw(**start).html
-        cells = [self._still(name, value, start) for name, value in moved]
-        return f'<div class="stills">{"".join(cells)}</div>'
-
-    def _still(self, name: str, value: Any, start: dict[str, Any]) -> str:
-        says = f"{self.sliders[name].label}: {value}"
-        return f'<div class="still"><p>{escape(says)}</p>{self.draw(**{**start, name: value}).html}</div>'
+        return side_by_side(
+            {f"{self.sliders[name].label}: {value}": self.draw(**{**start, name: value}) for name, value in moved}
+        )
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
         still = {"text/html": self.html, "text/plain": "Sliders: " + ", ".join(s.label for s in self.sliders.values())}
@@ -82,6 +79,17 @@ class Exploration:
         for control in controls.values():
             control.observe(redraw, "value")
         return ipywidgets.VBox([*controls.values(), picture])
+
+
+def side_by_side(stills: Mapping[str, ShownPosition]) -> str:
+    """Still pictures as part of a web page, each under what is said of it.
+
+    >>> from graphcam.notebooks.picture import Picture
+    >>> side_by_side({"4 parts": Picture("<svg/>", "a square")})[:47]
+    '<div class="stills"><div class="still"><p>4 par'
+    """
+    cells = (f'<div class="still"><p>{escape(says)}</p>{shown.html}</div>' for says, shown in stills.items())
+    return f'<div class="stills">{"".join(cells)}</div>'
 
 
 def _view(widget: Any) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import count
@@ -106,8 +106,23 @@ def chapters_of(names: Iterable[str]) -> dict[str, int]:
 
 def all_drawn(solution: AnySolution) -> dict[str, Construction]:
     """All constructions of a solution by name, in the order in which they are shown: its chain, what a spring adds."""
+    return {name: drawn_of(solution, name) for name in names_of(solution)}
+
+
+def names_of(solution: AnySolution) -> list[str]:
+    """The names of all its constructions, in that order, none of which is drawn for it."""
+    return [*solution.drawn, *_spring(solution)]
+
+
+def drawn_of(solution: AnySolution, name: str) -> Construction:
+    """One of its constructions, of that name."""
+    return solution.drawn[name] if name in solution.drawn else _spring(solution)[name]
+
+
+def _spring(solution: AnySolution) -> Mapping[str, Construction]:
+    """What a spring adds."""
     spring = solution.spring if isinstance(solution, Solution) else None
-    return dict(solution.drawn) | (spring.drawn if spring else {})
+    return spring.drawn if spring else {}
 
 
 def motion_contents(solution: Solution) -> Contents:
@@ -152,10 +167,13 @@ def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:
     )
 
 
-def scaled_steps(drawn: Mapping[str, Construction]) -> Numbered:
-    """The steps of all constructions; the titles of their views say the scales that were settled."""
+def scaled_steps(drawn: Mapping[str, Construction], silent: Collection[str] = ()) -> Numbered:
+    """The steps of all constructions; the titles of their views say the scales that were settled.
+
+    silent : constructions that settle scales, but whose steps are not asked for
+    """
     settled = {view: by for by in drawn.values() for view in by.meaning.scales}
-    steps = steps_of(drawn)
+    steps = steps_of({name: each for name, each in drawn.items() if name not in silent})
     return tuple((number, name, _scaled(step, settled.get(step.view.name))) for number, name, step in steps)
 
 

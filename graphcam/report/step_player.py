@@ -1,8 +1,9 @@
 """The step player of a solution: its sheet step by step with what is read off, and its mechanism."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
+from typing import Any, Protocol
 
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.acts import Act
@@ -14,6 +15,7 @@ from graphcam.report.documents import scene_of
 from graphcam.report.instruments import instruments
 from graphcam.report.mechanism_view import mechanism_view
 from graphcam.report.sheet_contents import Contents
+from graphcam.sheets.layout import Numbered
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.player import WORDS, Acts, PartText, Pieces, ReadingText, RowText, Slide, player
 from graphcam.words import Tell
@@ -34,19 +36,52 @@ def player_of(contents: Contents, drawing: Drawing) -> str:
 
 def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
     """What is said of each step of the sheet, in order, and the acts that it is drawn by."""
-    steps = [step for _, _, step in contents.steps]
-    telling = _Telling(tell, FollowedBoard(visible_in(steps)), WrittenActs(), _views(steps))
-    chapters = groupby(contents.steps, key=lambda step: step[1])
-    said = [
-        telling.slide(contents.drawn[name], step, contents.numbers[number], opens=k == 0)
-        for name, of_one in chapters
-        for k, (number, _, step) in enumerate(of_one)
-    ]
-    shown = {
-        mark.of: telling.record.number(mark.of) for step in steps for mark in step.marks if isinstance(mark.of, Act)
-    }
-    pieces = (piece for slide in said for part in slide.parts for piece in (*part.draws, *part.lit))
-    return said, Acts(telling.record, shown, {number for number, places in pieces if places is not None})
+    record = WrittenActs()
+    said = [slide for _, slide in told(contents.drawn, contents.steps, contents.numbers, record, tell)]
+    marks = (mark for _, _, step in contents.steps for mark in step.marks)
+    shown = {mark.of: record.number(mark.of) for mark in marks if isinstance(mark.of, Act)}
+    return said, Acts(record, shown, drawn_in_parts(said))
+
+
+class ActNumbers(Protocol):
+    """Numbers for acts, by which a page knows what it shows."""
+
+    def number(self, act: Act) -> int:
+        """The number of an act."""
+        ...
+
+    def piece(self, piece: ActPlaces) -> list[Any]:
+        """Some places of an act: its number and theirs, None for all of them."""
+        ...
+
+
+def told(
+    drawn: Mapping[str, Construction],
+    steps: Numbered,
+    numbers: Mapping[int, str],
+    record: ActNumbers,
+    tell: Tell = str,
+    asked: Callable[[Step], bool] = lambda _: True,
+) -> Iterator[tuple[int, Slide]]:
+    """What is said of the steps that are asked for, each with its running number.
+
+    numbers : of the steps within the task, such as "3.2", by the running ones
+    record : numbers the acts
+    """
+    every = [step for _, _, step in steps]
+    telling = _Telling(tell, FollowedBoard(visible_in(every)), record, _views(every))
+    for name, of_one in groupby(steps, key=lambda step: step[1]):
+        for k, (number, _, step) in enumerate(of_one):
+            if asked(step):
+                yield number, telling.slide(drawn[name], step, numbers[number], opens=k == 0)
+            else:
+                telling.board.passed(step, (drawn[name].readings[read] for read in step.reads))
+
+
+def drawn_in_parts(slides: Iterable[Slide]) -> set[int]:
+    """The numbers of the acts that parts of these steps draw or light in parts."""
+    pieces = (piece for slide in slides for part in slide.parts for piece in (*part.draws, *part.lit))
+    return {number for number, places in pieces if places is not None}
 
 
 def _views(steps: Iterable[Step]) -> dict[Act, str]:
@@ -69,7 +104,7 @@ class _Telling:
 
     tell: Tell
     board: FollowedBoard
-    record: WrittenActs
+    record: ActNumbers
     views: Mapping[Act, str]
 
     def slide(self, construction: Construction, step: Step, number: str, *, opens: bool) -> Slide:
@@ -105,14 +140,14 @@ class _Telling:
         tell = self.tell
         if not row.places:
             taken, _, value = tell(row.said()).rpartition(" = ")
-            yield ReadingText(tell(row.title), taken, value, lit=self._lit(read))
+            yield ReadingText(tell(row.title), taken, value, lit=self._lit(read), name=row.name)
             return
         lines = tuple(self._line(row, read, k) for k in range(len(row.places)))
         _, last = row.extremes[-1]
         for what, k in row.extremes:
             title = say("{title}, {extreme}", title=row.title, extreme=row.at(what, k))
             taken, _, value = tell(row.said(k)).rpartition(" = ")
-            yield ReadingText(tell(title), taken, value, lines if k == last else (), self._lit(read, k))
+            yield ReadingText(tell(title), taken, value, lines if k == last else (), self._lit(read, k), row.name)
 
     def _lit(self, read: Reading, *places: int) -> Pieces:
         """What is seen of what is read, all or at some places."""

@@ -15,6 +15,7 @@ from graphcam.sheets.formats import Lettering
 from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Source, Stroke, Strokes
 from graphcam.sheets.styles import STYLES
 from graphcam.sheets.writing import Writing, along, around, outside, over, unit
+from graphcam.words import Tell
 
 DOT = 0.75
 """Radius of the small open circle that marks a plotted point, mm."""
@@ -52,9 +53,9 @@ Drawn = tuple[list[Entity], list[Writing]]
 """Entities, and the texts that still have to find their place."""
 
 
-def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering) -> Drawn:
-    """The entities of marks, and the texts that still have to find their place."""
-    drawn = [_sourced(mark, *_expanded(mark, place, letters)) for mark in step_marks]
+def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering, tell: Tell = str) -> Drawn:
+    """The entities of marks, and the texts, as ``tell`` says them, that still have to find their place."""
+    drawn = [_sourced(mark, *_expanded(mark, place, letters, tell)) for mark in step_marks]
     return [e for entities, _ in drawn for e in entities], [writing for _, writings in drawn for writing in writings]
 
 
@@ -76,7 +77,7 @@ def _kept(mark: marks.Line | marks.Segments, kept: NDArray[np.bool_]) -> Source 
     return Source(mark.of, None if mark.index is None else mark.index[kept])
 
 
-def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
+def _expanded(mark: marks.Mark, place: Placement, letters: Lettering, tell: Tell) -> Drawn:
     match mark:
         case marks.Line():
             return _line(mark, place), []
@@ -97,11 +98,11 @@ def _expanded(mark: marks.Mark, place: Placement, letters: Lettering) -> Drawn:
             return arrow(place.point(mark.start), place.point(mark.end), mark.role), []
         case marks.Label():
             height = letters.small if mark.small else letters.label
-            return [], [around(place.point(mark.at), str(mark.text), height, mark.towards)]
+            return [], [around(place.point(mark.at), tell(mark.text), height, mark.towards)]
         case marks.Dimension():
-            return _dimension(mark, place, letters.label)
+            return _dimension(mark, place, tell(mark.text), letters.label)
         case marks.AngleMark():
-            return _angle(mark, place, letters.label)
+            return _angle(mark, place, tell(mark.text), letters.label)
         case marks.Region():
             # Where nothing is permitted nothing is hatched.
             return [hatch(place(mark.boundary))] if np.size(mark.boundary) else [], []
@@ -155,7 +156,7 @@ def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) ->
     return head(centre + cmath.rect(radius, at), sense * 1j * cmath.rect(1.0, at - sense * half), role)
 
 
-def _dimension(mark: marks.Dimension, place: Placement, height: float) -> Drawn:
+def _dimension(mark: marks.Dimension, place: Placement, text: str, height: float) -> Drawn:
     """Extension lines, the dimension line with its heads (from outside where there is no room), and its text."""
     start, end = place.point(mark.start), place.point(mark.end)
     direction, length = unit(end - start), abs(end - start)
@@ -171,12 +172,11 @@ def _dimension(mark: marks.Dimension, place: Placement, height: float) -> Drawn:
     line = np.array([foot - tail * direction, tip + tail * direction])
     drawn.append(Strokes(line[:1], line[1:], Role.DIMENSION))
     drawn += [head(foot, -outwards, Role.DIMENSION), head(tip, outwards, Role.DIMENSION)]
-    text = str(mark.text)
     standing = along if extent(text, height)[0] + 1.0 <= length else over
     return drawn, [replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))]
 
 
-def _angle(mark: marks.AngleMark, place: Placement, height: float) -> Drawn:
+def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) -> Drawn:
     """An arc with heads at both ends (from outside where there is no room) and its text beyond the middle."""
     centre, radius = place.point(mark.centre), mark.radius * place.factor
     start, end = sorted((mark.start, mark.end))
@@ -188,7 +188,7 @@ def _angle(mark: marks.AngleMark, place: Placement, height: float) -> Drawn:
         _arc_head(centre, radius, start, at_start, Role.DIMENSION),
         _arc_head(centre, radius, end, at_end, Role.DIMENSION),
     ]
-    writing = outside(centre, radius, start, end, str(mark.text), height)
+    writing = outside(centre, radius, start, end, text, height)
     return drawn, [replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))]
 
 

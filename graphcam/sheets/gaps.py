@@ -16,6 +16,7 @@ from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.model import ArcEntity, Circles, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners, linework, pieces, within
 from graphcam.sheets.styles import THIN
+from graphcam.sheets.writing import Floats
 
 PARTED = Role.CONSTRUCTION, Role.AXIS, Role.HIDDEN, Role.DIMENSION
 """The roles of lines that are parted; of dimensions only the leaders."""
@@ -127,9 +128,20 @@ def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
     ways = np.linspace(arc.start, arc.end, count + 1)
     free = np.ones(len(ways), dtype=bool)
     for box in boxes:
-        free &= ~_inside(arc.centre + arc.radius * np.exp(1j * ways), box)
+        near = np.flatnonzero(_seen(ways, box - arc.centre))
+        free[near] &= ~_inside(arc.centre + arc.radius * np.exp(1j * ways[near]), box)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
     return [(float(ways[a]), float(ways[b - 1])) for a, b in pairwise(edges.tolist()) if free[a] and b - a > 1]
+
+
+def _seen(ways: Floats, box: Points) -> NDArray[np.bool_]:
+    """In which directions from the origin a text's box, or what is so near to it, may be seen."""
+    middle = complex(box.mean())
+    reach = float(np.abs(box - middle).max()) + 2 * GAP
+    if abs(middle) <= reach:
+        return np.ones(len(ways), dtype=bool)
+    off = ways - cmath.phase(middle)
+    return np.abs(off - 2 * math.pi * np.round(off / (2 * math.pi))) <= math.asin(reach / abs(middle))
 
 
 def _inside(points: Points, box: Points) -> NDArray[np.bool_]:

@@ -111,18 +111,18 @@ def _shares(length: float) -> Floats:
     return np.linspace(0.0, 1.0, math.ceil(length / CELL) + 1)
 
 
-def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[list[Entity]]:
-    """A text for every writing, and its leader where it had to go far, kept off what is drawn and inside a box.
+def chosen_places(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[int]:
+    """Which of its places every writing takes, kept off what is drawn and inside a box.
 
     Texts of dimensions choose first: they belong to their lines.
     """
     paper = Occupancy(inside)
     paper.take_entities(drawn)
-    placed: dict[int, list[Entity]] = {}
+    chosen = [0] * len(writings)
     for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
-        placed[k] = _set(writings[k], _choose(writings[k], paper))
-        paper.take_entities(placed[k])
-    return [placed[k] for k in range(len(writings))]
+        chosen[k] = _choose(writings[k], paper)
+        paper.take_entities(set_at(writings[k], chosen[k]))
+    return chosen
 
 
 def _choose(writing: Writing, paper: Occupancy) -> int:
@@ -165,7 +165,8 @@ def _leader_end(writing: Writing, centres: Points, anchors: Points) -> Points:
     return centres + np.clip(away.real, -half.real, half.real) + 1j * np.clip(away.imag, -half.imag, half.imag)
 
 
-def _set(writing: Writing, k: int) -> list[Entity]:
+def set_at(writing: Writing, k: int) -> list[Entity]:
+    """The text in one of its places, and its leader where that is far."""
     drawn: list[Entity] = [writing.set_at(k)]
     if np.isfinite(writing.anchors[k]):
         end = _leader_end(writing, writing.centres[k : k + 1], writing.anchors[k : k + 1])
@@ -181,9 +182,24 @@ def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> l
     steps : from :func:`graphcam.sheets.expand.expand`, in the order in which they are drawn
     inside : the box that no text leaves
     """
+    return with_texts(steps, places_of(steps, beside, inside))
+
+
+def places_of(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[int]:
+    """The places that the texts of all steps take, one step's after the other's."""
     lines = [*beside, *(entity for entities, _ in steps for entity in entities)]
-    placed = iter(place([writing for _, writings in steps for writing in writings], lines, inside))
-    return parted([[*entities, *(e for _ in writings for e in next(placed))] for entities, writings in steps])
+    return chosen_places([writing for _, writings in steps for writing in writings], lines, inside)
+
+
+def with_texts(steps: Sequence[Drawn], places: Sequence[int | None]) -> list[list[Entity]]:
+    """The entities of every step with its texts in these of their places; with None a text is left out.
+
+    A thin line is parted where a text stands on it.
+    """
+    at = iter(places)
+    placed = [[(writing, next(at)) for writing in writings] for _, writings in steps]
+    texts = [[e for writing, k in of_one if k is not None for e in set_at(writing, k)] for of_one in placed]
+    return parted([[*entities, *own] for (entities, _), own in zip(steps, texts, strict=True)])
 
 
 def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]]:

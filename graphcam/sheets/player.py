@@ -91,7 +91,7 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("Without JavaScript the finished sheet is shown."),
 }
 """What the page itself says."""
-SCRIPTS = ("camera.js", "board.js", "player.js")
+SCRIPTS = ("camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
 """Around what a step shows when it is looked at closely [mm]."""
@@ -116,6 +116,7 @@ class ReadingText:
     """A reading as it is shown: how it came about, and the value; of many values a table.
 
     lit : the pieces of the drawing that it was read off
+    name : of the reading in its construction
     """
 
     title: str
@@ -123,6 +124,7 @@ class ReadingText:
     value: str
     table: tuple[RowText, ...] = ()
     lit: Pieces = field(default_factory=Pieces)
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -222,7 +224,7 @@ def player(
         slides=slides,
         chapters=[(name, [k for k, _ in run]) for name, run in groupby(enumerate(slides), key=lambda s: s[1].chapter)],
         style=whole("player.css") + Markup(roles_css()),
-        scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js",) if mechanism else ()))],
+        scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js", "turning.js") if mechanism else ()))],
         mechanism=mechanism,
         fonts=Markup(font_faces([*said, *lettering])),
         # No text of a drawing may end the script that holds it.

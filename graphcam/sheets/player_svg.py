@@ -4,9 +4,9 @@ import cmath
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator
+from html import escape
 from itertools import groupby
 from typing import cast
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -98,7 +98,7 @@ def _letters(text: Text) -> str:
         drop = -piece.start.imag
         size = f' font-size="{_size(piece.height)}"' if piece.index else ""
         shift = f' dy="{_number(drop - lowered)}"' if drop != lowered else ""
-        letters = escape(piece.text)
+        letters = escape(piece.text, quote=False)
         written, lowered = written + (f"<tspan{size}{shift}>{letters}</tspan>" if size or shift else letters), drop
     return written
 

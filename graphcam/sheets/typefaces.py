@@ -1,6 +1,7 @@
 """Typefaces: osifont, which is lettered by ISO 3098, and for what it lacks DejaVu Sans, then the machine's own.
 
-Each character has one face, by which it is measured and drawn.
+Each character has one face, by which it is measured and drawn.  The first two are measured by a table, so that only
+what they lack, and drawing in them, needs Matplotlib.
 """
 
 from __future__ import annotations
@@ -8,12 +9,14 @@ from __future__ import annotations
 import base64
 import struct
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from graphcam.sheets.glyph_table import Design, Glyph, glyph_table
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -30,20 +33,6 @@ UPRIGHT = "regular", "medium", "book", "roman"
 """How files are named that hold neither bold nor slanted letters."""
 
 
-@dataclass(frozen=True)
-class Glyph:
-    """Advance, depth below and height above the base line, in heights of the family's capitals.
-
-    left, right : what stays blank of the advance at either side
-    """
-
-    advance: float
-    below: float
-    above: float
-    left: float
-    right: float
-
-
 def lettering_file() -> Path:
     """The file of osifont."""
     return Path(str(files("graphcam") / "data" / "fonts" / "osifont.ttf"))
@@ -51,10 +40,16 @@ def lettering_file() -> Path:
 
 @cache
 def shipped() -> tuple[Path, ...]:
-    """The faces that every machine has."""
-    from matplotlib import get_data_path
+    """The faces that every machine has; the second comes with Matplotlib, which is looked for and not loaded."""
+    found = find_spec("matplotlib")
+    beside = Path(found.origin).parent if found and found.origin else Path()
+    return lettering_file(), beside / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
 
-    return lettering_file(), Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")
+
+@cache
+def opens_fonts() -> bool:
+    """Whether there is Matplotlib, which opens fonts."""
+    return find_spec("matplotlib") is not None
 
 
 @cache
@@ -72,13 +67,13 @@ def face_of(character: str) -> Path | None:
     >>> face_of("μ").name, face_of("√").name, face_of(chr(0xE000 + 77))
     ('osifont.ttf', 'DejaVuSans.ttf', None)
     """
-    has_it = (face for face in shipped() if font(face).get_char_index(ord(character)))
-    return next(has_it, None) or _found(character)
+    face = glyph_table().face(character)
+    return _found(character) if face is None else shipped()[face]
 
 
 def _found(character: str) -> Path | None:
     """The first of the machine's own faces that has a character; nobody draws those for private use alike."""
-    if not character.isprintable():
+    if not (opens_fonts() and character.isprintable()):
         return None
     return next((face for face in installed() if ord(character) in _characters(face)), None)
 
@@ -126,24 +121,26 @@ def cubic(face: Path) -> bool:
 @cache
 def glyph(character: str) -> Glyph:
     """The measures of a character in its face; a box stands for one that has none."""
+    table = glyph_table()
+    if (number := table.face(character)) is not None:
+        return table.faces[number][character].glyph(table.capital)
+    if (face := face_of(character)) is None:
+        return glyph(BOX)
+    return design(face, character).glyph(font(face).units_per_EM * capital())
+
+
+def design(face: Path, character: str) -> Design:
+    """A character as it stands in the file of a face."""
     from matplotlib.ft2font import LoadFlags
 
-    face = face_of(character)
-    if face is None:
-        return glyph(BOX)
     opened = font(face)
     loaded = opened.load_glyph(opened.get_char_index(ord(character)), flags=LoadFlags.NO_SCALE)
-    unit, advance, (left, bottom, right, top) = opened.units_per_EM * capital(), loaded.horiAdvance, loaded.bbox
-    return Glyph(advance / unit, -bottom / unit, top / unit, left / unit, (advance - right) / unit)
+    return Design(loaded.horiAdvance, *loaded.bbox)
 
 
-@cache
 def capital() -> float:
     """The height of the family's capitals, in ems, which are alike in all faces."""
-    from matplotlib.ft2font import LoadFlags
-
-    letters = font(lettering_file())
-    return letters.load_char(ord("H"), flags=LoadFlags.NO_SCALE).bbox[3] / letters.units_per_EM
+    return glyph_table().capital / glyph_table().ems
 
 
 def unknown(texts: Iterable[str]) -> str:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,7 +13,7 @@ from graphcam.comparison.arc_quantities import ArcsComparison
 from graphcam.constructions.arc_chain import AROUND_CENTRES, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import NOTHING_HELD, Scale
 from graphcam.errors import DesignError
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Rotation
@@ -93,13 +93,15 @@ class ArcsSolution(ShownSolution):
                 "rotation": self.rotation,
                 "roots": [_root(root) for root in self.roots],
             },
-            "scales": self._scales(),
+            "scales": self.scales,
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             "files": dict.fromkeys(FILES),
         }
 
-    def _scales(self) -> dict[str, Any]:
+    @property
+    def scales(self) -> dict[str, Any]:
+        """What a millimetre of paper stands for in the diagrams, by the names of their axes."""
         board, readings = self.chain.board, self.drawn["arc_diagrams"].readings
         tops = {name: readings[reading] for name, reading in (("s", "lift"), ("v", "max_v"), ("a", "max_a"))}
         return {
@@ -121,8 +123,10 @@ class ArcsSolution(ShownSolution):
         return plain_stations(phi, self.chain.stations.arc.tolist(), pairs, (read, pitch))
 
 
-def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
+def solve_arcs(task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, float] = NOTHING_HELD) -> ArcsSolution:
     """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+
+    held : scales that views keep, as :class:`~graphcam.drafting.scale.Paper` has them
 
     Raises
     ------
@@ -145,7 +149,7 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution:
         roller_radius=task.follower.roller_radius,
         divisions=drawing.divisions,
         mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
-        paper=profile_paper(drawing, SHARE),
+        paper=replace(profile_paper(drawing, SHARE), held=held),
         extent=extent,
         page=largest_drawn(drawing, extent, AROUND_CENTRES),
         heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.comparison.quantities import Comparison
+from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
@@ -19,7 +20,7 @@ from graphcam.mechanism.spline import ProfileSpline, profile_spline
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.task_board import board_of
-from graphcam.solving.warnings import less_round, warnings_of
+from graphcam.solving.warnings import Caution, less_round, warnings_of
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
@@ -56,8 +57,13 @@ class Solution(ShownSolution):
     @cached_property
     def warnings(self) -> list[str]:
         """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
-        said = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
-        return [self.tell(caution) for caution in (*said, *less_round(self.chain))]
+        return [self.tell(caution.said) for caution in self.cautions]
+
+    @cached_property
+    def cautions(self) -> list[Caution]:
+        """The same with the places where it is seen."""
+        found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
+        return [*found, *less_round(self.chain)]
 
     @property
     def tell(self) -> Tell:
@@ -97,7 +103,7 @@ class Solution(ShownSolution):
             "graphcam": __version__,
             "task": self.task.to_dict(),
             "cam": {"prime_radius": self.cam.prime_radius, **follower, "rotation": self.cam.rotation},
-            "scales": self._scales(),
+            "scales": self.scales,
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
@@ -109,7 +115,9 @@ class Solution(ShownSolution):
         """How many units of a lift in files one of the API is, and their name: an arm's lift is in degrees there."""
         return (math.degrees(1), "deg") if self.chain.board.follower.unit == "rad" else (1.0, "mm")
 
-    def _scales(self) -> dict[str, Any]:
+    @property
+    def scales(self) -> dict[str, Any]:
+        """What a millimetre of paper stands for in the diagrams, by the names of their axes."""
         readings, (factor, unit) = self.chain["integration"].readings, self._lift
         scales = {name: readings[name].per_mm for name in ("s", "v", "a")}
         return {
@@ -148,6 +156,11 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
     >>> round(float(solution.drawn["minimum_radius"].readings["prime_radius"].value), 2)
     43.28
     """
-    chain = Chain(board_of(task), pencil or Pencil())
+    return solved_on(board_of(task), task, pencil)
+
+
+def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solution:
+    """The solution of a task on a drawing board, whose scales may be other than the task's own."""
+    chain = Chain(board, pencil or Pencil())
     follower = chain.board.follower.built(chain.place, chain.roller_radius)
     return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))

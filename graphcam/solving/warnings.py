@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
@@ -16,25 +17,38 @@ LAST_DIGIT = 0.005
 ENLARGE = say("Enlarge the prime radius.")
 
 
-def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Caption]:
-    """Sentences, the gravest first; none for a sound cam.
+@dataclass(frozen=True)
+class Caution:
+    """A sentence on what is wrong, and where it is seen.
+
+    of : what is not as it should be
+    phi : the cam angles [rad] there
+    alpha : the pressure angle there [rad], of one that exceeds its limit
+    """
+
+    said: Caption
+    of: Literal["profile", "pressure angle", "prime radius", "rounding"]
+    phi: tuple[float, ...] = ()
+    alpha: float | None = None
+
+
+def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Caution]:
+    """What is to be warned of, the gravest first; nothing for a sound cam.
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
     return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
 
 
-def _undercut(cam: Cam) -> Iterator[Caption]:
+def _undercut(cam: Cam) -> Iterator[Caution]:
     try:
         lost = cam.undercuts()
     except DesignError:
         remedy = ENLARGE
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
-        yield say(
-            "The profile cannot be cut: its undercut is made of loops that cannot be told apart. {remedy}",
-            remedy=remedy,
-        )
+        said = say("The profile cannot be cut: its undercut is made of loops that cannot be told apart. {remedy}")
+        yield Caution(said.where(remedy=remedy), "profile")
         return
     if not lost:
         return
@@ -43,12 +57,10 @@ def _undercut(cam: Cam) -> Iterator[Caption]:
         if cam.kinematics.takes_roller
         else say("by the flat face on a prime radius of {radius:g} mm", radius=cam.prime_radius)
     )
-    yield say(
-        "The profile cannot be cut {cause}: it is undercut {where}. {remedy}",
-        cause=too_large,
-        where=sequence([_where(part) for part in lost], "; "),
-        remedy=_remedy(cam, lost),
-    )
+    said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
+    where = sequence([_where(part) for part in lost], "; ")
+    corners = tuple(part.crossing[0] for part in lost)
+    yield Caution(said.where(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
 
 
 def _where(part: Undercut) -> Caption:
@@ -79,7 +91,7 @@ EXCEEDED = {
 }
 
 
-def _limits(cam: Cam, board: Board) -> Iterator[Caption]:
+def _limits(cam: Cam, board: Board) -> Iterator[Caution]:
     extremes, limits = cam.extremes(), board.limits
     for word, (alpha, phi), limit in (
         ("rise", extremes.pressure_angle_rise, limits.rise),
@@ -88,20 +100,17 @@ def _limits(cam: Cam, board: Board) -> Iterator[Caption]:
         at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
         if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > LAST_DIGIT:
             values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
-            yield replace(EXCEEDED[word], values=values)
+            yield Caution(replace(EXCEEDED[word], values=values), "pressure angle", (phi,), alpha)
 
 
-def _prime_radius(board: Board, least: float) -> Iterator[Caption]:
+def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - LAST_DIGIT:
-        yield say(
-            "The given prime radius of {given:g} mm is smaller than the least permitted one, {least:.2f} mm.",
-            given=given,
-            least=least,
-        )
+        said = say("The given prime radius of {given:g} mm is smaller than the least permitted one, {least:.2f} mm.")
+        yield Caution(said.where(given=given, least=least), "prime radius")
 
 
-def less_round(chain: Chain) -> list[Caption]:
+def less_round(chain: Chain) -> list[Caution]:
     """The sentence on sizes that are no multiples of the rounding, because none of them goes with another."""
     if chain.rounded:
         return []
@@ -112,7 +121,7 @@ def less_round(chain: Chain) -> list[Caption]:
         radius=chain.prime_radius,
         distance=chain.place,
     )
-    return [said]
+    return [Caution(said, "rounding")]
 
 
 def _degrees(phi: float) -> Caption:

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,9 +106,6 @@ class Space:
     follower: Kind = "translating"
     rotation: Any = "ccw"
     quantities: tuple[str, ...] = QUANTITIES
-
-    # As for a task: no text for numbers, nothing unknown, nothing infinite.
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
     def __post_init__(self) -> None:
         word_axis("rotation", self.rotation, ("ccw", "cw"))

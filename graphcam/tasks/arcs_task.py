@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
@@ -97,9 +97,6 @@ class ArcsTask:
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
     part: PartTable | None = None
     __repr__ = by_parts
-
-    # As for every task: no text for numbers, nothing unknown, nothing infinite.
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
     def __post_init__(self) -> None:
         positive("speed_rpm", self.speed_rpm, "rpm")

@@ -3,32 +3,17 @@
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
+from graphcam.tasks.dataclass_reader import ByKind, ByName
 
 ANGLE_CLOSURE = 1e-9
 """How far the phase angles of a file may miss 360 degrees."""
-
-
-class ByKind:
-    """Tells pydantic, once a file is read and it is loaded, to choose among classes by the key ``kind``."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        from pydantic import Discriminator
-
-        return Discriminator("kind").__get_pydantic_core_schema__(source, handler)
-
-
-class ByName:
-    """Tells pydantic that what a file says is a name."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        return handler.generate_schema(str)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,8 @@ from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.showing import WIDTH, in_lines
-from graphcam.tasks.motion_tables import ByKind, MotionTable
+from graphcam.tasks.dataclass_reader import ByKind
+from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
 
@@ -273,9 +274,6 @@ class Task:
     spring: SpringTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
-
-    # How pydantic reads a file: no text for numbers, nothing unknown, nothing infinite; it holds for the tables too.
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
     def __repr__(self) -> str:
         measured = f"measured, {self.motion.table.file}" if self.motion.table else ""

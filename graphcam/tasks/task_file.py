@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
-import json
 import re
 import tomllib
 from collections.abc import Generator
 from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.dataclass_reader import (
+    Fault,
+    Misfit,
+    Missing,
+    Place,
+    UnknownKey,
+    UnknownKind,
+    WrongType,
+    read_dataclass,
+)
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
-
-if TYPE_CHECKING:
-    from pydantic import TypeAdapter
-    from pydantic_core import ErrorDetails
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
@@ -70,19 +74,6 @@ _KEYS = {
     "the table's lift": "table (lift)",
 }
 """What a quantity of a design error is called in the file, where that differs."""
-_EXPECTED = {
-    "float_type": "a number (without quotes)",
-    "int_type": "a whole number (without quotes)",
-    "string_type": "text in quotes",
-    "bool_type": "true or false",
-    "finite_number": "a finite number",
-    "dataclass_type": "a table",
-    "dict_type": "a table",
-    "tuple_type": "a list",
-}
-"""What a file must give, by the type of pydantic's error."""
-Place = tuple[int | str, ...]
-"""Where in a file: keys, numbers of list entries, and pydantic's choices among classes."""
 _LONGEST = 60
 """Characters of a value that a message shows."""
 
@@ -145,6 +136,25 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     if not isinstance(task, Task):
         raise TaskError(path, "arcs", "a table", "left out", "this takes a task with phases of motion")
     return task
+
+
+def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
+    """The task that plain data say, with the keys and units of a file; a measured table stands in them itself.
+
+    name : what messages call it
+
+    Raises
+    ------
+    TaskError : a field is missing, unknown or wrong, or ``motion.table`` names a file
+
+    >>> import graphcam as gc
+    >>> task_from(gc.builtin_task().to_dict()) == gc.builtin_task()
+    True
+    """
+    if isinstance(motion := data.get("motion"), dict) and isinstance(table := motion.get("table"), str):
+        remedy = "no file is read here: give the rows of the table"
+        raise TaskError(name, "motion.table", table, "a table with file, column and rows", remedy)
+    return _task(name, data, data)
 
 
 def builtin_task(name: str = "coursework") -> Task:
@@ -248,46 +258,29 @@ def checked(kind: type[_Checked], classes: Classes, path: str, data: dict[str, A
     ------
     TaskError : a field is missing, unknown or wrong
     """
-    # Only reading files needs pydantic, and it takes long to load.
-    from pydantic import ValidationError
-
-    # Strict JSON takes tables for dataclasses and lists for tuples, but no text for numbers: what a file should be.
-    # A TOML date is none of JSON's types; as a table it is as wrong there as it was here.
-    text = json.dumps(whole, default=lambda date: {"date": str(date)})
-    try:
-        return _reader(kind).validate_json(text)
-    except ValidationError as error:
-        details = error.errors(include_url=False)
-    details.sort(key=lambda detail: detail["type"] != "unexpected_keyword_argument")
-    raise _task_error(path, data, classes, details[0])
+    read = read_dataclass(kind, whole)
+    if not isinstance(read, list):
+        return read
+    read.sort(key=lambda fault: not isinstance(fault, UnknownKey))
+    raise _task_error(path, data, classes, read[0])
 
 
-@functools.cache
-def _reader(kind: type[_Checked]) -> TypeAdapter[_Checked]:
-    """What reads tables as a dataclass; making it takes longer than a thousand readings."""
-    from pydantic import TypeAdapter
-
-    return TypeAdapter(kind)
-
-
-def _task_error(path: str, data: dict[str, Any], classes: Classes, detail: ErrorDetails) -> TaskError:
+def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault) -> TaskError:
     """The error of a file in the words of its writer."""
-    kind, context = detail["type"], detail.get("ctx", {})
-    place, value = _look_up(data, detail["loc"])
-    if isinstance(error := context.get("error"), DesignError):
-        return _misfit(path, data, detail["loc"], error)
-    if kind == "missing":
-        return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
-    if kind == "unexpected_keyword_argument":
-        return _unknown_key(path, place, value, classes, _table(detail["loc"][:-1]))
-    if kind.startswith("union_tag"):
-        tags = [table[-1] for table in classes if table[:-1] == _table(detail["loc"])]
-        found = value.get("kind", Unquoted("missing"))
-        return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
-    expected = context.get("expected") or _EXPECTED.get(kind) or detail["msg"]
-    if kind == "too_long":
-        expected = f"a list of {context['max_length']}"
-    return TaskError(path, place, _shown(value), str(expected), EXAMPLE)
+    place, value = _look_up(data, fault.place)
+    match fault:
+        case Misfit(table, error):
+            return _misfit(path, data, table, error)
+        case Missing():
+            return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
+        case UnknownKey(where):
+            return _unknown_key(path, place, value, classes, _table(where[:-1]))
+        case UnknownKind(table):
+            tags = [each[-1] for each in classes if each[:-1] == _table(table)]
+            found = value.get("kind", Unquoted("missing"))
+            return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
+        case WrongType(_, expected):
+            return TaskError(path, place, _shown(value), expected, EXAMPLE)
 
 
 def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...]) -> TaskError:

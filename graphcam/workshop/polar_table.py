@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.mechanism.roots import roots
 from graphcam.tasks.part_table import PartTable
 from graphcam.workshop.cam_part import profile_tolerance, radius_decimals
 from graphcam.workshop.outline import Outline

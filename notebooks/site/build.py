@@ -13,6 +13,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from types import ModuleType
 
 import jupytext
 import nbformat
@@ -20,6 +21,7 @@ from docstrings import public_names
 from nbformat import NotebookNode
 from PIL import Image
 from sphinx.cmd.build import build_main
+from studio_links import FOLDER, studio_page, try_it
 
 import graphcam as gc
 from graphcam.notebooks.running import execute
@@ -42,7 +44,7 @@ GROUPS = {
     "motion": ("Motions, followers, loads", ("given",)),
     "exact": ("Exact values", ("mechanism",)),
     "drawn": ("The drawing board", ("drafting", "constructions")),
-    "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "sweeps")),
+    "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "sweeps", "studio")),
     "errors": ("Errors", ("errors",)),
 }
 """The pages of the reference: title, and the rooms whose public names stand there."""
@@ -59,11 +61,17 @@ def run(path: Path) -> NotebookNode:
     return execute(jupytext.read(path), COURSE)
 
 
-def build(out: Path, notebook: Callable[[Path], NotebookNode] = run, sheets: Iterable[str] = GALLERY) -> int:
+def build(
+    out: Path,
+    notebook: Callable[[Path], NotebookNode] = run,
+    sheets: Iterable[str] = GALLERY,
+    pyodide: Path | None = None,
+) -> int:
     """Build the site into the folder; 0 where nothing is wrong.
 
     notebook : reads a notebook of the course, with its outputs if the site shall show them
     sheets : the built-in tasks of the gallery whose sheets are drawn
+    pyodide : folder with Pyodide and NumPy, of which the studio is made; without it the site has no studio
     """
     with tempfile.TemporaryDirectory(prefix="graphcam-site-") as folder:
         source = Path(folder) / "source"
@@ -71,12 +79,27 @@ def build(out: Path, notebook: Callable[[Path], NotebookNode] = run, sheets: Ite
         shutil.copy(COURSE.parent / ".readme" / "coursework.png", source)
         shutil.copy(COURSE.parent / "exercises" / "README.md", source / "exercises.md")
         for path in NOTEBOOKS:
-            nbformat.write(notebook(path), source / "course" / f"{path.stem}.ipynb")
+            lesson = notebook(path)
+            if pyodide:
+                lesson.cells[0].source += f"\n\n{try_it(path.stem)}"
+            nbformat.write(lesson, source / "course" / f"{path.stem}.ipynb")
+        if pyodide:
+            write_studio(source, out / FOLDER, pyodide)
         write_gallery(source / "gallery", sheets)
         write_reference(source / "reference")
         return build_main(
             ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]
         )
+
+
+def write_studio(source: Path, out: Path, pyodide: Path) -> None:
+    """The studio in its folder, and its page, the first that the site lists."""
+    from graphcam.studio.site_folder import write_site
+
+    write_site(out, pyodide, gc.builtin_task())
+    (source / "studio.md").write_text(studio_page(), encoding="utf-8")
+    index = (source / "index.md").read_text(encoding="utf-8")
+    (source / "index.md").write_text(index.replace("\nfirst-sheet\n", "\nstudio\nfirst-sheet\n", 1), encoding="utf-8")
 
 
 def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
@@ -120,6 +143,9 @@ def room_of(name: str) -> str:
 def entry(name: str) -> str:
     """What Sphinx is asked to say of a public name."""
     thing = getattr(gc, name)
+    if isinstance(thing, ModuleType):
+        # A room that can be called: what it does then is told by its function.
+        return f'<span id="graphcam.{name}"></span>\n\n```{{eval-rst}}\n.. autofunction:: graphcam.{name}.open_{name}\n```'
     if not callable(thing):
         return f"```{{py:data}} graphcam.{name}\n\n`{thing}`\n```"
     options = ":members:\n" if isinstance(thing, type) else ""
@@ -147,13 +173,16 @@ def main() -> int:
     ways = parser.add_mutually_exclusive_group()
     ways.add_argument("--no-execute", action="store_true", help="notebooks without outputs, no sheets: for a quick look")
     ways.add_argument("--executed", type=Path, metavar="DIR", help="folder of the notebooks, executed before (.ipynb)")
+    pyodide = "folder with Pyodide and NumPy: the site has the studio, and every notebook a link into it"
+    parser.add_argument("--pyodide", type=Path, metavar="DIR", help=pyodide)
     asked = parser.parse_args()
     if asked.no_execute:
-        status = build(asked.out, stored, ())
+        status = build(asked.out, stored, (), asked.pyodide)
     elif asked.executed:
-        status = build(asked.out, lambda path: nbformat.read(asked.executed / f"{path.stem}.ipynb", as_version=4))
+        read = lambda path: nbformat.read(asked.executed / f"{path.stem}.ipynb", as_version=4)  # noqa: E731
+        status = build(asked.out, read, pyodide=asked.pyodide)
     else:
-        status = build(asked.out)
+        status = build(asked.out, pyodide=asked.pyodide)
     print(f"{asked.out / 'index.html'}: {'done' if status == 0 else 'the site has faults'}")
     return status
 

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import copy
 import math
+import os
 import pickle
+import subprocess
+import sys
 from itertools import pairwise
 from math import radians
 
@@ -267,3 +270,26 @@ def test_a_measured_motion_travels():
     motion = measured_motion(DEGREES, table(LAWS["3-4-5"]))
     for other in (pickle.loads(pickle.dumps(motion)), copy.deepcopy(motion)):
         assert_allclose(other(DENSE), motion(DENSE), rtol=0, atol=0)
+
+
+FITTED_ROWS = """
+import numpy as np
+import graphcam as gc
+degrees = np.arange(360.0)
+up, down = np.clip(degrees / 100, 0, 1), np.clip((degrees - 150) / 90, 0, 1)
+rows = np.round(30 * (up * up * (3 - 2 * up) - down * down * (3 - 2 * down)), 3)
+motion = gc.measured_motion(np.radians(degrees), rows)
+print(np.array(motion(np.radians(degrees + 0.5))).tobytes().hex())
+"""
+
+
+@pytest.mark.parametrize(
+    "other", [{"OPENBLAS_CORETYPE": "Prescott"}, {"NPY_DISABLE_CPU_FEATURES": "FMA3 AVX2 X86_V3"}], ids=str
+)
+def test_every_digit_is_that_of_another_processor(other):
+    def fitted(**settings: str) -> str:
+        command = [sys.executable, "-W", "ignore", "-c", FITTED_ROWS]
+        environment = {**os.environ, **settings}
+        return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
+
+    assert fitted(**other) == fitted()

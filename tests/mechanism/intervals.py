@@ -118,10 +118,10 @@ def law_of_polynomials(law) -> list[Sum]:
     ends = (0.0, *law.edges, 1.0)
     for piece, begin, end in zip(law.pieces, ends[:-1], ends[1:], strict=True):
         spline, from_end, middle = piece.formula.keywords["spline"], piece.length < 0, (begin + end) / 2
-        part = int(np.searchsorted(spline.x, 1 - middle if from_end else middle)) - 1
-        start = mpf(float(spline.x[part]))
+        part = int(np.searchsorted(spline.ends, 1 - middle if from_end else middle)) - 1
+        start = mpf(float(spline.ends[part]))
         # x - start, or from the end 1 - u - start, about its own zero: about u = 0 the terms would be huge and cancel.
-        powers = [mpf(c) * (-1) ** (n * from_end) for n, c in enumerate(spline.c[::-1, part].tolist())]
+        powers = [mpf(c) * (-1) ** (n * from_end) for n, c in enumerate(spline.coefficients[:, part].tolist())]
         if from_end:
             powers = [-c for c in powers]
             powers[0] += 1

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from chromium import chromium
 from players import Solved, watch
-from playwright.sync_api import Browser, Page, sync_playwright
-from programs import program
+from playwright.sync_api import Browser, Page
 
 
 @pytest.fixture(scope="module")
@@ -24,13 +24,8 @@ def solved(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    chromium = program("chromium")
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(
-            executable_path=chromium, args=["--no-sandbox", "--disable-background-networking"]
-        )
+    with chromium() as started:
         yield started
-        started.close()
 
 
 @pytest.fixture

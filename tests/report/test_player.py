@@ -243,9 +243,9 @@ def test_who_wants_no_motion_gets_none(solved, opened):
     assert still.evaluate(duration) == "0s"
     assert moving.evaluate(duration) != "0s"
     still.keyboard.press("m")
-    first = still.locator("#cam").get_attribute("transform")
+    first = still.locator("#scene .cam").get_attribute("transform")
     still.wait_for_timeout(200)
-    assert still.locator("#cam").get_attribute("transform") == first
+    assert still.locator("#scene .cam").get_attribute("transform") == first
 
 
 @pytest.mark.parametrize(("name", "size"), [("coursework", (841, 594)), ("pages", (420, 297))])
@@ -287,18 +287,19 @@ class Mechanism:
     """What is drawn of the mechanism, and what is said of it."""
 
     def __init__(self, page: Page) -> None:
-        ids = ("roller", "contact", "cam", "motion", "normal", "rod")
+        names = ("roller", "contact", "cam", "motion", "normal", "rod")
         self.attributes = page.evaluate(
-            """ids => Object.fromEntries(ids.map(id => [id,
-            Object.fromEntries([...document.getElementById(id).attributes].map(a => [a.name, a.value]))]))""",
-            ids,
+            """names => Object.fromEntries(names.map(name => [name,
+            Object.fromEntries(
+                [...document.querySelector(`#scene .${name}`).attributes].map(a => [a.name, a.value]))]))""",
+            names,
         )
-        self.profile = _points(page.locator("#cam .body").get_attribute("d"))
+        self.profile = _points(page.locator("#scene .cam .body").get_attribute("d"))
         self.said = page.evaluate(
             """() => Object.fromEntries([...document.querySelectorAll('[id^=live-]')].map(
             e => [e.id.slice(5), e.textContent]))"""
         )
-        self.said["beside"] = page.locator("#alpha").text_content().removeprefix("α = ")
+        self.said["beside"] = page.locator("#scene .alpha").text_content().removeprefix("α = ")
 
     def centre(self, name: str) -> complex:
         return complex(float(self.attributes[name]["cx"]), float(self.attributes[name]["cy"]))
@@ -389,8 +390,8 @@ def test_a_misplaced_follower_would_be_seen(solved, browser, tmp_path):
         page.close()
 
 
-BOXES = """() => ["#roller", "#rod", "#normal", "#alpha"].map(
-    (part) => ({ part, ...document.querySelector(part).getBoundingClientRect().toJSON() }))"""
+BOXES = """() => [".roller", ".rod", ".normal", ".alpha"].map(
+    (part) => ({ part, ...document.querySelector(`#scene ${part}`).getBoundingClientRect().toJSON() }))"""
 
 
 @each_mechanism

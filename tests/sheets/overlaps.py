@@ -5,6 +5,7 @@ It works on the exact boxes and lines, not on the raster by which the texts were
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -12,9 +13,11 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
-from graphcam.sheets.model import Drawing, Group, Page, Text
+from graphcam.sheets.labels import chosen_places, set_at
+from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
 from graphcam.sheets.sampling import around, corners, pieces, within
 from graphcam.sheets.styles import BOLD, STYLES
+from graphcam.sheets.writing import Writing
 
 
 @dataclass(frozen=True)
@@ -25,6 +28,12 @@ class Overlap:
     kind: str
     text: str
     other: str
+
+
+def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[list[Entity]]:
+    """The texts, and their leaders, in the places that they choose."""
+    chosen = chosen_places(writings, drawn, inside)
+    return [set_at(writing, k) for writing, k in zip(writings, chosen, strict=True)]
 
 
 def overlaps(drawing: Drawing, width: float = BOLD) -> list[Overlap]:

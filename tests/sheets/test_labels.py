@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from overlaps import overlaps
+from overlaps import overlaps, place
 
 from graphcam.drafting.marks import Role
 from graphcam.sheets.box import Box
-from graphcam.sheets.labels import place
 from graphcam.sheets.model import ArcEntity, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners, within
 from graphcam.sheets.writing import along, around, over

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from overlaps import place
 
 from graphcam.drafting.marks import Role
 from graphcam.sheets.box import Box
-from graphcam.sheets.labels import Occupancy, lettered, place, shading_parted
+from graphcam.sheets.labels import Occupancy, lettered, shading_parted
 from graphcam.sheets.model import Circles, Heads, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners
 from graphcam.sheets.writing import Writing, around

@@ -80,7 +80,7 @@ def test_developers_are_sent_to_tests_that_are_there():
     given = [line.split() for line in commands_for_developers()]
     assert given
     for program, *arguments in given:
-        assert program in ("pytest", "graphcam", "pybabel", "mkdir")
+        assert program in ("pytest", "graphcam", "pybabel", "mkdir", "npm")
         if program == "pytest":
             assert all((ROOT / path).exists() for path in arguments)
 

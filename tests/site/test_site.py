@@ -14,6 +14,7 @@ import pytest
 from browsers import opened
 from courses import COURSE, executed
 from pages import ROOT, SITE
+from programs import pyodide_folder
 
 import graphcam as gc
 
@@ -67,6 +68,8 @@ def faults(site: Path) -> Iterator[str]:
             target = (path.parent / unquote(to.path)).resolve() if to.path else path
             if not target.exists():
                 yield f"{path.name} leads to {address}"
+            elif to.fragment.startswith("1.") and target.parent.name == "studio":
+                continue  # a state of the studio
             elif to.fragment and target in pages and unquote(to.fragment) not in pages[target].anchors:
                 yield f"{path.name} leads to {address}, which has no such place"
 
@@ -82,6 +85,25 @@ def test_the_quick_site_has_the_same_pages(site, tmp_path):
     pages = [{path.relative_to(folder) for path in folder.rglob("*.html")} for folder in (site, tmp_path)]
     assert pages[0] == pages[1]
     assert list(faults(tmp_path)) == []
+    # Without Pyodide there is no studio, and no link into it.
+    assert not (tmp_path / "studio").exists()
+    assert [path for path in tmp_path.rglob("*.html") if "studio/index.html" in path.read_text(encoding="utf-8")] == []
+
+
+@pytest.mark.slow
+def test_with_pyodide_the_site_has_the_studio_and_every_notebook_a_link_into_it(tmp_path):
+    (tmp_path / "pyodide").mkdir()
+    site = tmp_path / "site"
+    build("--no-execute", "--pyodide", pyodide_folder(tmp_path / "pyodide"), "--out", site)
+    assert list(faults(site)) == []
+    assert {"index.html", "service-worker.js"} <= {path.name for path in (site / "studio").iterdir()}
+    links = [Links(site / "course" / f"{name}.html").links for name in COURSE]
+    assert [sum(link.startswith("../studio/index.html#1.") for link in of_page) for of_page in links] == [1] * len(
+        COURSE
+    )
+    # The first page that the site lists.
+    pages = [link for link in Links(site / "index.html").links if link.endswith(".html") and not link.startswith("#")]
+    assert next(link for link in pages if link != "index.html") == "studio.html"
 
 
 @pytest.mark.slow

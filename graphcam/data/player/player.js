@@ -31,16 +31,9 @@
     try { history.replaceState(null, "", `#${address()}`); } catch { /* a page in a frame may not */ }
   }
 
-  function on() {
-    if (part !== null && part < partsOf(current) - 1) go(current, part + 1);
-    else if (!atEnd()) go(current + 1, 0);
-  }
-
-  function back() {
-    if (part === null && partsOf(current) > 1) go(current, partsOf(current) - 1);
-    else if (part) go(current, part - 1);
-    else if (current) go(current - 1);
-  }
+  const counts = steps.map((step) => step.parts.length);
+  const on = () => go(...placeAfter([current, part], counts));
+  const back = () => go(...placeBefore([current, part], counts));
 
   const wholeOn = () => go(part === null ? current + 1 : current);
   const wholeBack = () => go(current - 1);
@@ -185,44 +178,10 @@
 
   // --- a reading and its marks light each other ----------------------------------------------------------------------
 
-  const namesOf = (element) => JSON.parse(element.dataset.lit || "[]");
-
   function point(names) {
     for (const { board } of panes) board.point(names);
   }
-
-  function pointFrom(event) {
-    const reading = event.target.closest?.("[data-lit]");
-    point(reading ? namesOf(reading) : []);
-  }
-  for (const event of ["pointerover", "focusin"]) at("words").addEventListener(event, pointFrom);
-  at("words").addEventListener("pointerleave", () => point([]));
-  at("words").addEventListener("focusout", () => point([]));
-
-  // Lines are thin: the nearest piece a few pixels about the pointer is meant too.
-  const about = [0, 1.5, 3, 4.5, 6].flatMap((far) => [0, 45, 90, 135, 180, 225, 270, 315].map((degrees) => {
-    const angle = degrees * Math.PI / 180;
-    return [far * Math.cos(angle), far * Math.sin(angle)];
-  }));
-
-  function pieceNear({ clientX, clientY }) {
-    for (const [dx, dy] of about) {
-      const found = document.elementFromPoint(clientX + dx, clientY + dy)?.closest("[data-act]");
-      if (found) return found;
-    }
-    return null;
-  }
-
-  function lightReadings(piece) {
-    const { act, at: place } = piece?.dataset || {};
-    const bears = ([named, places]) =>
-      String(named) === act && (!places || place === undefined || places.includes(Number(place)));
-    for (const reading of slides[current].querySelectorAll("[data-lit]")) {
-      reading.classList.toggle("lit", Boolean(piece) && namesOf(reading).some(bears));
-    }
-  }
-  at("desk").addEventListener("pointermove", (event) => event.buttons || lightReadings(pieceNear(event)));
-  at("desk").addEventListener("pointerleave", () => lightReadings(null));
+  lightEachOther(at("words"), at("desk"), () => slides[current], point);
 
   // --- the steps by themselves ---------------------------------------------------------------------------------------
 
@@ -330,28 +289,14 @@
   // --- construction or mechanism, light or dark ------------------------------------------------------------------
 
   function show(number) {
-    tabs.forEach((tab, k) => {
-      tab.ariaSelected = String(k === number);
-      tab.tabIndex = k === number ? 0 : -1;
-      at(tab.getAttribute("aria-controls")).hidden = k !== number;
-    });
+    markTab(tablist, tabs[number]);
+    tabs.forEach((tab, k) => (at(tab.getAttribute("aria-controls")).hidden = k !== number));
     document.dispatchEvent(new CustomEvent("shown", { detail: tabs[number].getAttribute("aria-controls") }));
     if (number === 0) look();
   }
 
-  tabs.forEach((tab, k) => {
-    tab.addEventListener("click", () => show(k));
-    tab.addEventListener("keydown", (event) => {
-      if (!/^Arrow(Left|Right)$/.test(event.key)) return;
-      show(1 - k);
-      tabs[1 - k].focus();
-    });
-  });
-
-  function switchTheme() {
-    const dark = document.documentElement.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-    document.documentElement.dataset.theme = dark === "dark" ? "light" : "dark";
-  }
+  const tablist = document.querySelector("[role=tablist]");
+  if (tablist) tabsOf(tablist, (tab) => show(tabs.indexOf(tab)));
 
   new ResizeObserver(() => at("desk").clientWidth && look()).observe(at("desk"));
   document.body.classList.add("running");

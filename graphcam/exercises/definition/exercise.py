@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.units import UNITS
@@ -155,8 +155,6 @@ class Exercise:
     version: int = 1
     name: str = ""
     language: str = ENGLISH.name
-
-    __pydantic_config__: ClassVar[dict[str, Any]] = {"strict": True, "extra": "forbid", "allow_inf_nan": False}
 
     def __post_init__(self) -> None:
         one_of("language", self.language, languages())

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 from reference import EPS
 
-from graphcam.mechanism.roots import roots
+from graphcam.given.roots import roots
 
 
 @given(st.lists(st.floats(1e-12, 1.0), min_size=1, max_size=5), st.floats(0.1, 50.0))

@@ -1,0 +1,108 @@
+"""``graphcam studio``."""
+
+from __future__ import annotations
+
+import threading
+import webbrowser
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from typer import Option
+
+import graphcam
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, named, one_message, warnings_told
+from graphcam.errors import DesignError
+from graphcam.language import languages
+
+if TYPE_CHECKING:
+    from graphcam.tasks.arcs_task import ArcsTask
+    from graphcam.tasks.task import Task
+
+FOLDER = f"Folder for the files that the page writes, {DEFAULT_FOLDER} if left out."
+LANGUAGE = f"Language of the page and of what it writes, not the task's: {', '.join(languages())}."
+ONE_FILE = "Write the studio as one file that needs no server, and end."
+STATIC = "Write the studio as a folder for a web server, and end."
+PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site pack."
+ENDS = "It ends with its last tab, or with Ctrl-C."
+
+
+def studio(
+    task: TaskFile = None,
+    out: Annotated[Path, Option(parser=named, metavar="DIR", help=FOLDER)] = DEFAULT_FOLDER,
+    language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE)] = None,
+    browser: Annotated[bool, Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
+    html: Annotated[Path | None, Option(parser=named, metavar="FILE", help=ONE_FILE)] = None,
+    site: Annotated[Path | None, Option(parser=named, metavar="DIR", help=STATIC)] = None,
+    pyodide: Annotated[Path | None, Option(parser=named, metavar="DIR", help=PYODIDE)] = None,
+) -> None:
+    """Open the studio: move a size, and see the construction and the exact values follow.
+
+    The page is served to this machine alone, at an address with a secret in it: where others use the machine too, open
+    that address yourself, with --no-browser.
+
+    [bold]Examples[/bold]
+
+    graphcam studio
+
+    graphcam studio cam.toml --out cam
+
+    graphcam studio cam.toml --no-browser   (prints the address to be opened)
+
+    graphcam studio cam.toml --html studio.html --pyodide pyodide   (one file for a course page)
+
+    graphcam studio --site public/studio --pyodide pyodide   (a folder for a web server)
+    """
+    with one_message(), warnings_told():
+        _check(html, site, pyodide)
+        given = _read(task, language)
+        if pyodide is None:
+            _serve(given, out, browser=browser)
+        else:
+            typer.echo(f"{_written(given, html, site, pyodide)} is written")
+
+
+def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
+    """That the options go together."""
+    if html is not None and site is not None:
+        raise DesignError("--site", str(site), "left out with --html", "write one after the other")
+    if (html or site) is not None and pyodide is None:
+        asked = "--site" if html is None else "--html"
+        raise DesignError("--pyodide", "missing", f"given with {asked}", "name the folder with Pyodide and NumPy")
+    if (html or site) is None and pyodide is not None:
+        raise DesignError("--pyodide", str(pyodide), "left out without --html and --site", "the server needs none")
+
+
+def _read(path: Path | None, spoken: str | None) -> Task | ArcsTask:
+    task = graphcam.builtin_task() if path is None else graphcam.load_task(path)
+    if spoken is None:
+        return task
+    return replace(task, drawing=replace(task.drawing, language=spoken))
+
+
+def _written(task: Task | ArcsTask, html: Path | None, site: Path | None, pyodide: Path) -> Path:
+    """Write the studio that needs no server: where to."""
+    from graphcam.studio.one_file import write_one_file
+    from graphcam.studio.site_folder import write_site
+
+    if html is not None:
+        write_one_file(html, pyodide, task, task.drawing.language)
+        return html
+    assert site is not None
+    write_site(site, pyodide, task, task.drawing.language)
+    return site
+
+
+def _serve(task: Task | ArcsTask, out: Path, *, browser: bool) -> None:
+    """Serve until the last tab is closed."""
+    # Loads the engine and the templates: only when the input has been found right.
+    from graphcam.studio.local_studio import local_studio, opened_address
+
+    with local_studio(out, task.drawing.language) as server:
+        address = opened_address(server, task)
+        typer.echo(f"{address}\n{ENDS}")
+        if browser:
+            # A browser of the terminal returns when it is closed.
+            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        server.run()

@@ -1,0 +1,80 @@
+// The state in the address: "#1." and what differs from the built-in task, as JSON, deflated, in base64url.
+"use strict";
+
+const LONGEST_ADDRESS = 2000;
+// The cam angle where the address says none [degrees].
+const USUAL_PHI = 30;
+
+// --- what differs between two tasks, by paths; null is what only the first has ------------------------------------------
+
+const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+const isTables = (value) => Array.isArray(value) && value.length > 0 && value.every(isTable);
+
+function differences(base, task, path = "", found = {}) {
+  for (const key of new Set([...Object.keys(base), ...Object.keys(task)])) {
+    const at = path ? `${path}.${key}` : key, [before, now] = [base[key], task[key]];
+    if (now === undefined) found[at] = null;
+    else if (isTable(now) && isTable(before)) differences(before, now, at, found);
+    else if (isTables(now) && isTables(before) && now.length === before.length) {
+      now.forEach((table, k) => differences(before[k], table, `${at}[${k}]`, found));
+    } else if (JSON.stringify(now) !== JSON.stringify(before)) found[at] = now;
+  }
+  return found;
+}
+
+// --- letters -----------------------------------------------------------------------------------------------------------------
+
+async function through(bytes, stream) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+async function packed(data) {
+  const bytes = await through(new TextEncoder().encode(JSON.stringify(data)), new CompressionStream("deflate-raw"));
+  return btoa(String.fromCharCode(...bytes)).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+}
+
+async function unpacked(letters) {
+  const text = atob(letters.replace(/-/g, "+").replace(/_/g, "/"));
+  const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+}
+
+// --- state and address ---------------------------------------------------------------------------------------------------
+
+function addressOf(config) {
+  const base = config.builtin[config.name] ? config.name : Object.keys(config.builtin)[0];
+
+  async function write({ task, name, view, step, phi, mode, pin, exercise }) {
+    const from = config.builtin[name] ? name : base;
+    const d = differences(config.builtin[from], task), data = { b: from };
+    if (Object.keys(d).length) data.d = d;
+    if (view) data.v = view;
+    if (step) data.s = step;
+    if (phi !== USUAL_PHI) data.p = phi;
+    if (mode !== "play") data.m = mode;
+    if (pin) data.n = differences(config.builtin[from], pin);
+    if (exercise) data.x = exercise;
+    const hash = `#1.${await packed(data)}`;
+    return hash.length > LONGEST_ADDRESS ? null : hash;
+  }
+
+  // What an address says, or null; unknown keys and what cannot be read are passed over.
+  async function read(hash) {
+    if (!hash.startsWith("#1.")) return null;
+    try {
+      const data = await unpacked(hash.slice(3)), from = config.builtin[data.b];
+      if (!from) return null;
+      const state = { name: data.b, task: withChanges(from, data.d || {}), mode: data.m || "play" };
+      if (typeof data.v === "string") state.view = data.v;
+      if (typeof data.s === "string") state.step = data.s;
+      if (Number.isFinite(data.p)) state.phi = data.p;
+      state.pin = data.n ? withChanges(from, data.n) : null;
+      if (isTable(data.x)) state.exercise = data.x;
+      return state;
+    } catch {
+      return null;
+    }
+  }
+
+  return { write, read };
+}

@@ -1,0 +1,69 @@
+// Files: a task is saved and opened, sheets are written by who serves the page, a link is copied.
+"use strict";
+
+function filesOf(page) {
+  const { at, word, config, state, queue, wire } = page, now = state.get;
+
+  function said(text, wrong = false) {
+    at("written").textContent = text;
+    at("written").classList.toggle("over", wrong);
+  }
+  const refused = ({ error }) => said([error.message, error.remedy].filter(Boolean).join("; "), true);
+
+  // Another task takes the place of this one; undo brings it back.
+  function load(task, name = now().name) {
+    const before = now().task;
+    page.forget();
+    state.set({ name, view: null, step: null, part: null, phi: USUAL_PHI, station: null, task });
+    state.remember(before);
+  }
+
+  async function save() {
+    const answer = await queue.question({ ask: "task_file", task: now().task });
+    if (answer.ok === false) return refused(answer);
+    const link = make("a", { href: URL.createObjectURL(new Blob([answer.text], { type: "application/toml" })), download: answer.name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    said(word("saved"));
+  }
+
+  async function open() {
+    const [file] = at("file").files;
+    if (!file) return;
+    const answer = await queue.question({ ask: "open", text: await file.text() });
+    at("file").value = "";
+    if (answer.ok === false) return refused(answer);
+    said(file.name);
+    load(answer.task);
+  }
+
+  async function write(kind) {
+    said(word("writing"));
+    try {
+      const answer = await wire.write(kind, now().task);
+      if (answer.error) refused(typeof answer.error === "string" ? { error: { message: answer.error } } : answer);
+      else said(word("written").replace("{folder}", answer.folder).replace("{files}", answer.files.join(", ")));
+    } catch (error) {
+      said(String(error.message || error), true);
+    }
+  }
+
+  async function copyLink() {
+    const hash = await page.address.write(now());
+    await page.writeAddress();
+    try { await navigator.clipboard.writeText(location.href); } catch { /* the address line has it */ }
+    const text = word(hash ? "link_copied" : "link_too_long");
+    page.announce(text);
+    lettered(at("told-limits"), text);
+    setTimeout(page.showStatus, 2500);
+  }
+
+  at("save").addEventListener("click", save);
+  at("open").addEventListener("click", () => at("file").click());
+  at("file").addEventListener("change", open);
+  at("link").addEventListener("click", copyLink);
+  at("builtin")?.addEventListener("change", ({ target }) => load(config.builtin[target.value], target.value));
+  for (const button of document.querySelectorAll("[data-write]")) button.addEventListener("click", () => write(button.dataset.write));
+
+  return { load };
+}

@@ -1,0 +1,4 @@
+// The teaching modes by their names: each is {enter(studio), leave(studio)}.
+"use strict";
+
+const studioModes = {};

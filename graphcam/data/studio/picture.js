@@ -1,0 +1,153 @@
+// What the page shows of the state and of the last answer.
+"use strict";
+
+function pictureOf(page) {
+  const { at, word, state, last, decimal, stage, strip, sizes } = page, now = state.get;
+
+  // --- the drawing and its handles ---------------------------------------------------------------------------------------
+
+  function showDrawing() {
+    const own = page.drawn(), name = page.view(), k = page.currentStep();
+    at("board").hidden = !now().board;
+    document.body.classList.toggle("boarding", now().board);
+    document.body.classList.toggle("turnable", page.turns());
+    at("all").setAttribute("aria-pressed", now().board);
+    strip.select(name, now().board, (each) => now().hidden.includes(each));
+    if (page.turns()) page.showScene();
+    else if (own) {
+      stage.look(name, own.frame, { held: Boolean(page.hand) });
+      stage.fill(own, own.title || page.titleOf(name), own.steps[own.order[k]]?.title || "");
+      stage.show(k, now().part);
+    }
+    showStep();
+    showHands();
+  }
+
+  function showHands() {
+    const own = (last.handles || []).filter((handle) => handle.view === page.view());
+    const wanted = now().board || now().inert ? [] : own.map(page.onCam);
+    page.hands.show(wanted);
+    page.hands.away(Boolean(page.failed) || page.turning());
+    page.showCursor(wanted);
+  }
+
+  // The pinned cam stands behind where it is drawn in this view.
+  function showPinned() {
+    const { pinned } = page, seen = now().pin && pinned?.view && pinned.name === page.view();
+    stage.pin(seen ? pinned.view : null, page.drawn());
+  }
+
+  // --- the step ------------------------------------------------------------------------------------------------------------
+
+  function showStep() {
+    const own = page.drawn(), k = page.currentStep(), still = page.turns() || k < 0;
+    if (still) {
+      for (const id of ["slider", "previous", "next"]) at(id).disabled = true;
+      at("pips").replaceChildren();
+      at("counter").textContent = "";
+      if (page.turns()) page.showLive();
+      return;
+    }
+    const step = own.steps[own.order[k]], { part } = now(), parts = page.counts(), last = own.order.length - 1;
+    page.stepPanel.show(step, part);
+    showPips(own.order.length, k);
+    Object.assign(at("slider"), { disabled: false, max: last + 1, value: k + 1 });
+    const place = part === null ? word("step_of").replace("{step}", k + 1).replace("{steps}", last + 1)
+      : word("part_of").replace("{part}", part + 1).replace("{parts}", parts[k]);
+    at("slider").setAttribute("aria-valuetext", `${step.number || ""} ${step.title || ""}, ${place}`);
+    at("counter").textContent = `${k + 1}${part === null ? "" : `.${part + 1}`} / ${last + 1}`;
+    at("previous").disabled = k === 0 && (part ?? (parts[0] > 1)) == 0;
+    at("next").disabled = k === last && (part === null || part === parts[k] - 1);
+  }
+
+  function showPips(count, k) {
+    if (at("pips").childElementCount !== count) {
+      at("pips").replaceChildren(...Array.from({ length: count }, (_, j) => make("span", { "data-step": j })));
+    }
+    [...at("pips").children].forEach((pip, j) => {
+      pip.classList.toggle("done", j < k);
+      pip.classList.toggle("here", j === k);
+    });
+  }
+
+  // --- the line under the drawing ----------------------------------------------------------------------------------------
+
+  function showStatus() {
+    const line = at("told-limits"), found = now().hidden.includes("warnings") ? [] : last.warnings || [], first = found.find((each) => each.limit) || found[0];
+    line.className = page.failed || first?.limit ? "over" : first ? "noted" : "kept";
+    const more = found.length > 1 ? ` +${found.length - 1}` : "";
+    lettered(line, page.failed || (first ? first.text + more : word(now().hidden.includes("warnings") ? "locked" : "limits_kept")));
+    line.title = page.failed || found.map((each) => each.text).join("\n");
+    document.body.classList.toggle("stale", Boolean(page.failed));
+    showPin();
+    at("undo").disabled = now().inert || !state.past();
+    at("redo").disabled = now().inert || !state.future();
+  }
+
+  function showPin() {
+    const { pin } = now();
+    at("pin").setAttribute("aria-pressed", Boolean(pin));
+    for (const name of ["title", "aria-label"]) at("pin").setAttribute(name, word(pin ? "unpin" : "pin"));
+    at("told-pin").hidden = !pin;
+    if (pin) lettered(at("told-pin"), word("pinned_cam").replace("{sizes}", sizesSaid(pin)));
+  }
+
+  // What of a task differs from the present one, in few words.
+  function sizesSaid(task) {
+    const own = sizes.fields().filter((field) => !alike(valueAt(task, field.path), valueAt(now().task, field.path)));
+    const said = (field) => {
+      const number = shortNumber(valueAt(task, field.path), decimal());
+      return `${field.name} ${number ? `${number} ${field.unit}`.trim() : word("found")}`;
+    };
+    return own.slice(0, 2).map(said).join(", ") || word("now");
+  }
+
+  // --- the panels ------------------------------------------------------------------------------------------------------------
+
+  function showPanels() {
+    const wide = page.wide.matches, home = wide ? at("sizes-side") : at("panel-sizes");
+    if (!home.contains(at("sizes"))) home.append(at("sizes"));
+    at("sizes-side").hidden = !wide;
+    at("tab-sizes").hidden = wide;
+    const shown = wide && now().panel === "sizes" ? "step" : now().panel;
+    markTab(at("panels"), at(`tab-${shown}`));
+    for (const name of ["sizes", "step", "values", "what-if"]) at(`panel-${name}`).hidden = name !== shown;
+    for (const name of ["values", "what-if"]) at(`tab-${name}`).disabled = now().hidden.includes(name);
+    at("sizes").inert = now().inert;
+    at("all").disabled = at("pin").disabled = now().hidden.includes("board");
+    if (shown === "what-if") page.whatIf.update();
+  }
+
+  function showValueTables() {
+    const pinned = now().pin ? page.pinned?.values || [] : null;
+    page.showValues(last.values || [], pinned);
+    page.whatIf.compare(last.values || [], pinned);
+  }
+
+  // What changes with every answer, also while a hand is down.
+  function showAnswer() {
+    showDrawing();
+    showPinned();
+    showStatus();
+    if (now().panel === "what-if") page.whatIf.draw();
+  }
+
+  function showAll() {
+    showAnswer();
+    page.showPhi();
+    showPanels();
+    showValueTables();
+    at("task-title").textContent = now().task.title?.name || "";
+  }
+
+  // --- notices ---------------------------------------------------------------------------------------------------------------
+
+  function notice(text, ...more) {
+    at("notice").hidden = !text;
+    if (text) at("notice").replaceChildren(make("p", { text }), ...more);
+  }
+
+  const announce = (text) => (at("announcement").textContent = text);
+
+  return { showDrawing, showHands, showPinned, showStatus, showPanels, showValueTables, showAnswer, showAll, notice, announce };
+}

@@ -1,0 +1,205 @@
+// The form of sizes: a slider and a number field for each, choices, and what is left open to be found.
+"use strict";
+
+function sizesOf(at, acts) {
+  const { change, slide, release, word, decimal } = acts;
+  const rows = new Map(), phases = phasesOf({ change, slide, release, word, decimal });
+  let shape = "", errorAt = null;
+
+  // What is seldom moved is closed at first.
+  const SELDOM = /^(drawing|pencil|spring)/;
+  // What is moved most stands first: on a phone it lies under the thumb.
+  const FIRST = /^(follower\.(offset|arm)|arcs)/;
+  const idOf = (path) => `size-${path.replace(/\W+/g, "-")}`;
+
+  // --- one field -------------------------------------------------------------------------------------------------------
+
+  // What is to be changed with a value: a list that was left open is put there first.
+  const changesFor = (field, value) => ({ ...(field.value === null ? field.first : {}), [field.path]: value });
+
+  function numberInput(field, row) {
+    const input = make("input", {
+      type: "text", inputmode: "decimal", id: idOf(field.path), "data-key": field.path, autocomplete: "off",
+      "aria-describedby": `${idOf(field.path)}-error`,
+    });
+    const commit = () => {
+      if (input.value === input.shown) return;
+      const value = typedNumber(input.value);
+      if (Number.isNaN(value)) return refuse(row, word("no_number"));
+      input.shown = input.value;
+      change(changesFor(row.field, value));
+    };
+    input.addEventListener("change", commit);
+    input.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") commit();
+      if (event.key === "Escape" && input.value !== input.shown) {
+        event.stopPropagation();
+        input.value = input.shown;
+        forgive(row);
+      }
+      const by = { ArrowUp: 1, ArrowDown: -1 }[event.key], value = typedNumber(input.value);
+      if (!by || Number.isNaN(value)) return;
+      event.preventDefault();
+      const axis = { ...row.field, value };
+      change(changesFor(row.field, valueByKey(axis, event.key, event.shiftKey)), true);
+    });
+    return input;
+  }
+
+  function rangeInput(field, row) {
+    const input = make("input", { type: "range", "data-key": `${field.path}/range`, "aria-label": field.name });
+    input.addEventListener("input", () => slide(changesFor(row.field, Number(input.value))));
+    input.addEventListener("change", () => release());
+    // A slider that is left with Escape gives the old size back.
+    input.addEventListener("keydown", (event) => event.key === "Escape" && release(true));
+    return input;
+  }
+
+  function openSwitch(field, row) {
+    const pick = (given) => change(given ? changesFor(row.field, row.field.adopted ?? row.field.min)
+      : { [row.field.open || row.field.path]: null });
+    const button = (given) => make("button", {
+      type: "button", role: "radio", "data-key": `${field.path}/${given}`, "data-given": String(given),
+      text: word(given ? "given" : field.adopted === null ? "none" : "found"), onclick: () => pick(given),
+    });
+    const group = make("div", { class: "choice", role: "radiogroup", "aria-label": field.name }, button(false), button(true));
+    group.addEventListener("keydown", (event) => {
+      if (!/^Arrow/.test(event.key)) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const other = group.querySelector("[aria-checked=false]");
+      other.focus();
+      other.click();
+    });
+    return group;
+  }
+
+  function choiceInput(field, row) {
+    const select = make("select", { id: idOf(field.path), "data-key": field.path }, field.choices.map((choice, k) =>
+      make("option", { value: k, text: choice.name })));
+    select.addEventListener("change", () => {
+      const chosen = row.field.choices[Number(select.value)];
+      change(chosen.changes || { [field.path]: chosen.value });
+    });
+    return select;
+  }
+
+  function rowOf(field) {
+    const row = { field };
+    const error = make("p", { class: "error", id: `${idOf(field.path)}-error`, role: "alert", hidden: true });
+    const label = make("label", { for: idOf(field.path), text: field.name });
+    if (field.kind === "choice") {
+      row.input = choiceInput(field, row);
+      row.element = make("div", { class: "size choosing" }, label, row.input, error);
+    } else {
+      row.input = numberInput(field, row);
+      row.range = rangeInput(field, row);
+      row.open = field.kind === "open-number" ? openSwitch(field, row) : null;
+      row.found = row.open ? make("p", { class: "found" }) : null;
+      row.line = make("div", { class: "row" }, label, row.input, make("span", { class: "unit", text: field.unit }));
+      row.element = make("div", { class: "size" }, row.line, row.open, row.found, row.range, error);
+    }
+    row.error = error;
+    return row;
+  }
+
+  // --- values ------------------------------------------------------------------------------------------------------------
+
+  function setNumber(row, field) {
+    const open = field.value === null, value = field.value ?? field.adopted;
+    const shown = shortNumber(field.value, decimal());
+    if (document.activeElement !== row.input || row.input.value === row.input.shown || row.input.shown === undefined) row.input.value = shown;
+    row.input.shown = shown;
+    Object.assign(row.range, { min: field.min, max: field.max, step: field.step });
+    row.range.value = value ?? field.min;
+    row.range.setAttribute("aria-valuetext", `${shortNumber(value, decimal())} ${field.unit}`.trim());
+    if (!row.open) return;
+    row.element.classList.toggle("open", open);
+    row.input.hidden = row.range.hidden = open;
+    row.line.querySelector(".unit").hidden = open;
+    for (const button of row.open.children) {
+      const chosen = (button.dataset.given === "true") !== open;
+      button.setAttribute("aria-checked", chosen);
+      button.tabIndex = chosen ? 0 : -1;
+    }
+    row.found.hidden = !open || field.adopted === null;
+    lettered(row.found, `${word("found")}: ${shortNumber(field.adopted === null ? null : Math.round(field.adopted * 1000) / 1000, decimal())} ${field.unit}`);
+  }
+
+  function setRow(row, field) {
+    row.field = field;
+    if (field.kind === "choice") row.input.value = field.choices.findIndex((choice) => choice.value === field.value);
+    else setNumber(row, field);
+  }
+
+  // --- the whole form ------------------------------------------------------------------------------------------------------
+
+  const shapeOf = (fields) => JSON.stringify(fields.map((field) =>
+    [field.path, field.kind, field.name, field.unit, field.adopted === null, field.choices?.map((choice) => choice.name)]));
+
+  function rebuild(fields) {
+    rows.clear();
+    const isFirst = (group) => fields.some((field) => field.group === group && FIRST.test(field.path));
+    const every = [...new Set(fields.map((field) => field.group))], groups = [...every.filter(isFirst), ...every.filter((group) => !isFirst(group))];
+    const sections = groups.map((group) => {
+      const inside = fields.filter((field) => field.group === group).map((field) => {
+        if (field.kind === "phases") return phases.element;
+        rows.set(field.path, rowOf(field));
+        return rows.get(field.path).element;
+      });
+      return fields.every((field) => field.group !== group || SELDOM.test(field.path)) ? make("details", {}, make("summary", { text: group }), inside)
+        : make("section", {}, make("h2", { text: group }), inside);
+    });
+    keepingFocus(at("form"), () => at("form").replaceChildren(...sections));
+  }
+
+  function show(fields) {
+    if (shapeOf(fields) !== shape) rebuild(fields);
+    shape = shapeOf(fields);
+    for (const field of fields) {
+      if (field.kind === "phases") phases.show(field);
+      else setRow(rows.get(field.path), field);
+    }
+    if (errorAt) forgive(errorAt);
+  }
+
+  // While a size is moved its numbers follow at once.
+  function follow(changes) {
+    for (const [path, value] of Object.entries(changes)) {
+      const row = rows.get(path);
+      if (row && row.field.kind !== "choice") setNumber(row, { ...row.field, value });
+    }
+    phases.follow(changes);
+  }
+
+  // --- errors -----------------------------------------------------------------------------------------------------------------
+
+  function refuse(row, message) {
+    if (errorAt && errorAt !== row) forgive(errorAt);
+    errorAt = row;
+    lettered(row.error, message);
+    row.error.hidden = false;
+    row.element.classList.add("wrong");
+    row.input?.setAttribute("aria-invalid", "true");
+    const folded = row.element.closest("details");
+    if (folded) folded.open = true;
+  }
+
+  function forgive(row) {
+    errorAt = null;
+    row.error.hidden = true;
+    row.element.classList.remove("wrong");
+    row.input?.removeAttribute("aria-invalid");
+  }
+
+  // Whether there is a field for the error; the value stays as it was typed.
+  function showError({ field, message, remedy }) {
+    const row = rows.get(field) || (field?.startsWith("motion.phases") ? phases.row : undefined);
+    if (row) refuse(row, [message, remedy].filter(Boolean).join("; "));
+    return Boolean(row);
+  }
+
+  at("form").addEventListener("submit", (event) => event.preventDefault());
+
+  return { show, follow, showError, pardon: () => errorAt && forgive(errorAt), fields: () => [...rows.values()].map((row) => row.field) };
+}

@@ -1,0 +1,156 @@
+// The drawing, large: the steps of a view as groups of SVG, the frame through which they are seen, millimetres and pixels.
+"use strict";
+
+// How long the frame glides to another one [ms]; what fills less of it than this is looked at more closely.
+const GLIDE = 300, TOO_SMALL = 0.6;
+
+// --- the groups of a view's steps ------------------------------------------------------------------------------------------
+
+// What each view looked like when it was drawn last: its steps by their ids, to which answers bring only what is new.
+function galleryOf() {
+  const views = new Map();
+
+  function take(answer, told) {
+    const before = views.get(answer.name), steps = {};
+    for (const id of answer.order) {
+      const old = before?.steps[id], now = answer.steps[id] || {};
+      // While a size is moved nothing is told: the words stay those of before.
+      steps[id] = { ...old, ...now, svg: now.svg ?? old?.svg ?? "", parts: (told && now.parts) || old?.parts || [] };
+    }
+    const view = { ...before, ...answer, steps };
+    views.set(answer.name, view);
+    return view;
+  }
+
+  const have = (name) =>
+    Object.fromEntries(Object.entries(views.get(name)?.steps || {}).map(([id, step]) => [id, step.hash]));
+
+  return { take, have, view: (name) => views.get(name), forget: () => views.clear() };
+}
+
+// The groups of the steps in `parent`; only those are made anew that changed.
+function fillSteps(parent, view, wanted = () => true) {
+  const old = new Map([...parent.children].map((group) => [group.dataset.group, group]));
+  let changed = 0;
+  const groups = view.order.filter(wanted).map((id) => {
+    const step = view.steps[id];
+    const group = old.get(id) || drawSvg("g", "step", { "data-group": id }, parent);
+    if (group.shown !== step.svg) {
+      // The engine's own drawing: it escapes what a user wrote.
+      group.innerHTML = step.svg;
+      group.shown = step.svg;
+      changed += 1;
+    }
+    old.delete(id);
+    return group;
+  });
+  for (const group of old.values()) group.remove();
+  const inOrder = groups.every((group, k) => parent.children[k] === group);
+  if (!inOrder) parent.replaceChildren(...groups);
+  return changed + old.size;
+}
+
+const WHOLE = { caption: "", tools: [], draws: [], lit: [], moves: [] };
+
+// What the player's board wants to know of the steps.
+const boardSteps = (view) => view.order.map((id) => {
+  const { parts } = view.steps[id];
+  return { group: id, view: view.name, parts: parts.length ? parts : [WHOLE] };
+});
+
+// --- frames ---------------------------------------------------------------------------------------------------------------------
+
+const inside = ([left, top, wide, high], [x, y, w, h], by = 1) =>
+  left >= x - by && top >= y - by && left + wide <= x + w + by && top + high <= y + h + by;
+
+// Whether a frame must change to show another one: it leaves it, or would be small in it.
+const mustMove = (shown, wanted) =>
+  !inside(wanted, shown) || Math.max(wanted[2] / shown[2], wanted[3] / shown[3]) < TOO_SMALL;
+
+function stageOf(at) {
+  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+  const frames = new Map(), watching = [];
+  let shown = null, filled = null, board = null, gliding = 0;
+
+  const svg = () => (shown === "mechanism" ? at("scene") : at("drawing"));
+  const size = () => [at("canvas").clientWidth || 1, at("canvas").clientHeight || 1];
+
+  // Pixels for a millimetre, and where the upper left corner of the frame stands.
+  function fit(frame = frames.get(shown)) {
+    if (!frame) return { scale: 1, left: 0, top: 0 };
+    const [wide, high] = size(), [x, y, w, h] = frame, scale = Math.min(wide / w, high / h);
+    return { scale, left: (wide - scale * w) / 2 - scale * x, top: (high - scale * h) / 2 - scale * y };
+  }
+  const inset = () => [at("canvas").offsetLeft + at("canvas").clientLeft, at("canvas").offsetTop + at("canvas").clientTop];
+
+  function toScreen([x, y]) {
+    const { scale, left, top } = fit(), [dx, dy] = inset();
+    return [left + scale * x + dx, top + scale * y + dy];
+  }
+  function toDrawing(clientX, clientY) {
+    const box = at("canvas").getBoundingClientRect(), { scale, left, top } = fit();
+    return [(clientX - box.left - at("canvas").clientLeft - left) / scale, (clientY - box.top - at("canvas").clientTop - top) / scale];
+  }
+
+  function setFrame(frame) {
+    frames.set(shown, frame);
+    svg().setAttribute("viewBox", frame.join(" "));
+    // Nothing is drawn thinner than can be seen.
+    svg().style.setProperty("--pixel", `${1 / fit(frame).scale}px`);
+    for (const moved of watching) moved();
+  }
+
+  function glideTo(frame) {
+    const from = frames.get(shown), name = shown, start = performance.now();
+    cancelAnimationFrame(gliding);
+    if (!from || calm.matches) return setFrame(frame);
+    const tick = (now) => {
+      if (shown !== name) return;
+      const part = Math.min(1, Math.max(0, (now - start) / GLIDE)), eased = 1 - (1 - part) ** 3;
+      setFrame(from.map((x, k) => x + (frame[k] - x) * eased));
+      if (part < 1) gliding = requestAnimationFrame(tick);
+    };
+    gliding = requestAnimationFrame(tick);
+  }
+
+  // A view through its frame, which stays while a hand is down, and else as long as it serves.
+  function look(name, wanted, { held = false, anew = false } = {}) {
+    const other = shown !== name;
+    shown = name;
+    at("drawing").toggleAttribute("hidden", name === "mechanism");
+    at("scene").toggleAttribute("hidden", name !== "mechanism");
+    const frame = frames.get(name);
+    if (!frame || (other && !held && mustMove(frame, wanted))) setFrame(wanted);
+    else if (anew || (!held && mustMove(frame, wanted))) glideTo(wanted);
+    else setFrame(frame);
+  }
+
+  function fill(view, title, step) {
+    at("drawing-title").textContent = title;
+    at("drawing-step").textContent = step;
+    if (view === filled) return;
+    filled = view;
+    fillSteps(at("steps"), view);
+    // What stays of the former picture bears no marks of it.
+    for (const piece of at("steps").querySelectorAll(":is(.later, .done, .now, .lit)")) piece.classList.remove("later", "done", "now", "lit");
+    board = boardOf(at("steps"), boardSteps(view));
+  }
+
+  // The pinned cam behind: only its curves and results, and only of steps that differ from the present ones.
+  function pin(view, present) {
+    fillSteps(at("pinned"), view || { order: [], steps: {} }, (id) => view.steps[id].svg !== present?.steps[id]?.svg);
+  }
+
+  const resized = () => shown && frames.get(shown) && setFrame(frames.get(shown));
+
+  return {
+    look, fill, pin, toScreen, toDrawing, resized,
+    show: (current, part) => board?.show(current, part),
+    point: (names) => board?.point(names),
+    onMove: (moved) => watching.push(moved),
+    scale: (frame) => fit(frame).scale,
+    frame: () => frames.get(shown),
+    forget: () => frames.clear(),
+    layers: { drawing: at("drawing"), scene: at("scene"), cursors: at("cursors") },
+  };
+}

@@ -1,0 +1,205 @@
+// The studio: its parts put together, what follows a change of the state, keys and modes.
+"use strict";
+(async () => {
+  const config = JSON.parse(document.getElementById("config").textContent);
+  const { words } = config;
+  const at = (id) => document.getElementById(id);
+  const word = (name) => words[name] ?? name;
+  const phone = matchMedia("(max-width: 51.99rem)");
+
+  const state = stateOf({
+    name: config.name, task: config.task, view: config.view ?? null, step: null, part: null, phi: USUAL_PHI, station: null,
+    pin: null, mode: "play", panel: phone.matches ? "sizes" : "step", board: false,
+    // For the modes: the last construction that is shown, whether sizes are moved, which views and panels are locked.
+    upto: null, inert: false, hidden: [],
+    // Which steps are shown, all if null; and what is asked of a student.
+    only: null, exercise: config.exercise,
+  });
+  const now = state.get, stats = [];
+  const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
+  const page = {
+    config, words, at, word, state, wire, stats, shown: {}, last: {}, hand: null, pinned: null, failed: null,
+    queue: queueOf(wire.ask, stats), address: addressOf(config), wide: matchMedia("(min-width: 70rem)"),
+    large: galleryOf(), small: { strip: galleryOf(), board: galleryOf() }, stage: stageOf(at),
+    decimal: () => page.last.mechanism?.decimal || ".",
+    forget() {
+      page.large.forget();
+      page.stage.forget();
+    },
+  };
+  const { decimal } = page;
+
+  // What one part asks of another goes through the page, for the parts ask it of each other in turns.
+  Object.assign(page, walkOf(page));
+  Object.assign(page, {
+    strip: stripOf(at, page.open),
+    sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), release: (back) => page.release(back), word, decimal }),
+    stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
+    showValues: valuesPanelOf(at("panel-values"), words),
+    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), decimal }),
+  });
+  Object.assign(page, camAngleOf(page), askingOf(page));
+  Object.assign(page, changingOf(page));
+  page.hands = handsOf(at, page.stage, {
+    grab: page.grab, drag: page.drag, drop: page.drop, key: (changes) => page.changeAny(changes, true), word,
+    written: (axis) => `${shortNumber(axis.value, decimal())} ${axis.unit}`.replace(" °", "°").trim(),
+    type: (handle, knob) => typeNumbers(at("typed"), handle, knob, words, decimal(), page.changeAny),
+  });
+  Object.assign(page, pictureOf(page), filesOf(page));
+
+  // --- what follows a change of the state --------------------------------------------------------------------------------
+
+  state.subscribe((changed) => {
+    const is = (...names) => names.some((name) => changed.includes(name));
+    if (is("past", "hidden")) page.showStatus();
+    if (is("step", "part", "board", "view", "inert", "hidden", "only")) page.showDrawing();
+    if (is("phi", "view")) page.showPhi();
+    if (is("phi") && page.turns()) page.showDrawing();
+    if (is("panel", "inert", "hidden")) page.showPanels();
+    if (is("pin")) {
+      page.pinned = null;
+      page.showPinned();
+      page.showStatus();
+      page.showValueTables();
+    }
+    if (wire.tell && is("task", "view")) wire.tell({ task: now().task, view: now().view });
+    if (page.hand?.drag) return;
+    if (is("task", "view", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
+    else if (is("step", "part", "pin", "mode", "hidden")) page.rest();
+  });
+
+  function togglePin() {
+    state.set({ pin: now().pin ? null : now().task });
+    if (now().pin && !phone.matches && now().panel === "step") state.set({ panel: "values" });
+  }
+
+  function fit() {
+    const frame = page.turns() ? page.last.mechanism?.box : page.drawn()?.frame;
+    if (frame) page.stage.look(page.view(), frame, { anew: true });
+  }
+
+  // --- buttons and keys ----------------------------------------------------------------------------------------------------
+
+  const clicks = {
+    undo: () => page.travel("undo"), redo: () => page.travel("redo"), pin: togglePin, theme: switchTheme, fit,
+    all: () => now().hidden.includes("board") || state.set({ board: !now().board }), previous: page.back, next: page.on, play: page.turn,
+  };
+  for (const [id, act] of Object.entries(clicks)) at(id).addEventListener("click", () => act());
+  at("slider").addEventListener("input", () => page.go(Number(at("slider").value) - 1));
+  at("pips").addEventListener("click", ({ target }) => target.dataset.step && page.go(Number(target.dataset.step)));
+  at("phi").addEventListener("input", () => {
+    page.still();
+    state.set({ phi: Number(at("phi").value) });
+  });
+  tabsOf(at("panels"), (tab) => state.set({ panel: tab.dataset.panel }));
+  at("modes").addEventListener("click", ({ target }) => target.dataset.mode && setMode(target.dataset.mode));
+  lightEachOther(at("panel-step"), at("stage"), () => at("panel-step"), page.stage.point);
+
+  const keys = {
+    ArrowRight: page.on, ArrowLeft: page.back, Home: () => page.go(0), End: () => page.go(Infinity),
+    a: clicks.all, p: togglePin, 0: fit, " ": page.turn,
+  };
+  const shifted = { ArrowRight: page.wholeOn, ArrowLeft: page.wholeBack };
+
+  // Fields and lists have keys of their own.
+  function isTaken({ target, key }) {
+    if (target.closest("input:not([type=range]), select, textarea")) return true;
+    if (/^(Arrow|Home|End|Page)/.test(key)) return target.closest("input, [role=tablist], [role=radiogroup]") || (!/^Arrow[LR]/.test(key) && target.closest(".words, .sizes"));
+    return key === " " && target.closest("button, summary");
+  }
+
+  function actOf({ key, shiftKey }) {
+    const letter = key.length === 1 ? key.toLowerCase() : key, view = /^[1-9]$/.test(key) && page.viewNames()[Number(key) - 1];
+    if (view) return now().hidden.includes(view.name) ? null : () => page.open(view.name);
+    return (shiftKey && shifted[key]) || keys[letter];
+  }
+
+  document.addEventListener("keydown", (event) => {
+    const { ctrlKey, metaKey, altKey, shiftKey, key, target } = event;
+    if ((ctrlKey || metaKey) && key.toLowerCase() === "z" && !target.matches("input[type=text]")) {
+      event.preventDefault();
+      return page.travel(shiftKey ? "redo" : "undo");
+    }
+    if (key === "Escape") return page.hands.held() ? page.hands.cancel() : state.escapeBurst();
+    const act = ctrlKey || metaKey || altKey || isTaken(event) ? null : actOf(event);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+
+  // --- modes -------------------------------------------------------------------------------------------------------------------
+
+  // Where an exercise is given the other modes would show what is asked.
+  const isOpen = (name) => (name === "play" || studioModes[name]) && (!now().exercise || name === "exercise");
+
+  function setMode(name) {
+    if (name === now().mode || !isOpen(name)) return;
+    studioModes[now().mode]?.leave(studio);
+    studio.panel.card(null);
+    state.set({ mode: name });
+    showModes();
+    studioModes[name]?.enter(studio);
+  }
+
+  function showModes() {
+    for (const button of at("modes").children) {
+      button.setAttribute("aria-pressed", button.dataset.mode === now().mode);
+      button.disabled = !isOpen(button.dataset.mode);
+    }
+  }
+
+  const studio = {
+    config, words, state, stats, shown: page.shown, stage: page.stage, ask: page.queue.question, setMode,
+    announce: page.announce, open: page.open, go: page.go, load: page.load, draw: page.showAll, change: page.changeAny,
+    panel: {
+      card(element) {
+        at("card").replaceChildren(...(element ? [element] : []));
+        at("panel").scrollTop = 0;
+      },
+    },
+    // Nothing is asked, and nothing waits.
+    quiet: () => !page.queue.busy(),
+  };
+  window.studio = studio;
+
+  // --- beginning -----------------------------------------------------------------------------------------------------------------
+
+  async function fromAddress() {
+    const found = await page.address.read(location.hash);
+    if (!found) return;
+    const { mode, ...rest } = found, before = now().task;
+    if (rest.name !== now().name) page.forget();
+    state.set({ view: null, step: null, part: null, phi: USUAL_PHI, ...rest });
+    state.remember(before);
+    setMode(mode);
+  }
+
+  // The page around this one moves sizes too; what it has heard from here comes back, and is passed over.
+  function fromAround(heard) {
+    const before = now().task, task = heard.task && !alike(heard.task, before) ? heard.task : before;
+    state.set({ task, view: "view" in heard ? heard.view : now().view });
+    state.remember(before);
+  }
+
+  function resized() {
+    page.stage.resized();
+    page.showPanels();
+    if (!page.hand && page.drawn()) page.ask();
+  }
+
+  if (at("builtin")) at("builtin").value = config.name;
+  const { mode, ...found } = (await page.address.read(location.hash)) || {};
+  state.set(found);
+  if (config.first && !found.task) {
+    const asked = { views: [], told: true, values: true, form: true, warnings: true, mechanism: true };
+    page.take({ views: [], ...config.first }, { request: asked, hand: null });
+  }
+  page.showPanels();
+  page.showStatus();
+  page.ask();
+  new ResizeObserver(resized).observe(at("canvas"));
+  addEventListener("hashchange", fromAddress);
+  wire.hear?.(fromAround);
+  showModes();
+  setMode(now().exercise ? "exercise" : mode || "play");
+})();

@@ -1,0 +1,162 @@
+// What if: a quantity over any one size, with the present cam on the curve and the pinned one beside it.
+"use strict";
+
+// So many designs make a curve; they are asked for in pieces, between which a picture can be asked for.
+const DESIGNS = 200, PIECE = 25;
+// Sizes that move no curve.
+const UNMOVED = /^(speed_rpm|spring|pencil|drawing|motion\.tolerance)/;
+
+function whatIfOf(element, words, { ask, state, change, decimal }) {
+  const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });
+  const charts = make("div", { class: "charts" }), both = make("div");
+  const pin = make("button", { type: "button", class: "pins", text: words.pin, onclick: () => document.getElementById("pin").click() });
+  element.append(make("label", { class: "from" }, make("span", { text: words.over }), size), charts, pin, both);
+  let fields = [], asked = "", sweep = null, running = 0;
+
+  const fieldOf = () => fields.find((field) => field.path === size.value);
+  const now = (task, field) => valueAt(task, field.path) ?? field.adopted ?? null;
+
+  function offer(found) {
+    const numbers = found.flatMap((field) => (field.kind === "phases" ? anglesOf(field) : field))
+      .filter((field) => field.min < field.max && !UNMOVED.test(field.path));
+    const same = JSON.stringify(numbers.map((field) => field.path)) === JSON.stringify(fields.map((field) => field.path));
+    fields = numbers;
+    if (same) return;
+    const before = size.value;
+    size.replaceChildren(...fields.map((field) => make("option", { value: field.path, text: field.name })));
+    const wanted = fields.find((field) => field.path === before) || fields.find((field) => /offset|distance/.test(field.path)) || fields[0];
+    if (wanted) size.value = wanted.path;
+  }
+
+  // The angle of a phase is a size too, with that of its neighbour.
+  const anglesOf = ({ phases, angle }) => phases.slice(0, -1).map((phase, k) => ({
+    path: `motion.phases[${k}].angle`, name: `${phase.symbol} ${phase.name}`, unit: "°", step: 1, value: phase.angle,
+    // Of a much shorter phase every cam is huge.
+    min: Math.max(angle.min, Math.round(phase.angle / 2.5)), max: Math.min(phase.angle + phases[k + 1].angle - angle.min, Math.round(2.5 * phase.angle)), changes: (value) => angleChanges(phases, k, value),
+  }));
+
+  const changesFor = (field, value) => field.changes?.(value) || { ...(field.value === null ? field.first : {}), [field.path]: value };
+
+  // --- a chart: 300 by 110, the curve between its least and greatest value -------------------------------------------------
+
+  const WIDE = 300, HIGH = 110, EDGE = 8;
+
+  function scalesOf(curve, at, limit) {
+    const known = [...curve.values, ...(limit === undefined ? [] : [limit])].filter((value) => value !== null);
+    const least = Math.min(...known), most = Math.max(...known), { from, to } = sweep;
+    // What stays the same is drawn level, in the middle.
+    const flat = most - least < 1e-6 * Math.abs(most), by = flat ? 0.05 * Math.abs(most) || 1 : 0;
+    const low = least - by, high = most + by, span = high - low;
+    return {
+      low, high, known: known.length > 0,
+      x: (value) => WIDE * (value - from) / (to - from || 1),
+      y: (value) => HIGH - EDGE - (HIGH - 2 * EDGE) * (value - low) / span,
+    };
+  }
+
+  function lineOf(at, values, { x, y }) {
+    let d = "", on = false;
+    values.forEach((value, k) => {
+      if (value !== null) d += `${on ? "L" : "M"}${x(at[k]).toFixed(1)} ${y(value).toFixed(1)}`;
+      on = value !== null;
+    });
+    return d;
+  }
+
+  // The curve's value at a size, between two designs.
+  function valueOn({ values }, at, value) {
+    const k = at.findIndex((one, j) => j > 0 && one >= value);
+    if (value < at[0] || k < 1 || values[k] === null || values[k - 1] === null) return null;
+    return values[k - 1] + (values[k] - values[k - 1]) * (value - at[k - 1]) / (at[k] - at[k - 1] || 1);
+  }
+
+  const written = (value, unit) => `${shortNumber(Number(value.toPrecision(4)), decimal())} ${unit}`.replace(" °", "°").trim();
+
+  function chartOf(curve, field, task, pinned) {
+    const { at, limits = {} } = sweep, limit = limits[curve.id] ?? undefined, scales = scalesOf(curve, at, limit);
+    if (!scales.known) return null;
+    const picture = make("div"), svg = drawSvg("svg", "sweep-picture", { viewBox: `0 0 ${WIDE} ${HIGH}`, preserveAspectRatio: "none", "aria-hidden": "true" }, picture);
+    drawSvg("path", "axis", { d: `M0 ${HIGH - EDGE}H${WIDE}` }, svg);
+    if (limit !== undefined) drawSvg("path", "limit", { d: `M0 ${scales.y(limit)}H${WIDE}` }, svg);
+    drawSvg("path", "curve", { d: lineOf(at, curve.values, scales) }, svg);
+    const value = now(task, field), here = value === null ? null : valueOn(curve, at, value);
+    if (value !== null) drawSvg("path", "cursor", { d: `M${scales.x(value)} 0V${HIGH}` }, svg);
+    const dots = [[pinned && now(pinned, field), "pin-dot"], [value, "dot"]].map(([size, name]) => {
+      const on = size === null || size === undefined ? null : valueOn(curve, at, size);
+      // A cam that differs in other sizes too does not lie on the curve.
+      if (on === null || (name === "pin-dot" && !alike(withChanges(task, pinned && changesFor(field, valueAt(pinned, field.path) ?? null)), pinned))) return null;
+      return make("i", { class: name, style: `left: ${100 * scales.x(size) / WIDE}%; top: ${100 * scales.y(on) / HIGH}%` });
+    });
+    return make("figure", { class: "sweep" },
+      make("figcaption", {}, make("span", { text: curve.title }), " ", make("strong", { text: here === null ? "" : written(here, curve.unit) })),
+      make("div", { class: "plot" }, picture.firstChild, dots,
+        make("span", { class: "high", text: written(scales.high, curve.unit) }), make("span", { class: "low", text: written(scales.low, curve.unit) })),
+      make("p", { class: "ends" }, make("span", { text: written(sweep.from, field.unit) }), make("span", { text: written(sweep.to, field.unit) })));
+  }
+
+  // A press on a chart takes the size there.
+  charts.addEventListener("click", (event) => {
+    const plot = event.target.closest(".plot"), field = fieldOf();
+    if (!plot || !field || !sweep) return;
+    const box = plot.getBoundingClientRect(), share = (event.clientX - box.left) / box.width;
+    const value = sweep.from + share * (sweep.to - sweep.from);
+    change(changesFor(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
+  });
+
+  function draw() {
+    const field = fieldOf(), { task, pin: pinned } = state();
+    if (!sweep || !field || sweep.path !== field.path) return charts.replaceChildren(make("p", { class: "hint", text: words.sweeping }));
+    if (!sweep.curves) return charts.replaceChildren(make("p", { class: "hint", text: sweep.message || "" }));
+    charts.replaceChildren(...sweep.curves.map((curve) => chartOf(curve, field, task, pinned)).filter(Boolean));
+  }
+
+  async function update() {
+    const field = fieldOf(), { task } = state();
+    if (!field) return;
+    // What the curve is over does not change it.
+    const key = JSON.stringify([field.path, field.min, field.max, withChanges(task, changesFor(field, field.min))]);
+    if (key === asked) return draw();
+    asked = key;
+    if (sweep?.path !== field.path) draw();
+    running += 1;
+    await compute(field, task, running);
+  }
+
+  async function compute({ path, min, max }, task, own) {
+    const place = (k) => min + (max - min) * k / (DESIGNS - 1);
+    let found = null;
+    for (let k = 0; k < DESIGNS; k += PIECE) {
+      const answer = await ask({ ask: "sweep", task, path, from: place(k), to: place(k + PIECE - 1), count: PIECE });
+      if (own !== running) return;
+      found = answer.ok === false ? { path, message: answer.error.message } : joined(found, answer);
+      if (!found.curves) break;
+    }
+    sweep = { ...found, from: min, to: max };
+    draw();
+  }
+
+  function joined(found, piece) {
+    if (!found) return piece;
+    const values = (id) => piece.curves.find((curve) => curve.id === id)?.values || piece.at.map(() => null);
+    return {
+      ...found, at: [...found.at, ...piece.at], curves: found.curves.map((curve) => ({ ...curve, values: [...curve.values, ...values(curve.id)] })),
+    };
+  }
+  size.addEventListener("change", update);
+
+  // The present cam and the pinned one, side by side.
+  function compare(values, pinned) {
+    pin.hidden = Boolean(pinned);
+    both.replaceChildren(...(pinned ? [make("h3", { text: words.side_by_side }), valuesTableOfTwo(values, pinned)] : [make("p", { class: "hint", text: words.pin_about })]));
+  }
+
+  function valuesTableOfTwo(values, pinned) {
+    const other = new Map(pinned.map((value) => [value.id, value]));
+    return make("table", { class: "compare" },
+      make("thead", {}, make("tr", {}, ["quantity", "now", "pinned"].map((name) => make("th", { scope: "col", class: name === "pinned" ? "pin" : null, text: words[name] })))),
+      make("tbody", {}, values.map((value) => make("tr", {}, make("th", { scope: "row", text: value.title }),
+        make("td", { class: "now", text: value.said.drawn }), make("td", { class: "pin", text: other.get(value.id)?.said.drawn ?? "–" })))));
+  }
+
+  return { offer, update, draw, compare };
+}

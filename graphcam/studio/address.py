@@ -1,0 +1,157 @@
+"""The state of the studio in an address: a link shows a cam, without a server that would keep it.
+
+The part after ``#`` is ``1.`` (the version) and, in base64url, the raw deflate of a JSON table: ``b`` the built-in
+task from which the task differs, ``d`` the differences by their paths, ``n`` those of the pinned task, and what is
+shown: ``v`` the view, ``s`` the step, ``p`` the cam angle in degrees, ``m`` the mode, ``x`` the exercise.  What has its
+usual value is left out.  The page reads and writes the same (``data/studio/address.js``).
+"""
+
+import base64
+import binascii
+import json
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+from graphcam.errors import DesignError
+from graphcam.studio.task_paths import changed
+
+VERSION = "#1."
+LONGEST = 2000
+"""Characters; longer addresses are cut by some mail programs and learning platforms."""
+SAVE = "save the task file and pass that on"
+WHOLE_ADDRESS = "open the address as it was given, from # to the end"
+_RAW = -15
+"""zlib's number for deflate without a header."""
+
+
+@dataclass(frozen=True)
+class StudioPlace:
+    """What an address shows.
+
+    task : as in a request of the engine, with the keys and units of a task file
+    built_in : the name of the built-in task from which it is told
+    view, step, mode : the names of what is shown; None is the usual one
+    phi : cam angle [degrees]; None is the usual one
+    pin : the task that is pinned beside it; None where there is none
+    exercise : what is asked of the task, see :mod:`graphcam.exercises.exports.studio_link`; None is nothing
+    """
+
+    task: Mapping[str, Any]
+    built_in: str = "coursework"
+    view: str | None = None
+    step: str | None = None
+    phi: float | None = None
+    mode: str | None = None
+    pin: Mapping[str, Any] | None = None
+    exercise: Mapping[str, Any] | None = None
+
+
+_SHOWN = {"v": "view", "s": "step", "p": "phi", "m": "mode", "x": "exercise"}
+_KINDS: dict[str, type | tuple[type, ...]] = {"v": str, "s": str, "p": (int, float), "m": str, "x": dict}
+
+
+def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], longest: int = LONGEST) -> str:
+    """The part of an address from ``#`` on.
+
+    built_in : the built-in tasks by their names, in the form of the place's task
+    longest : characters that it may have
+
+    Raises
+    ------
+    DesignError : the task differs so much that the address would be longer
+
+    >>> tasks = {"coursework": {"rotation": "cw", "follower": {"kind": "translating", "offset": -10}}}
+    >>> place = StudioPlace({"rotation": "cw", "follower": {"kind": "translating", "offset": 5}}, view="combined")
+    >>> address_of(place, tasks)[:3], len(address_of(place, tasks)) < 100
+    ('#1.', True)
+    >>> place_of(address_of(place, tasks), tasks) == place
+    True
+    """
+    base, state = built_in[place.built_in], dict[str, Any](b=place.built_in)
+    state |= {"d": moved} if (moved := dict(differences(base, place.task))) else {}
+    state |= {} if place.pin is None else {"n": dict(differences(base, place.pin))}
+    state |= {key: value for key, name in _SHOWN.items() if (value := getattr(place, name)) is not None}
+    packer = zlib.compressobj(9, zlib.DEFLATED, _RAW)
+    said = json.dumps(state, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    packed = packer.compress(said.encode()) + packer.flush()
+    address = VERSION + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    if len(address) > longest:
+        raise DesignError("length of the address", len(address), f"at most {longest} characters", SAVE)
+    return address
+
+
+def place_of(address: str, built_in: Mapping[str, Mapping[str, Any]]) -> StudioPlace:
+    """What an address shows, from its ``#`` on.
+
+    Keys that nobody knows are passed over: a newer version may have written them.  Values are checked as typed ones
+    are, by who reads the task.
+
+    Raises
+    ------
+    DesignError : it is no such address
+
+    >>> place_of("#1.nonsense", {})
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: address is '#1.nonsense', but must be an address of the studio; open the address as \
+it was given, from # to the end
+    """
+    state = _unpacked(address)
+    name, moved, pinned = state.get("b", "coursework"), state.get("d", {}), state.get("n")
+    if not isinstance(name, str) or name not in built_in or not isinstance(moved, dict):
+        raise _no_address(address)
+    shown = {_SHOWN[key]: state[key] for key, kind in _KINDS.items() if isinstance(state.get(key), kind)}
+    pin = _with_differences(built_in[name], pinned) if isinstance(pinned, dict) else None
+    return StudioPlace(_with_differences(built_in[name], moved), name, **shown, pin=pin)
+
+
+def _no_address(address: str) -> DesignError:
+    shown = address if len(address) <= 60 else address[:60] + "..."
+    return DesignError("address", shown, "an address of the studio", WHOLE_ADDRESS)
+
+
+def _unpacked(address: str) -> dict[str, Any]:
+    """The table in an address."""
+    if not address.startswith(VERSION) or len(address) > LONGEST:
+        raise _no_address(address)
+    packed = address.removeprefix(VERSION)
+    try:
+        # Deflate packs a thousand to one at most, so that a short address cannot become a large text.
+        said = zlib.decompress(base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), _RAW)
+        state = json.loads(said)
+    except (binascii.Error, zlib.error, ValueError, RecursionError):
+        raise _no_address(address) from None
+    if not isinstance(state, dict):
+        raise _no_address(address)
+    return state
+
+
+def differences(old: Any, new: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """The paths at which a task differs from another, with what stands there; None for what is left out."""
+    if isinstance(old, Mapping) and isinstance(new, Mapping):
+        for key in dict.fromkeys((*old, *new)):
+            if key in old and key in new:
+                yield from differences(old[key], new[key], f"{path}.{key}" if path else key)
+            else:
+                yield f"{path}.{key}" if path else key, new.get(key)
+    elif _tables(old) and _tables(new) and len(old) == len(new):
+        for k, (one, other) in enumerate(zip(old, new, strict=True)):
+            yield from differences(one, other, f"{path}[{k}]")
+    elif old != new:
+        yield path, new
+
+
+def _tables(value: Any) -> bool:
+    """Whether it is a list of tables, such as phases; points and poles are told whole."""
+    return isinstance(value, list) and all(isinstance(item, Mapping) for item in value)
+
+
+def _with_differences(task: Mapping[str, Any], moved: Mapping[str, Any]) -> dict[str, Any]:
+    """The task with other values at some paths; a path that leads nowhere is passed over."""
+    found = dict(task)
+    for path, value in moved.items():
+        with suppress(DesignError):
+            found = changed(found, {path: value})
+    return found

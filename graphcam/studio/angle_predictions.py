@@ -1,0 +1,145 @@
+"""How great the pressure angle becomes, and where: a ray from the cam centre, and a place on the curve of v."""
+
+import cmath
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.views import ANGLE, COMBINED, VELOCITY
+from graphcam.drafting.marks import Points
+from graphcam.given.follower import sense
+from graphcam.studio.foretold import PENCIL_LINE, Foretold, JudgedGuess, shown_steps, steps_in
+from graphcam.words import Caption, say, sequence
+
+STEEPEST_RAY = math.radians(75)
+"""The ray turns so far from the motion."""
+LENGTH = 0.95
+"""Of the ray, in parts of the height from A to the end of the lift."""
+POINTS = 76
+ALPHA = say("pressure angle α")
+PHI = say("cam angle φ")
+
+
+def angle_foretold(chain: Chain) -> Foretold:
+    """How far the ray with the greatest pressure angle of the rise leans.
+
+    >>> import graphcam as gc
+    >>> asked = angle_foretold(gc.solve(gc.builtin_task()).chain)
+    >>> asked.view, round(asked.judge(asked.start).machine, 2)
+    ('combined', -29.68)
+    """
+    measured, sigma = chain.pressure_angle, sense(chain.board.rotation)
+    centre, ends = complex(measured.first("centre")), measured.acts["ends"].first.shown
+    alpha = np.where(_rising(chain), measured.first("alpha"), -np.inf)
+    k, radius = int(np.argmax(alpha)), LENGTH * float((ends - centre).imag.max())
+    greatest = float(alpha[k])
+    answer = centre + cmath.rect(radius, math.pi / 2 + sigma * greatest)
+
+    def judged(guess: complex) -> JudgedGuess:
+        """Of a ray to there."""
+        lean = sigma * (cmath.phase(guess - centre) - math.pi / 2)
+        difference = math.degrees(lean - greatest)
+        paper = abs(complex(ends[k]) - centre) * abs(lean - greatest)
+        said = _by_degrees(difference, math.degrees(lean), paper)
+        return JudgedGuess(answer, paper, difference, "deg", ALPHA, said, _outermost(chain, k))
+
+    steps = steps_in(chain, "pressure_angle", COMBINED.name)
+    given = [*steps_in(chain, "minimum_radius", COMBINED.name)[:2], *steps[:-1]]
+    construct = [step for step in shown_steps(chain, "pressure_angle", COMBINED.name) if step.step == steps[-1]]
+    way = centre + radius * np.exp(1j * (math.pi / 2 + sigma * np.linspace(0.0, STEEPEST_RAY, POINTS)))
+    question = say("How far does the ray from A lean that shows the greatest pressure angle of the rise?")
+    return Foretold(question, COMBINED.name, given, construct, way, complex(way[0]), judged, pole=centre)
+
+
+def _rising(chain: Chain) -> NDArray[np.bool_]:
+    """At which stations the follower rises."""
+    return np.array([chain.board.motion.phases[k].direction > 0 for k in chain.board.stations.phase])
+
+
+def _by_degrees(difference: float, lean: float, paper: float) -> Caption:
+    if paper <= PENCIL_LINE:
+        return say("Your ray at {lean:.1f}° is the greatest pressure angle to a pencil line.", lean=lean)
+    said = (
+        say("Your ray at {lean:.1f}° leans {difference:.1f}° too far, {paper:.1f} mm on paper at the end of v.")
+        if difference > 0
+        else say("Your ray at {lean:.1f}° leans {difference:.1f}° too little, {paper:.1f} mm on paper at the end of v.")
+    )
+    return said.where(lean=lean, difference=abs(difference), paper=paper)
+
+
+def _outermost(chain: Chain, k: int) -> Caption:
+    """Which ray it is, and what it is made of."""
+    measured = chain.pressure_angle
+    end = complex(measured.acts["ends"].first.shown[k]) - complex(measured.first("centre"))
+    said = say(
+        "The outermost ray goes to station {station}: the end of v lies {across:.1f} mm beside A and {up:.1f} mm above "
+        "it, so tan α = {across:.1f}/{up:.1f}. A lower A, or one nearer to the side of v, makes the ray steeper."
+    )
+    return said.where(station=station_names(chain.board.stations)[k], across=abs(end.real), up=end.imag)
+
+
+def steepest_foretold(chain: Chain) -> Foretold:
+    """At which cam angle of the rises the pressure angle is greatest.
+
+    >>> import graphcam as gc
+    >>> asked = steepest_foretold(gc.solve(gc.builtin_task()).chain)
+    >>> asked.view, round(asked.judge(30 + 0j).machine, 2)
+    ('velocity', -10.0)
+    """
+    integrated, angles, per_mm = chain.integration, chain.angle_diagram, math.degrees(chain.board.mu_phi.per_mm)
+    curve, rising = integrated.acts["v_curve"].first.shown, _rising(chain)
+    top = complex(angles.first("max_rise"))
+
+    def on_curve(x: float) -> complex:
+        """The place of the curve of v over a cam angle [mm of paper]."""
+        return complex(x, float(np.interp(x, curve.real[rising], curve.imag[rising])))
+
+    def judged(guess: complex) -> JudgedGuess:
+        """Of a place over that cam angle."""
+        difference, paper = (guess.real - top.real) * per_mm, abs(guess.real - top.real)
+        beside = {ANGLE.name: (guess.real + 0j, top.real + 0j)}
+        said, why = _by_phi(difference, guess.real * per_mm, paper), _where_steep(chain, guess.real, curve, rising)
+        return JudgedGuess(on_curve(top.real), paper, difference, "deg", PHI, said, why, beside)
+
+    given = steps_in(chain, "integration", VELOCITY.name)
+    way = curve[rising]
+    question = say("At which place of the rise will the pressure angle be greatest?")
+    construct = shown_steps(chain, "angle_diagram", ANGLE.name)
+    return Foretold(question, VELOCITY.name, given, construct, way, complex(way[1]), judged)
+
+
+def _by_phi(difference: float, phi: float, paper: float) -> Caption:
+    if paper <= PENCIL_LINE:
+        return say("Your place at φ = {phi:.1f}° is the steepest to a pencil line.", phi=phi)
+    said = (
+        say("Your place at φ = {phi:.1f}° lies {difference:.1f}° too late, {paper:.1f} mm on paper.")
+        if difference > 0
+        else say("Your place at φ = {phi:.1f}° lies {difference:.1f}° too early, {paper:.1f} mm on paper.")
+    )
+    return said.where(phi=phi, difference=abs(difference), paper=paper)
+
+
+def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_]) -> Caption:
+    """The angles there and at the greatest, and where the velocity is greatest."""
+    top, per_mm = complex(chain.angle_diagram.first("max_rise")), math.degrees(chain.board.mu_phi.per_mm)
+    drawn = chain.angle_diagram.acts["curve"].first.shown[rising]
+    fastest = float(curve[rising].real[np.argmax(curve[rising].imag)])
+    told = say(
+        "There α is {here:.1f}°, at φ = {phi:.1f}° it is {greatest:.1f}°.",
+        here=float(np.interp(x, drawn.real, drawn.imag)) * per_mm,
+        phi=top.real * per_mm,
+        greatest=top.imag * per_mm,
+    )
+    apart = (top.real - fastest) * per_mm
+    if abs(apart) < 1:
+        reason = say("The velocity makes the angle, and here its maximum is so sharp that the two fall together.")
+    elif apart < 0:
+        reason = say(
+            "The velocity makes the angle, and a low follower enlarges it: so α is greatest {apart:.1f}° before v is."
+        )
+    else:
+        reason = say("The velocity makes the angle, and here the position of the arm adds to it {apart:.1f}° after v.")
+    return sequence([told, reason.where(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")

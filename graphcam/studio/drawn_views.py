@@ -1,0 +1,142 @@
+"""A view as SVG, step by step: its frame, its lettering for the screen, and labels that stay while the hand is down."""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from hashlib import blake2b
+from itertools import chain
+
+from graphcam.drafting.ink import Step
+from graphcam.drafting.marks import AngleMark, Dimension, Label
+from graphcam.sheets.box import Box
+from graphcam.sheets.expand import Drawn, Placement, expand
+from graphcam.sheets.fonts import points_size
+from graphcam.sheets.formats import Lettering
+from graphcam.sheets.held_labels import held_places, label_places
+from graphcam.sheets.labels import places_of, shading_parted, with_texts
+from graphcam.sheets.model import Entity, Group
+from graphcam.sheets.panels import AIR
+from graphcam.sheets.player_svg import MM_PER_POINT, Numbers, group_svg
+from graphcam.sheets.sampling import box_of
+from graphcam.studio.hold import HeldView
+from graphcam.studio.request import AskedView
+from graphcam.studio.view_steps import NamedStep
+from graphcam.words import Caption, Tell
+
+ROOM_FOR_LABELS = 12.0
+"""Around the drawing [mm]."""
+LEAST_LETTERS = 10.0
+"""No letter on the screen is smaller [px]."""
+INDEX = math.sqrt(0.5)
+"""The height of an index, in heights of its letter."""
+STEP_OF_HEIGHT = 0.25
+"""Letters grow in steps, so that they do not change with every pixel [mm]."""
+EMPTY = Box(0.0, 0.0, 1.0, 1.0)
+"""The frame of a view in which nothing is drawn."""
+
+
+def screen_letters(paper: Lettering, px_per_mm: float) -> Lettering:
+    """The lettering of a view on the screen: as on paper, or larger where that could not be read.
+
+    >>> screen_letters(Lettering(5.0, 3.5, 2.5), 4.0)
+    Lettering(title=5.0, label=3.5, small=2.5)
+    """
+    # What is asked for is the size of a font, which is more than the height of its capitals.
+    font = points_size(1.0) * MM_PER_POINT
+    small = LEAST_LETTERS / (font * px_per_mm)
+    heights = (math.ceil(each / STEP_OF_HEIGHT) * STEP_OF_HEIGHT for each in (small / INDEX, small / INDEX, small))
+    return Lettering(*map(max, (paper.title, paper.label, paper.small), heights))
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnView:
+    """A view that is drawn.
+
+    steps : with what each of them draws, in order
+    kept : what the view keeps while the hand is down
+    """
+
+    steps: tuple[tuple[NamedStep, tuple[Entity, ...]], ...]
+    kept: HeldView
+
+    @property
+    def frame(self) -> list[float]:
+        """Left, top, width and height, y downwards [mm]."""
+        box = self.kept.frame
+        return [round(each, 2) + 0.0 for each in (box.left, -box.top, box.width, box.height)]
+
+    def svg(self, numbers: Numbers | None) -> dict[str, str]:
+        """The elements of every step by its name.
+
+        numbers : of the acts that they show, where these are told
+        """
+        drawn = ((each.id, Group(each.id, entities)) for each, entities in self.steps)
+        return {name: group_svg(group, 0.0, numbers) if numbers else group_svg(group, 0.0) for name, group in drawn}
+
+
+def drawn_view(
+    steps: Sequence[NamedStep],
+    constructions: tuple[tuple[str, ...], tuple[str, ...]],
+    asked: AskedView,
+    paper: Lettering,
+    tell: Tell,
+    held: HeldView | None,
+) -> DrawnView:
+    """Draw a view.
+
+    constructions : those that draw in it, and those that settle its scale
+    paper : the lettering of the sheet
+    held : what the view keeps, None where it is free
+    """
+    letters = screen_letters(paper, max(asked.px_per_mm, 0.01))
+    drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
+    names = [name for each in steps for name in label_names(each)] if asked.labelled else []
+    former = held.labels if held else {}
+    if held is None:
+        places: list[int | None] = [*places_of(drawn, [], _room(drawn))]
+    else:
+        places = held_places(names, drawn, former)
+    finished = shading_parted(with_texts(drawn, places))
+    frame = held.frame if held else _frame(chain(*finished))
+    kept = HeldView(frame, *constructions, label_places(names, drawn, places, former))
+    return DrawnView(tuple(zip(steps, finished, strict=True)), kept)
+
+
+def _expanded(step: Step, letters: Lettering, tell: Tell, *, labelled: bool) -> Drawn:
+    """What a step draws.  A view of the studio stands alone, so the numbers of an axis stand under it."""
+    entities, writings = expand((*step.marks, *step.under), Placement(0j), letters, tell)
+    return entities, writings if labelled else []
+
+
+def label_names(named: NamedStep) -> list[str]:
+    """Names for the labels of a step that stay while its numbers change, in their order: "step|template|occurrence"."""
+    taken = Counter[str]()
+    found: list[str] = []
+    for mark in (*named.step.marks, *named.step.under):
+        if isinstance(mark, Label | Dimension | AngleMark):
+            text = mark.text.template if isinstance(mark.text, Caption) else mark.text
+            taken[text] += 1
+            found.append(f"{named.id}|{text}|{taken[text]}")
+    return found
+
+
+def _room(drawn: Iterable[Drawn]) -> Box:
+    """The box that no label leaves."""
+    lines = [entity for entities, _ in drawn for entity in entities]
+    return (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
+
+
+def _frame(entities: Iterable[Entity]) -> Box:
+    """The box of a whole view."""
+    return (box_of(entities) or EMPTY).grown(AIR)
+
+
+def digest(svg: str) -> str:
+    """What tells one drawing of a step from another."""
+    return blake2b(svg.encode(), digest_size=6).hexdigest()
+
+
+def key_of(asked: AskedView) -> str:
+    """What a view is kept by: with and without labels it has different frames."""
+    return asked.name if asked.labelled else f"{asked.name}, small"

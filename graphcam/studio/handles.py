@@ -1,0 +1,204 @@
+"""The handles of the views of a solution, and what becomes of the sizes when one is dragged."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, TypeVar
+
+from graphcam.constructions.views import ACCELERATION, ANGLE, COMBINED, DISPLACEMENT, PLAN, PROFILE, REGION, VELOCITY
+from graphcam.errors import DesignError
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.solution import Solution
+from graphcam.studio import (
+    handles_arcs as arcs,
+    handles_arm as arm,
+    handles_diagrams as diagrams,
+    handles_plan as plan,
+    handles_profile as profile,
+    handles_region as region,
+)
+from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis
+from graphcam.studio.point_on_curve import point_on_curve
+from graphcam.studio.size_ranges import has_angles, sizes_of
+from graphcam.words import Tell, say
+
+MECHANISM = "mechanism"
+"""The view of the turning mechanism, which the page draws itself."""
+HALVINGS = 7
+"""Of the way of a hand that goes where there is no design."""
+Solved = TypeVar("Solved")
+FAR = 1e6
+"""No place on paper is farther away [mm]."""
+
+
+def handles_of(
+    solution: AnySolution, views: Sequence[str], tell: Tell, phi: float = 0.0, station: int | None = None
+) -> list[dict[str, Any]]:
+    """The handles of some views as the page reads them: see :class:`~graphcam.studio.handle.Handle`.
+
+    phi : cam angle [degrees];  station : that the velocity plan shows
+    tell : says captions in the language of the page
+
+    >>> import graphcam as gc
+    >>> [handle["id"] for handle in handles_of(gc.solve(gc.builtin_task()), ["combined"], str)]
+    ['combined/A', 'combined/tangent rise', 'combined/D']
+    """
+    state = HandleState(phi % 360.0, station)
+    found = (handle for view in views for handle in _of_view(solution, view, state))
+    return [handle.plain(tell) for handle in found if math.isfinite(abs(handle.at))]
+
+
+def dragged(solution: AnySolution, drag: Mapping[str, Any], phi: float = 0.0, station: int | None = None) -> Changes:
+    """What the sizes become, by their paths, when a handle is dragged: ``{"handle", "to": [x, y], "fine"}``.
+
+    solution : of the task at which the hand took hold
+    phi, station : as they were then
+    returns : values on a step or a magnet, within their ranges; "phi" or "station" for what is no size
+
+    Raises
+    ------
+    DesignError : there is no such handle, or no such place
+
+    >>> import graphcam as gc
+    >>> dragged(gc.solve(gc.builtin_task()), {"handle": "combined/A", "to": [0.0, 90.0]})
+    {'follower.offset': 0.0, 'cam.prime_radius': 54.0}
+    """
+    handle, to = _handle(solution, drag, HandleState(phi % 360.0, station)), _place(drag.get("to"))
+    return handle.drag(to, bool(drag.get("fine", False)))
+
+
+def dragged_within(
+    solution: AnySolution,
+    drag: Mapping[str, Any],
+    solve: Callable[[Changes], Solved],
+    phi: float = 0.0,
+    station: int | None = None,
+) -> tuple[Changes, Solved]:
+    """The same as far as there is a design: a hand that goes on is followed to the last one on its way.
+
+    solve : the solution with some changes, or a DesignError
+    returns : the changes, and the solution with them
+
+    Raises
+    ------
+    DesignError : there is no such handle, or no such place
+
+    >>> import graphcam as gc
+    >>> def no_larger(changes):
+    ...     if changes.get("cam.prime_radius", 0.0) > 50.0:
+    ...         raise DesignError("prime radius", changes["cam.prime_radius"], "at most 50 mm")
+    ...     return "drawn"
+    >>> dragged_within(gc.solve(gc.builtin_task()), {"handle": "profile/r0", "to": [0, 120]}, no_larger)
+    ({'cam.prime_radius': 50.0}, 'drawn')
+    """
+    handle, to = _handle(solution, drag, HandleState(phi % 360.0, station)), _place(drag.get("to"))
+    fine = bool(drag.get("fine", False))
+    found: tuple[Changes, Solved] | None = None
+    reached, beyond = 0.0, 2.0
+    for _ in range(HALVINGS):
+        share = (reached + beyond) / 2
+        changes = handle.drag(handle.at + share * (to - handle.at), fine)
+        try:
+            found, reached = (changes, solve(changes)), share
+        except DesignError:
+            beyond = share
+        if reached >= 1:
+            break
+    return ({}, solve({})) if found is None else found
+
+
+def _handle(solution: AnySolution, drag: Mapping[str, Any], state: HandleState) -> Handle:
+    """The handle that is dragged."""
+    name = str(drag.get("handle"))
+    for handle in _of_view(solution, name.split("/")[0], state):
+        if handle.id == name and math.isfinite(abs(handle.at)):
+            return handle
+    raise DesignError("drag.handle", name[:40], "one of the view's handles")
+
+
+def _place(to: Any) -> complex:
+    """A place of the page, y upwards."""
+    try:
+        x, y = (float(coordinate) for coordinate in to)
+    except (TypeError, ValueError):
+        x = y = math.nan
+    if not (abs(x) <= FAR and abs(y) <= FAR):
+        raise DesignError("drag.to", f"{to!r}"[:40], "two numbers, x and y in mm of the view")
+    return complex(x, -y)
+
+
+def _of_view(solution: AnySolution, view: str, state: HandleState) -> Iterator[Handle]:
+    """The handles of a view, each made when it is come to."""
+    if view == MECHANISM:
+        yield _turning(state)
+    elif isinstance(solution, ArcsSolution):
+        yield from arcs.of_view(solution, view, state)
+    elif view in (ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name):
+        yield from _of_diagram(solution, view, state)
+    elif view in VIEWS and VIEWS[view][0] in solution.chain.names:
+        yield from VIEWS[view][1](solution, state)
+
+
+def _of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
+    yield from diagrams.borders(solution, view)
+    if view == ACCELERATION.name:
+        yield from diagrams.ordinate(solution)
+    if view in (ACCELERATION.name, VELOCITY.name):
+        yield from diagrams.pole(solution, view)
+    yield from diagrams.cursor(solution, view, state)
+
+
+def _of_angles(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    yield from diagrams.limits(solution)
+    yield from diagrams.cursor(solution, ANGLE.name, state)
+
+
+def _of_combined(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """Of a stem with an offset, or of a flat face; an arm has another drawing."""
+    if "offset" in sizes_of(solution.task):
+        yield from region.cam_centre(solution)
+        yield from region.tangents(solution)
+        yield point_on_curve(COMBINED.name, "ends", solution, state)
+    elif not has_angles(solution.task):
+        yield from region.flat_centre(solution)
+        yield from region.flat_point(solution, state)
+
+
+def _of_positions(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    if "arm" in sizes_of(solution.task):
+        yield from arm.of_region(solution, state)
+
+
+def _of_profile(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    sizes = sizes_of(solution.task)
+    yield from profile.prime_circle(solution)
+    if "offset" in sizes:
+        yield from profile.offset_circle(solution)
+    if "arm" in sizes:
+        yield from arm.of_profile(solution)
+    if "roller_radius" in sizes:
+        yield from profile.roller_rim(solution, state)
+    yield from profile.pitch_point(solution, state)
+
+
+def _of_plan(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    yield from plan.station(solution)
+
+
+VIEWS: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]] = {
+    ANGLE.name: ("angle_diagram", _of_angles),
+    COMBINED.name: ("minimum_radius", _of_combined),
+    REGION.name: ("minimum_radius", _of_positions),
+    PROFILE.name: ("inversion", _of_profile),
+    PLAN.name: ("pressure_angle", _of_plan),
+}
+"""The construction that a view needs, and its handles."""
+
+
+def _turning(state: HandleState) -> Handle:
+    """The cam itself, which the page turns."""
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The page knows how far it was turned."""
+        return {}
+
+    return Handle(MECHANISM, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), drag)

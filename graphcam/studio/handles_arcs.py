@@ -1,0 +1,94 @@
+"""Handles of a cam of three arcs: its points, its first arc, the roller, the cam angle."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from graphcam.constructions.arc_outline import ARCS
+from graphcam.constructions.arc_stations import ROLLER
+from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
+from graphcam.solving.arcs_solution import ArcsSolution
+from graphcam.studio.form_fields import POINTS, must_agree
+from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
+from graphcam.studio.handles_diagrams import cursor
+from graphcam.studio.over_turn import in_degrees, nearest_station
+from graphcam.studio.size_ranges import ranges
+from graphcam.words import say
+
+RHO = say("Radius of the first arc ρ₁")
+
+
+def of_view(solution: ArcsSolution, view: str, state: HandleState) -> Iterator[Handle]:
+    """The handles of one of its views."""
+    if view in (ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, ANGLE.name):
+        yield from cursor(solution, view, state)
+    elif view == ARCS.name:
+        yield from points(solution)
+        yield from first_arc(solution)
+    elif view == ROLLER.name:
+        yield from roller(solution, state)
+
+
+def points(solution: ArcsSolution) -> Iterator[Handle]:
+    """The points, given or found; what must agree with one that is moved is left open with it."""
+    mu, rooms, drawn = solution.chain.board.mu_l.per_mm, ranges(solution), solution.chain["three_arcs"]
+    for name in ("D", "G", "A", "C2"):
+        given, place = getattr(solution.task.arcs, name), complex(np.ravel(drawn.first(name))[0])
+        at = place if given is None else complex(*given) / mu
+        across, up = (f"arcs.{name}[{k}]" for k in (0, 1))
+        freed = dict.fromkeys(must_agree(solution.task.arcs, name))
+
+        def drag(to: complex, fine: bool, name: str = name, freed: Changes = freed) -> Changes:
+            """Both coordinates."""
+            room = rooms[f"arcs.{name}[0]"]
+            return {f"arcs.{name}": [snapped(x * mu, room, fine=fine) for x in (to.real, to.imag)], **freed}
+
+        value = round(at.real * mu, 6), round(at.imag * mu, 6)
+        first = {"first": freed if given is not None else {**freed, f"arcs.{name}": list(value)}}
+        title = POINTS[name]
+        axes = tuple(
+            HandleAxis(path, say("{point}, {axis}", point=title, axis=screen), "mm", x, rooms[path], screen, first)
+            for path, screen, x in zip((across, up), "xy", value, strict=True)
+        )
+        yield Handle(ARCS.name, name, title, at, "xy", axes, drag)
+
+
+def first_arc(solution: ArcsSolution) -> Iterator[Handle]:
+    """The centre of the first arc: on the line to D, as far from there as its radius."""
+    mu, room, given = solution.chain.board.mu_l.per_mm, ranges(solution)["arcs.rho1"], solution.task.arcs
+    end = complex(*given.D) / mu
+    towards = -end / abs(end)
+    freed = dict.fromkeys(must_agree(given, "rho1"))
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The radius."""
+        return {"arcs.rho1": snapped(((to - end) * towards.conjugate()).real * mu, room, fine=fine), **freed}
+
+    axis = HandleAxis("arcs.rho1", RHO, "mm", given.rho1, room, "x", {"first": freed, "sign": -1})
+    at = end + towards * given.rho1 / mu
+    yield Handle(ARCS.name, "C1", POINTS["C1"], at, "along", (axis,), drag, along=towards)
+
+
+def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:
+    """The roller on the arcs: where it stands, and its rim where the rise begins, on the base circle."""
+    rolled, mu = solution.chain["arc_roller"], solution.chain.board.mu_l.per_mm
+    places, phi = np.asarray(rolled.first("B")), np.asarray(rolled.value("phi"))
+    radius, room = solution.task.follower.roller_radius, ranges(solution)["follower.roller_radius"]
+    start = complex(places[0])
+    out, base = start / abs(start), abs(start) - radius / mu
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The cam angle of the nearest station."""
+        return {"phi": in_degrees(phi[nearest_station(places, to)])}
+
+    def widened(to: complex, fine: bool) -> Changes:
+        """The roller radius: the rim lies a diameter outside of the base circle."""
+        diameter = (to * out.conjugate()).real - base
+        return {"follower.roller_radius": snapped(diameter / 2 * mu, room, fine=fine)}
+
+    at = complex(np.interp(math.radians(state.phi), phi, places))
+    yield Handle(ROLLER.name, "phi", say("Place of the roller"), at, "xy", (phi_axis(state.phi),), drag)
+    axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "x")
+    rim = start + out * radius / mu
+    yield Handle(ROLLER.name, "r", say("Rim of the roller"), rim, "along", (axis,), widened, along=out)

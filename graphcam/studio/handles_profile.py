@@ -1,0 +1,111 @@
+"""Handles of the cam profile: prime circle, offset circle, the rim of the roller, the pitch point."""
+
+import cmath
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.euclid import UP
+from graphcam.given.follower import sense
+from graphcam.solving.solution import Solution
+from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
+from graphcam.studio.over_turn import in_degrees, nearest_station, over_stations
+from graphcam.studio.size_ranges import SizeRange, lift_of, ranges, sizes_of, step_for, third_side
+from graphcam.words import say
+
+PRIME, OFFSET = say("Prime circle"), say("Offset circle")
+RIM, PITCH = say("Rim of the roller"), say("Point of the pitch curve")
+
+
+def scale_of(solution: Solution) -> float:
+    """So many mm go to a millimetre of the profile's paper."""
+    return solution.chain["inversion"].readings["x"].per_mm
+
+
+def prime_circle(solution: Solution) -> Iterator[Handle]:
+    """The lowest point of the prime circle."""
+    mu, radius, room = scale_of(solution), solution.chain.prime_radius, radii(solution)
+    adopted = solution.chain.adopted_if_any()
+    least = math.nan if adopted is None else adopted.least
+    fine = room.step / 5
+    found = [] if math.isnan(least) else [round(math.ceil(least / fine - 1e-9) * fine, 9)]
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The prime radius; the least one draws it."""
+        r0 = snapped(-to.imag * mu, room, fine=fine, magnets=found, reach=PULL * mu)
+        return {"cam.prime_radius": r0, **kept_place(solution)}
+
+    axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, room, "y", {"sign": -1})
+    too_small = radius < least - fine / 10
+    yield Handle(PROFILE.name, "r0", PRIME, -UP * radius / mu, "y", (axis,), drag, limit=too_small)
+
+
+def radii(solution: Solution) -> SizeRange:
+    """The prime radii at which the mechanism closes with the present place of the follower."""
+    room, follower = ranges(solution)["cam.prime_radius"], sizes_of(solution.task)
+    if "arm" not in follower:
+        return room
+    closing = third_side(follower["arm"], solution.chain.place, room.step)
+    return closing._replace(least=max(closing.least, room.least))
+
+
+def kept_place(solution: Solution) -> Changes:
+    """An arm's centre distance, where it is open: it must go with the radius."""
+    open_ = sizes_of(solution.task).get("distance", 0.0) is None
+    return {"follower.distance": solution.chain.place} if open_ else {}
+
+
+def offset_circle(solution: Solution) -> Iterator[Handle]:
+    """Where the follower's line touches the offset circle at the start of the turn."""
+    mu, offset, room = scale_of(solution), solution.chain.place, ranges(solution)["follower.offset"]
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The offset, with its sign."""
+        return {"follower.offset": snapped(to.real * mu, room, fine=fine)}
+
+    axis = HandleAxis("follower.offset", say("Offset e"), "mm", offset, room, "x")
+    yield Handle(PROFILE.name, "e", OFFSET, complex(offset / mu), "x", (axis,), drag)
+
+
+def pitch_at(solution: Solution, phi: float) -> complex:
+    """The point of the pitch curve at a cam angle [rad]; of a flat face where it is touched."""
+    sigma, stations = sense(solution.task.rotation), solution.chain.board.stations
+    pitch = np.asarray(solution.chain["inversion"].first("pitch"))
+    # In the frame the trace point hardly moves, so it can be sought straight between the stations there.
+    in_frame = pitch * np.exp(1j * sigma * stations.phi)
+    return over_stations(stations, phi, in_frame) * cmath.exp(-1j * sigma * phi)
+
+
+def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The outermost point of the roller where it stands at the cam angle."""
+    mu, radius, step = scale_of(solution), solution.chain.roller_radius, step_for(lift_of(solution))
+    room = ranges(solution)["follower.roller_radius"]
+    centre = pitch_at(solution, math.radians(state.phi))
+    out = centre / abs(centre)
+    rho = float(solution.chain["curvature"].value("rho"))
+    sharpest = [round(math.floor(5 * rho / step) * step / 5, 9)] if math.isfinite(rho) else []
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The roller radius; the one at which the profile gets an edge draws it."""
+        length = ((to - centre) * out.conjugate()).real * mu
+        return {"follower.roller_radius": snapped(length, room, fine=fine, magnets=sharpest, reach=PULL * mu)}
+
+    axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "y")
+    undercut = radius >= rho
+    at = centre + out * radius / mu
+    yield Handle(PROFILE.name, "r", RIM, at, "along", (axis,), drag, along=out, limit=undercut)
+
+
+def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
+    """The point of the pitch curve at the cam angle."""
+    stations = solution.chain.board.stations
+    pitch = solution.chain["inversion"].first("pitch")
+
+    def drag(to: complex, fine: bool) -> Changes:
+        """The cam angle of the nearest station."""
+        return {"phi": in_degrees(stations.phi[nearest_station(pitch, to)])}
+
+    at = pitch_at(solution, math.radians(state.phi))
+    yield Handle(PROFILE.name, "phi", PITCH, at, "xy", (phi_axis(state.phi),), drag)

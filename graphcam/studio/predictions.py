@@ -1,0 +1,145 @@
+"""Foretell, then construct: the studio's request "predict".
+
+Without a guess the answer says what is shown before and where the guess may move; with one, where the construction
+lies, how far apart they are, and why.  A seed draws another task of the same kind first.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from graphcam.constructions.chain import Chain
+from graphcam.errors import DesignError, nearest
+from graphcam.language import language
+from graphcam.solving.solution import Solution, solve_motion
+from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
+from graphcam.studio.centre_prediction import centre_foretold
+from graphcam.studio.foretold import Foretold, JudgedGuess, ShownStep
+from graphcam.studio.request import number, some, task_data, task_in, whole
+from graphcam.studio.seeded_tasks import BASES, seeded_task
+from graphcam.studio.sharpest_prediction import sharpest_foretold
+from graphcam.tasks.task import Task
+from graphcam.words import Caption, Tell, say
+
+MOST_SEEDS = 10**9
+MILLIMETRES = say("{size:.1f} mm")
+DIFFERENCES = {"mm": say("{size:+.1f} mm"), "deg": say("{size:+.1f}°")}
+"""How far a guess is off in the machine, by the unit."""
+FARTHEST = 1e5
+"""A guess lies no farther away [mm]."""
+KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Foretold], Callable[[Chain], bool]]] = {
+    "centre": (say("The cam centre"), lambda solution: centre_foretold(solution.chain), lambda chain: True),
+    "angle": (
+        say("The greatest pressure angle"),
+        lambda solution: angle_foretold(solution.chain),
+        lambda chain: "s0" in chain.minimum_radius.readings,
+    ),
+    "steepest": (
+        say("Where the pressure angle is greatest"),
+        lambda solution: steepest_foretold(solution.chain),
+        lambda chain: "angle_diagram" in chain.names,
+    ),
+    "sharpest": (say("The sharpest place"), sharpest_foretold, lambda chain: True),
+}
+"""What can be foretold: its name, the question of a solution, and whether a chain has it."""
+
+
+def kinds_of(chain: Chain) -> list[str]:
+    """What can be foretold of a chain.
+
+    >>> import graphcam as gc
+    >>> kinds_of(gc.solve(gc.builtin_task("flat")).chain)
+    ['centre', 'sharpest']
+    """
+    return [name for name, (_, _, has) in KINDS.items() if has(chain)]
+
+
+def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
+    """The answer to a request "predict"."""
+    spoken = some(request, "language", str, "en")
+    tell, task = language(spoken).text, task_data(request)
+    seed = whole(request, "seed", None, 0, MOST_SEEDS)
+    solution = solution_of(task, spoken)
+    if seed is not None:
+        kind_of_follower = solution.task.follower.kind
+        task = seeded_task(kind_of_follower, seed)
+        solution = solution_of(task, spoken)
+    kinds = kinds_of(solution.chain)
+    kind = request.get("kind") or kinds[0]
+    if kind not in kinds:
+        raise DesignError("kind", kind, "one of " + ", ".join(kinds), nearest(str(kind), kinds))
+    asked = KINDS[kind][1](solution)
+    said = {
+        "kind": kind,
+        "kinds": [{"kind": name, "title": tell(KINDS[name][0])} for name in kinds],
+        **_plain(asked, tell),
+        "task": task,
+        "name": BASES[solution.task.follower.kind],
+    }
+    guess = some(request, "guess", list, None)
+    return said if guess is None else said | {"judged": _judged(asked, _place(guess), tell)}
+
+
+def _place(guess: list[Any]) -> complex:
+    """A guess in the view's millimetres as a place of the construction."""
+    if len(guess) != 2:
+        raise DesignError("guess", len(guess), "two numbers, x and y [mm of the view]")
+    x, y = (number({"guess": each}, "guess", math.nan, -FARTHEST, FARTHEST) for each in guess)
+    if math.isnan(x + y):
+        raise DesignError("guess", "missing", "two numbers, x and y [mm of the view]")
+    return complex(x, -y)
+
+
+def _plain(asked: Foretold, tell: Tell) -> dict[str, Any]:
+    """What the view shows before, and where the guess may move."""
+    return {
+        "question": tell(asked.question),
+        "view": asked.view,
+        "given": list(asked.given),
+        "construct": [_plain_step(shown, tell) for shown in asked.construct],
+        "way": _in_view(asked.way),
+        "free": asked.free,
+        "start": _in_view([asked.start])[0],
+        "pole": None if asked.pole is None else _in_view([asked.pole])[0],
+    }
+
+
+def _plain_step(shown: ShownStep, tell: Tell) -> dict[str, str]:
+    return {"view": shown.view, "step": shown.step, "title": tell(shown.title)}
+
+
+def _judged(asked: Foretold, guess: complex, tell: Tell) -> dict[str, Any]:
+    """What is said of a guess."""
+    place = asked.on_the_way(guess)
+    found: JudgedGuess = asked.judge(place)
+    finite = abs(found.machine) < FARTHEST
+    at = {asked.view: (place, found.answer)} | dict(found.beside)
+    return {
+        "at": {view: dict(zip(("guess", "answer"), _in_view(pair), strict=True)) for view, pair in at.items()},
+        "paper": round(found.paper, 3),
+        "paper_said": tell(MILLIMETRES.where(size=found.paper)),
+        "machine": round(found.machine, 4) if finite else None,
+        "machine_said": tell(DIFFERENCES[found.unit].where(size=found.machine + 0.0)) if finite else "",
+        "unit": found.unit,
+        "quantity": tell(found.quantity),
+        "said": tell(found.said),
+        "why": tell(found.why),
+    }
+
+
+def _in_view(places: Sequence[complex] | Any) -> list[list[float]]:
+    """Places in the view's millimetres, y down."""
+    return [[round(float(place.real), 3), round(-float(place.imag) + 0.0, 3)] for place in places]
+
+
+def solution_of(task: dict[str, Any], spoken: str) -> Solution:
+    """The task of plain data, solved.
+
+    Raises
+    ------
+    GraphcamError : it is none, or a cam of arcs, whose construction has nothing to foretell
+    """
+    found = task_in(task, spoken)
+    if not isinstance(found, Task):
+        raise DesignError("task", "a cam of arcs", "one with phases of motion", "take another task to foretell")
+    return solve_motion(found)

@@ -1,0 +1,230 @@
+"""What the page asks for, checked: senseless values become an error that names the field."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from graphcam.drafting.pencil import Pencil
+from graphcam.errors import DesignError
+from graphcam.language import language
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import task_from
+
+MOST_DIVISIONS, MOST_PHASES, MOST_ROWS = 200, 36, 2000
+"""Of a task in the studio: more take too long to be drawn while a size is moved."""
+MOST_VIEWS = 20
+"""In one request."""
+LETTERED_FROM = 0.8
+"""A view shown smaller than this has no labels [px per mm]: it is a small picture, to be recognised and not read."""
+WORST_PENCIL = 1.0
+"""Standard deviation of a line [mm]: with more nothing can be read."""
+FINEST = 40.0
+"""Pixels per mm at most."""
+
+Data = Mapping[str, Any]
+"""Plain data, as JSON has them."""
+
+
+@dataclass(frozen=True)
+class AskedView:
+    """A view that is to be drawn.
+
+    px_per_mm : how large it is shown
+    have : hashes of the steps that the page has already, by their identifiers
+    """
+
+    name: str
+    px_per_mm: float
+    have: Mapping[str, str]
+
+    @property
+    def labelled(self) -> bool:
+        """Whether it is large enough for labels."""
+        return self.px_per_mm >= LETTERED_FROM
+
+
+@dataclass(frozen=True, eq=False)
+class ViewsRequest:
+    """What is asked of the views of a task.
+
+    task : as plain data
+    told, values, warnings, form, mechanism : what is wanted besides the drawing
+    hold : plain data of an earlier answer, while the hand is down
+    drag : plain data of a handle that is dragged
+    phi : cam angle [degrees];  station : that the velocity plan shows
+    upto : the last construction that is shown
+    """
+
+    task: dict[str, Any]
+    views: tuple[AskedView, ...]
+    language: str
+    told: bool
+    values: bool
+    warnings: bool
+    form: bool
+    mechanism: bool
+    hold: Data | None
+    drag: Data | None
+    phi: float
+    station: int | None
+    upto: str | None
+
+
+def views_request(data: Data) -> ViewsRequest:
+    """The request in plain data; unknown keys are ignored.
+
+    Raises
+    ------
+    DesignError : a value of the wrong kind, or beyond the limits
+    """
+    wanted = {name: flag(data, name) for name in ("told", "values", "warnings", "form", "mechanism")}
+    views = some(data, "views", list, [])
+    if len(views) > MOST_VIEWS:
+        raise DesignError("views", len(views), f"at most {MOST_VIEWS} in a request")
+    spoken = some(data, "language", str, "en")
+    language(spoken)
+    return ViewsRequest(
+        task=task_data(data),
+        views=tuple(_asked_view(view) for view in views),
+        language=spoken,
+        **wanted,
+        hold=some(data, "hold", dict, None),
+        drag=some(data, "drag", dict, None),
+        phi=number(data, "phi", 0.0, -360.0, 720.0),
+        station=whole(data, "station", None, 0, 10_000),
+        upto=some(data, "upto", str, None),
+    )
+
+
+def task_data(data: Data) -> dict[str, Any]:
+    """The plain data of a request's task.
+
+    Raises
+    ------
+    DesignError : there is none
+    """
+    if not isinstance(task := data.get("task"), dict) or not task:
+        raise DesignError("task", "missing" if task is None else type(task).__name__, "a table with a task")
+    return task
+
+
+def pencil_in(data: Data) -> Pencil:
+    """The hand that draws, by the error that a task's plain data give it under "pencil" [mm].
+
+    >>> pencil_in({"pencil": 0.2}).line, pencil_in({}).perfect
+    (0.2, True)
+    """
+    return Pencil.of(number(data, "pencil", 0.0, 0.0, WORST_PENCIL))
+
+
+def task_in(data: dict[str, Any], spoken: str = "en") -> Task | ArcsTask:
+    """The task of plain data, no larger than the studio draws, its texts in a language; "pencil" is no part of it.
+
+    Raises
+    ------
+    GraphcamError : it is none, or too large
+
+    >>> import graphcam as gc
+    >>> task_in({**gc.builtin_task().to_dict(), "drawing": {"divisions": 500}})
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: drawing.divisions is 500, but must be at most 200 in the studio
+    """
+    _check_size(data)
+    drawing = data.get("drawing", {})
+    said = {**data, "drawing": {**drawing, "language": spoken} if isinstance(drawing, dict) else drawing}
+    said.pop("pencil", None)
+    return task_from(said)
+
+
+def _check_size(data: Data) -> None:
+    """Before anything is made of a task: that it is not too large."""
+    motion, drawing = (part if isinstance(part := data.get(name), dict) else {} for name in ("motion", "drawing"))
+    table = part if isinstance(part := motion.get("table"), dict) else {}
+    divisions = drawing.get("divisions")
+    sizes = {
+        "drawing.divisions": (divisions if isinstance(divisions, int) else 0, MOST_DIVISIONS),
+        "motion.phases": (_length(motion.get("phases")), MOST_PHASES),
+        "motion.table.rows": (_length(table.get("rows")), MOST_ROWS),
+    }
+    for name, (size, most) in sizes.items():
+        if size > most:
+            raise DesignError(name, size, f"at most {most} in the studio")
+
+
+def _length(value: Any) -> int:
+    return len(value) if isinstance(value, list) else 0
+
+
+def _asked_view(view: Any) -> AskedView:
+    if not isinstance(view, dict):
+        raise DesignError("views", type(view).__name__, "tables with a name")
+    have = some(view, "have", dict, {})
+    name = some(view, "name", str, None)
+    if name is None:
+        raise DesignError("views.name", "missing", "given")
+    return AskedView(name, number(view, "px_per_mm", 2.0, 0.0, FINEST), {str(key): str(have[key]) for key in have})
+
+
+def flag(data: Data, name: str) -> bool:
+    """Whether something is wanted."""
+    return some(data, name, bool, False)
+
+
+def some(data: Data, name: str, kind: type, otherwise: Any) -> Any:
+    """A value of a kind, or another one where it is left out or null.
+
+    Raises
+    ------
+    DesignError : it is of another kind
+
+    >>> some({"told": True}, "told", bool, False), some({}, "told", bool, False)
+    (True, False)
+    """
+    value = data.get(name)
+    if value is None:
+        return otherwise
+    if not isinstance(value, kind):
+        raise DesignError(name, _shown(value), f"{KINDS[kind]} or left out")
+    return value
+
+
+KINDS = {bool: "true or false", str: "text", list: "a list", dict: "a table"}
+"""What the kinds of plain data are called."""
+
+
+def number(data: Data, name: str, otherwise: float, low: float, high: float) -> float:
+    """A number within limits.
+
+    Raises
+    ------
+    DesignError : it is none, or beyond them
+    """
+    value = data.get(name)
+    if value is None:
+        return otherwise
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise DesignError(name, _shown(value), "a number")
+    if not low <= value <= high:
+        raise DesignError(name, _shown(value), f"from {low:g} to {high:g}")
+    return float(value)
+
+
+def whole(data: Data, name: str, otherwise: int | None, low: int, high: int) -> int | None:
+    """A whole number within limits.
+
+    Raises
+    ------
+    DesignError : it is none, or beyond them
+    """
+    if data.get(name) is None:
+        return otherwise
+    value = number(data, name, 0.0, low, high)
+    if value != int(value):
+        raise DesignError(name, value, "a whole number")
+    return int(value)
+
+
+def _shown(value: Any) -> str:
+    """A value of the wrong kind, in few letters."""
+    return repr(value)[:40]

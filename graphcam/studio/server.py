@@ -1,0 +1,264 @@
+"""The local server: it carries requests of the page to the engine, on this machine alone.
+
+It listens at 127.0.0.1 only, at a port that the system chooses.  The page itself holds nothing of the task; whatever
+does is given to who knows the token (:mod:`graphcam.studio.gatekeeper`).  No request names a file: `/write` names a
+kind of files, and the folder is the one of the command line.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import socket
+import sys
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler
+from socketserver import ThreadingTCPServer
+from typing import Any
+
+from graphcam.studio.gatekeeper import JSON, LARGEST, Gatekeeper, RefusedError, body_length, check_json, new_token
+from graphcam.studio.script_names import script_names
+
+READING = 10.0
+"""Seconds in which a request must have arrived."""
+WORKING = 2.0
+"""Seconds after which the engine's answer is no longer waited for."""
+QUIET = 10.0
+"""Seconds after the last sign of life of a tab, when the server ends."""
+HIDDEN = 150.0
+"""The same where the last one came from a hidden tab: browsers let its clock tick once a minute."""
+ALIVE = {"/alive": QUIET, "/alive?hidden": HIDDEN, "/alive?end": QUIET}
+"""How long a server lives on after a sign of life; a page that ends may come back, for it is loaded anew."""
+DROPPING = 1.0
+"""Seconds for which what is left of a refused request is read."""
+LOOKED = 0.25
+"""Seconds between two looks whether there is a tab."""
+Engine = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+NOTHING = "default-src 'none'; frame-ancestors 'none'"
+"""What a browser may do with an answer that is no page."""
+POLICY = (
+    "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; connect-src 'self'; img-src data: blob:; "
+    "font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+"""And with the page: run the scripts that stand in it, ask this server, nothing else."""
+HEADERS = {
+    "Cache-Control": "no-store",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+
+
+class StudioServer(ThreadingTCPServer):
+    """A page, and the functions that answer it.
+
+    page : HTML; its scripts stand in it
+    engine : answers requests of the page, one at a time
+    write : writes the files of a kind, for a request {"kind", "task"}; one at a time too
+
+    >>> with StudioServer("<title>page</title>", lambda request: {}, lambda request: {}) as server:
+    ...     server.address.startswith("http://127.0.0.1:"), "/#t=" in server.address
+    (True, True)
+    """
+
+    daemon_threads = True
+
+    def __init__(self, page: str, engine: Engine, write: Engine) -> None:
+        super().__init__(("127.0.0.1", 0), _Handler)
+        # A new connection is looked for so often, see run.
+        self.timeout = LOOKED
+        self.page = page.encode()
+        self.policy = POLICY.format(scripts=script_names(page) or "'none'")
+        self.gatekeeper = Gatekeeper(self.server_address[1], new_token())
+        self.engine, self.write = engine, write
+        self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
+        # When the tabs are given up; not before the first has shown itself.
+        self._ends: float | None = None
+
+    @property
+    def address(self) -> str:
+        """The address to be opened, with the token where no server sees it and no referrer tells it."""
+        return f"http://{self.gatekeeper.hosts[0]}/#t={self.gatekeeper.token}"
+
+    def run(self) -> None:
+        """Serve until the last tab is closed."""
+        while self._ends is None or time.monotonic() < self._ends:
+            self.handle_request()
+
+    def server_close(self) -> None:
+        """Stop listening, and forget what is still waiting to be answered."""
+        super().server_close()
+        for room in (self._engine_room, self._writing_room):
+            room.shutdown(wait=False, cancel_futures=True)
+
+    def alive(self, seconds: float = QUIET) -> None:
+        """Hear a sign of life of a tab, which gives its server so many seconds."""
+        self._ends = max(self._ends or 0.0, time.monotonic() + seconds)
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Faults of the program are told; that a browser went away while it was answered is none."""
+        if not isinstance(sys.exc_info()[1], OSError):
+            super().handle_error(request, client_address)
+
+    def answer(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The engine's answer, or the error that it takes too long; it is not interrupted, but nobody waits for it."""
+        work = self._engine_room.submit(self.engine, request)
+        try:
+            return work.result(WORKING)
+        except TimeoutError:
+            work.cancel()
+            message = f"the answer takes longer than {WORKING:g} s"
+            error = {"field": "", "message": message, "remedy": "try again, or draw with fewer divisions"}
+            return {"seq": request.get("seq"), "ok": False, "error": error}
+
+    def written(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The names of the files that were written, or the error that they were not."""
+        return self._writing_room.submit(self.write, request).result()
+
+
+class _TimedStream(io.RawIOBase):
+    """What comes over a connection up to a moment: a byte now and then does not keep it open."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self.connection, self.until = connection, 0.0
+
+    def readable(self) -> bool:
+        """That it is there to be read."""
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        """How many bytes have come into a buffer."""
+        self.connection.settimeout(max(self.until - time.monotonic(), 1e-6))
+        return self.connection.recv_into(buffer)
+
+
+class _Handler(BaseHTTPRequestHandler):
+    """A connection of a browser."""
+
+    server: StudioServer  # pyright: ignore[reportIncompatibleVariableOverride]
+    protocol_version = "HTTP/1.1"
+    # Head and body of an answer are not held back to be sent as one.
+    disable_nagle_algorithm = True
+
+    def setup(self) -> None:
+        """Read within a time limit."""
+        super().setup()
+        self.rfile.close()
+        self._stream = _TimedStream(self.connection)
+        self.rfile = io.BufferedReader(self._stream)
+
+    def handle_one_request(self) -> None:
+        """Read a request and answer it."""
+        self._stream.until = time.monotonic() + READING
+        super().handle_one_request()
+
+    def do_GET(self) -> None:
+        """Answer a request, or refuse it."""
+        try:
+            self._answer()
+        except RefusedError as error:
+            self._refuse(error)
+        except Exception:
+            # A fault of the program: the page is told that there is one, the terminal which.
+            self._refuse(RefusedError(HTTPStatus.INTERNAL_SERVER_ERROR, "graphcam has failed; see its terminal"))
+            raise
+
+    do_POST = do_GET  # noqa: N815
+
+    def do_OPTIONS(self) -> None:
+        """No other origin gets leave to ask."""
+        self._refuse(RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask"))
+
+    def _answer(self) -> None:
+        self.server.gatekeeper.check_place(self.headers)
+        if self.path == "/":
+            self._check_method("GET")
+            self._send(HTTPStatus.OK, "text/html; charset=utf-8", self.server.page, self.server.policy)
+        elif self.path in ("/engine", "/write"):
+            self._check_method("POST")
+            given = self._request()
+            self._send_json(self.server.answer(given) if self.path == "/engine" else self.server.written(given))
+        elif self.path in ALIVE:
+            self._check_method("POST")
+            self._send_json(self._alive(ALIVE[self.path]))
+        else:
+            raise RefusedError(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _check_method(self, method: str) -> None:
+        if self.command != method:
+            raise RefusedError(HTTPStatus.METHOD_NOT_ALLOWED, f"it must be {method}")
+
+    def _alive(self, seconds: float) -> Mapping[str, Any]:
+        self.server.gatekeeper.check_token(self.headers)
+        self._body()
+        self.server.alive(seconds)
+        return {}
+
+    def _request(self) -> Mapping[str, Any]:
+        """The request in the body."""
+        self.server.gatekeeper.check_token(self.headers)
+        check_json(self.headers)
+        try:
+            request = json.loads(self._body(), parse_constant=_no_number)
+        except (ValueError, RecursionError):
+            raise RefusedError(HTTPStatus.BAD_REQUEST, "the body is not JSON") from None
+        if not isinstance(request, dict):
+            raise RefusedError(HTTPStatus.BAD_REQUEST, "the body must be a table")
+        return request
+
+    def _body(self) -> bytes:
+        """The body, all of it."""
+        length = body_length(self.headers)
+        try:
+            body = self.rfile.read(length)
+        except TimeoutError:
+            raise RefusedError(HTTPStatus.REQUEST_TIMEOUT, f"a request arrives within {READING:g} s") from None
+        if len(body) < length:
+            raise RefusedError(HTTPStatus.BAD_REQUEST, "the body is shorter than its Content-Length")
+        return body
+
+    def _send_json(self, answer: Mapping[str, Any]) -> None:
+        text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+        self._send(HTTPStatus.OK, JSON, text.encode())
+
+    def _refuse(self, error: RefusedError) -> None:
+        """Say why, and end the connection: a body that nobody has read would be taken for the next request."""
+        self.close_connection = True
+        text = json.dumps({"ok": False, "error": {"field": "", "message": error.why, "remedy": ""}})
+        self._send(error.status, JSON, text.encode())
+        # What still comes is read and dropped for a moment: a connection that is closed upon it takes the answer along.
+        self.connection.shutdown(socket.SHUT_WR)
+        self._stream.until = time.monotonic() + DROPPING
+        with suppress(OSError):
+            while self.rfile.read1(LARGEST):
+                pass
+
+    def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
+        """What the base class refuses is refused as everything else."""
+        self._refuse(RefusedError(HTTPStatus(code), message or HTTPStatus(code).phrase))
+
+    def _send(self, status: HTTPStatus, kind: str, body: bytes, policy: str = NOTHING) -> None:
+        self.connection.settimeout(READING)
+        self.send_response(status)
+        headers = {"Content-Type": kind, "Content-Length": str(len(body)), "Content-Security-Policy": policy, **HEADERS}
+        for name, value in (headers | ({"Connection": "close"} if self.close_connection else {})).items():
+            self.send_header(name, value)
+        self.end_headers()
+        if self.command != "HEAD":
+            self.wfile.write(body)
+
+    def version_string(self) -> str:
+        """What the server calls itself: nobody need know its versions."""
+        return "graphcam"
+
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 (the base class calls it so)
+        """Nothing is logged: the addresses would fill the screen."""
+
+
+def _no_number(said: str) -> None:
+    raise ValueError(said)

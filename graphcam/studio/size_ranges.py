@@ -1,0 +1,230 @@
+"""From where to where the sizes of a task can sensibly be moved: for sliders and number fields, handles and sweeps."""
+
+import math
+from dataclasses import fields
+from functools import singledispatch
+from typing import Any, NamedTuple
+
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.solving.solution import Solution
+from graphcam.studio.task_paths import value_at
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+
+PARTS = 60
+"""A lift has about so many steps; a step is a round number."""
+ROUND = 1.0, 2.0, 5.0
+LIMITS = 15.0, 60.0
+"""Permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
+MOST_PHASES = 36
+CLEAR = 4
+"""So many steps a triangle stays from a flat one."""
+LEAST_ANGLE = 1.0
+"""Of a phase [degrees]."""
+
+
+class SizeRange(NamedTuple):
+    """The least and the greatest value of a size, and the steps between.
+
+    >>> SizeRange(-10.0, 10.0, 0.5).kept(3.26), SizeRange(-10.0, 10.0, 0.5).kept(12.0)
+    (3.5, 10.0)
+    """
+
+    least: float
+    most: float
+    step: float
+
+    def kept(self, value: float, *, fine: bool = False) -> float:
+        """The nearest step inside; a fifth of a step where it is to be fine."""
+        step = self.step / 5 if fine else self.step
+        inside = min(max(round(value / step) * step, self.least), self.most)
+        # What is a decimal number shall look like one.
+        return round(inside, 9)
+
+    def plain(self) -> dict[str, float]:
+        """As the page reads it."""
+        return {"min": self.least, "max": self.most, "step": self.step}
+
+    def around(self, value: float | None) -> "SizeRange":
+        """The same, wide enough for a value that stands there."""
+        if value is None:
+            return self
+        return SizeRange(min(self.least, value), max(self.most, value), self.step)
+
+
+def round_up(value: float) -> float:
+    """The next 1, 2 or 5 times a power of ten.
+
+    >>> round_up(37.0), round_up(0.4), round_up(5.0)
+    (50.0, 0.5, 5.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return next((n * power for n in ROUND if value <= n * power * (1 + 1e-12)), 10 * power)
+
+
+def step_for(length: float) -> float:
+    """A round part of a length: 0.5 of a lift of 30.
+
+    >>> step_for(30.0), step_for(0.3)
+    (0.5, 0.005)
+    """
+    return round_up(length / PARTS)
+
+
+def below(limit: float, step: float) -> float:
+    """The last multiple of a step that is less than a limit.
+
+    >>> below(44.0, 0.5), below(44.2, 0.5)
+    (43.5, 44.0)
+    """
+    return round((math.ceil(limit / step - 1e-9) - 1) * step, 9)
+
+
+def above(limit: float, step: float) -> float:
+    """The first multiple of a step that is greater than a limit.
+
+    >>> above(10.0, 0.5), above(10.2, 0.5)
+    (10.5, 10.5)
+    """
+    return round((math.floor(limit / step + 1e-9) + 1) * step, 9)
+
+
+@singledispatch
+def ranges(solution: AnySolution) -> dict[str, SizeRange]:
+    """The ranges of all numbers of a task but those of its phases, by their paths.
+
+    >>> import graphcam as gc
+    >>> ranges(gc.solve(gc.builtin_task()))["follower.offset"]
+    SizeRange(least=-50.0, most=50.0, step=0.5)
+    """
+    raise TypeError(solution)
+
+
+@ranges.register
+def _(solution: Solution) -> dict[str, SizeRange]:
+    found = {**_of_follower(solution), **_of_limits(solution.task), **_of_drawing(solution)}
+    found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
+    if (spring := solution.task.spring) is not None:
+        found |= {f"spring.{name}": _about(getattr(spring, name)) for name in ("mass", "stiffness")}
+        preload = spring.preload if spring.preload is not None else _preload(solution)
+        found["spring.preload"] = _about(preload or 100.0)._replace(least=0.0)
+    if solution.task.motion.table is not None:
+        found["motion.tolerance"] = SizeRange(0.002, 0.2, 0.001)
+    return _wide_enough(found, solution.task)
+
+
+@ranges.register
+def _(solution: ArcsSolution) -> dict[str, SizeRange]:
+    arcs = solution.task.arcs
+    points = [x for name in ("D", "G", "A", "C1", "C2") for x in getattr(arcs, name) or ()]
+    reach = round_up(1.25 * max(map(abs, points)))
+    outer = math.hypot(*arcs.D)
+    step = step_for(outer)
+    coordinates = [f"arcs.{name}[{axis}]" for name in ("D", "G", "A", "C1", "C2") for axis in (0, 1)]
+    found = {path: SizeRange(-reach, reach, step / 5) for path in coordinates}
+    found["arcs.rho1"] = SizeRange(step, below(outer, step), step)
+    found["arcs.dwell"] = SizeRange(0.0, 180.0, 1.0)
+    found["follower.roller_radius"] = SizeRange(0.0, below(outer, step), step)
+    found["drawing.divisions"] = SizeRange(2, 12, 1)
+    found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
+    return _wide_enough(found, solution.task)
+
+
+def _wide_enough(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
+    """With the values that stand in the task, though they lie outside what is usual."""
+    said = task.to_dict()
+    return {path: each.around(value_at(said, path)) for path, each in found.items()}
+
+
+def _about(value: float) -> SizeRange:
+    most = round_up(1.6 * value)
+    return SizeRange(most / 100, most, most / 100)
+
+
+def _preload(solution: Solution) -> float | None:
+    return None if solution.spring is None else solution.spring.load.preload
+
+
+def sizes_of(task: Task) -> dict[str, Any]:
+    """The keys of the task's follower with their values, None for what is open.
+
+    >>> import graphcam as gc
+    >>> sizes_of(gc.builtin_task("flat"))
+    {'kind': 'flat-faced'}
+    """
+    return {field.name: getattr(task.follower, field.name) for field in fields(task.follower)}
+
+
+def has_angles(task: Task) -> bool:
+    """Whether the follower has a pressure angle; if not, the curvature of the profile limits the cam."""
+    return "pressure_angle_rise" not in task.follower.without
+
+
+def lift_of(solution: Solution) -> float:
+    """The greatest lift along the path of the follower [mm]: of an arm an arc."""
+    return solution.cam.motion.lift * sizes_of(solution.task).get("arm", 1.0)
+
+
+def _of_follower(solution: Solution) -> dict[str, SizeRange]:
+    """The sizes of cam and follower: all that leave room for one another."""
+    follower, given = sizes_of(solution.task), solution.task.cam.prime_radius
+    radius, step = solution.chain.prime_radius, step_for(lift_of(solution))
+    roller = (
+        {"follower.roller_radius": SizeRange(0.0, below(radius, step), step)} if "roller_radius" in follower else {}
+    )
+    if "arm" in follower:
+        return roller | _of_arm(solution, step)
+    most = round_up(max(1.6 * radius, 2 * lift_of(solution)))
+    least = max(abs(follower.get("offset") or 0.0), follower.get("roller_radius") or 0.0)
+    sizes = roller | {"cam.prime_radius": SizeRange(above(least, step), most, step)}
+    if "offset" not in follower:
+        return sizes
+    # Where the prime radius is given the follower must stay on its circle; else the radius follows the offset.
+    aside = below(given, step) if given is not None else round_up(lift_of(solution))
+    return sizes | {"follower.offset": SizeRange(-aside, aside, step)}
+
+
+def third_side(first: float, second: float, step: float) -> SizeRange:
+    """The third side of a triangle of arm, centre distance and prime radius, a few steps from a flat one.
+
+    >>> third_side(125.0, 150.0, 1.0)
+    SizeRange(least=29.0, most=271.0, step=1.0)
+    """
+    least = math.ceil(abs(first - second) / step + CLEAR) * step
+    most = math.floor((first + second) / step - CLEAR) * step
+    return SizeRange(round(max(least, step), 9), round(most, 9), step)
+
+
+def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
+    """An arm must reach the prime circle; what is found follows the other sizes."""
+    follower = sizes_of(solution.task)
+    arm, distance, radius = follower["arm"], solution.chain.place, solution.chain.prime_radius
+    closed = solution.task.cam.prime_radius is not None and follower["distance"] is not None
+    free = SizeRange(step, round_up(2.5 * arm), step)
+    arms, distances, radii = (
+        third_side(*sides, step) if closed else free for sides in ((distance, radius), (arm, radius), (arm, distance))
+    )
+    least = max(radii.least, above(follower["roller_radius"] or 0.0, step))
+    return {
+        "follower.arm": arms,
+        "follower.distance": distances,
+        "cam.prime_radius": SizeRange(least, radii.most, step),
+    }
+
+
+def _of_limits(task: Task) -> dict[str, SizeRange]:
+    if not has_angles(task):
+        return {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
+    return {f"limits.pressure_angle_{way}": SizeRange(*LIMITS, 1.0) for way in ("rise", "return")}
+
+
+def _of_drawing(solution: Solution) -> dict[str, SizeRange]:
+    """The choices of the draughtsman."""
+    board = solution.chain.board
+    most = round_up(1.25 * board.ordinate)
+    step = min(1.0, step_for(most))
+    return {
+        "drawing.divisions": SizeRange(4, 36, 1),
+        "drawing.ordinate": SizeRange(step, most, step),
+        **{f"drawing.poles[{k}]": SizeRange(10.0, 80.0, 1.0).around(pole) for k, pole in enumerate(board.poles)},
+    }

@@ -1,0 +1,85 @@
+"""Places in a task as plain data, by paths such as ``motion.phases[0].angle``."""
+
+import copy
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from graphcam.errors import DesignError
+
+STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d+)\]")
+PATH = re.compile(r"[A-Za-z_]\w*(\[\d+\])*(\.[A-Za-z_]\w*(\[\d+\])*)*")
+REMEDY = "the paths are those of the task file, such as motion.phases[0].angle"
+
+
+def steps_of(path: str) -> tuple[str | int, ...]:
+    """The keys and numbers of a path.
+
+    Raises
+    ------
+    DesignError : the text is no path
+
+    >>> steps_of("motion.phases[0].angle")
+    ('motion', 'phases', 0, 'angle')
+    """
+    if not PATH.fullmatch(path):
+        raise DesignError("path", path, "keys with points between them, and numbers in brackets", REMEDY)
+    return tuple(key or int(number) for key, number in STEP.findall(path))
+
+
+def value_at(task: Mapping[str, Any], path: str) -> Any:
+    """What stands at a path; None where there is nothing.
+
+    >>> value_at({"drawing": {"poles": [40, 60]}}, "drawing.poles[1]")
+    60
+    """
+    found: Any = task
+    for step in steps_of(path):
+        if isinstance(step, int):
+            found = found[step] if isinstance(found, list | tuple) and step < len(found) else None
+        else:
+            found = found.get(step) if isinstance(found, Mapping) else None
+    return found
+
+
+def changed(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The task with other values at some paths; None leaves a key out, and so open.  The task itself stays as it is.
+
+    Raises
+    ------
+    DesignError : a path leads through what is no table, or to an entry that its list does not have
+
+    >>> changed({"cam": {"prime_radius": 40.0}}, {"cam.prime_radius": None, "follower.offset": -10.0})
+    {'cam': {}, 'follower': {'offset': -10.0}}
+    """
+    new = copy.deepcopy(dict(task))
+    for path, value in changes.items():
+        *way, last = steps_of(path)
+        table: Any = new
+        for step in way:
+            table = _entered(table, step, path)
+        _put(table, last, copy.deepcopy(value), path)
+    return new
+
+
+def _entered(table: Any, step: str | int, path: str) -> Any:
+    """The table or list at a step; a table that is not there yet is made."""
+    _check(table, step, path)
+    if isinstance(step, str) and table.get(step) is None:
+        table[step] = {}
+    return table[step]
+
+
+def _put(table: Any, step: str | int, value: Any, path: str) -> None:
+    _check(table, step, path)
+    if value is None and isinstance(step, str):
+        table.pop(step, None)
+    else:
+        table[step] = value
+
+
+def _check(table: Any, step: str | int, path: str) -> None:
+    """That a step leads into a table, or to an entry that a list has."""
+    fits = isinstance(table, dict) if isinstance(step, str) else isinstance(table, list) and step < len(table)
+    if not fits:
+        raise DesignError("path", path, "one that the task has", REMEDY)

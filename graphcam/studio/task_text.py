@@ -1,0 +1,84 @@
+"""Task files in and out of the studio: TOML text, no file of this machine."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from graphcam.given.table_file import CurveTable, table_in
+from graphcam.studio.request import some, task_data, task_in
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import parse_toml
+from graphcam.tasks.task_writer import TASK_FILE, task_files
+
+Plain = dict[str, Any]
+LONGEST = 500_000
+"""Characters of a task file."""
+
+
+def plain_task(task: Task | ArcsTask) -> Plain:
+    """A task as the page holds it: with the keys of its file, the table of a measured motion in place of its name.
+
+    >>> import graphcam as gc
+    >>> plain_task(gc.builtin_task("measured"))["motion"]["table"]["rows"][:2]
+    [[0.0, 0.0], [1.0, 0.0]]
+    """
+    said = task.to_dict()
+    table = task.motion.table if isinstance(task, Task) else None
+    if table is not None:
+        said["motion"]["table"] = plain_table(table)
+    return said
+
+
+def plain_table(table: CurveTable) -> Plain:
+    """The table of a measured motion as plain data."""
+    return {"file": table.file, "column": table.column, "rows": [list(row) for row in table.rows]}
+
+
+def task_file(request: Mapping[str, Any]) -> Plain:
+    """The answer to "task_file": the text of a task's file, and the others that it names.
+
+    Raises
+    ------
+    GraphcamError : it is no task
+
+    >>> import graphcam as gc
+    >>> found = task_file({"task": plain_task(gc.builtin_task())})
+    >>> found["name"], found["text"].splitlines()[0]
+    ('task.toml', 'rotation = "cw"')
+    """
+    spoken = some(request, "language", str, "en")
+    files = task_files(task_in(task_data(request), spoken))
+    return {"name": TASK_FILE, "text": files.pop(TASK_FILE), "files": files}
+
+
+def opened(request: Mapping[str, Any]) -> Plain:
+    """The answer to "open": the task that the text of a file says.
+
+    A file that names a table is given the table's text under ``files``, by its name.
+
+    Raises
+    ------
+    GraphcamError : it is no TOML, or no task
+
+    >>> import graphcam as gc
+    >>> task = plain_task(gc.builtin_task("measured"))
+    >>> files = task_file({"task": task})
+    >>> opened({"text": files["text"], "files": files["files"]})["task"] == task
+    True
+    """
+    text = some(request, "text", str, "")[:LONGEST]
+    data = parse_toml(TASK_FILE, text.encode())
+    spoken = drawing.get("language") if isinstance(drawing := data.get("drawing"), dict) else None
+    task = task_in(_with_table(data, some(request, "files", dict, {})), spoken if isinstance(spoken, str) else "en")
+    return {"task": plain_task(task)}
+
+
+def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
+    """The data with the table of a measured motion in place of its name, where its text is given."""
+    motion = data.get("motion")
+    name = motion.get("table") if isinstance(motion, dict) else None
+    if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
+        return data
+    tolerance = motion.get("tolerance")
+    table = table_in(files[name], name, name, tolerance if isinstance(tolerance, int | float) else None)
+    return {**data, "motion": {**motion, "table": plain_table(table)}}

@@ -1,0 +1,92 @@
+"""Tours: cards with questions about a cam that changes under the hand, the studio's request "tours".
+
+The cards stand in ``data/studio/tours.json``, beside the language catalogs, in English; each text is translated as a
+whole.  A card has:
+
+view, step : what it shows
+changes : of the tour's built-in task, by paths, for this card;  phi : the cam angle at which it starts [degrees]
+ask : the question, or what is to be done;  why : said when it is answered
+choices, answer : of which one is right, if it is a question
+goal : what answers it by being done, as :mod:`graphcam.studio.goals` reads it
+rests : by which quantity of a solved task the answer is found, for who checks the cards
+"""
+
+import io
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from importlib import resources
+from typing import Any
+
+from graphcam.language import language
+from graphcam.studio.goals import goal_of
+from graphcam.studio.task_paths import changed
+from graphcam.tasks.task_file import builtin_task
+from graphcam.words import Caption, Tell
+
+TEXTS = ("title", "about", "ask", "why", "choices")
+"""The keys under which texts stand that are translated."""
+
+
+@cache
+def tours() -> list[dict[str, Any]]:
+    """The tours as their file says them.
+
+    >>> [tour["id"] for tour in tours()]
+    ['offset', 'scales', 'angle', 'roller', 'face']
+    """
+    file = resources.files("graphcam").joinpath("data", "studio", "tours.json")
+    return json.loads(file.read_text(encoding="utf-8"))["tours"]
+
+
+def told_tours(request: Mapping[str, Any]) -> dict[str, Any]:
+    """The answer to a request "tours": all of them, in a language."""
+    tell = language(str(request.get("language", "en"))).text
+    return {"tours": [_tour(tour, tell) for tour in tours()]}
+
+
+def _tour(tour: Mapping[str, Any], tell: Tell) -> dict[str, Any]:
+    cards = [_card(card, str(tour["task"]), tell) for card in tour["cards"]]
+    said = {name: tell(Caption(tour[name])) for name in ("title", "about")}
+    return {"id": tour["id"], "name": tour["task"], **said, "cards": cards}
+
+
+def _card(card: Mapping[str, Any], built_in: str, tell: Tell) -> dict[str, Any]:
+    said: dict[str, Any] = {name: tell(Caption(card[name])) for name in ("ask", "why")}
+    if "choices" in card:
+        said |= {"choices": [tell(Caption(choice)) for choice in card["choices"]], "answer": card["answer"]}
+    goal = goal_of(card["goal"]).plain if "goal" in card else None
+    shown = {name: card[name] for name in ("view", "step")}
+    return {**shown, **said, "task": card_task(built_in, card), "phi": card.get("phi", 0.0), "goal": goal}
+
+
+def card_task(built_in: str, card: Mapping[str, Any]) -> dict[str, Any]:
+    """The task that a card shows, as plain data."""
+    return changed(builtin_task(built_in).to_dict(), card.get("changes", {}))
+
+
+def texts_of(node: Any, within: bool = False) -> Iterator[str]:
+    """All texts of the cards that are translated, in order.
+
+    >>> list(texts_of({"ask": "Why?", "view": "plan", "choices": ["a", "b"]}))
+    ['Why?', 'a', 'b']
+    """
+    if isinstance(node, str):
+        if within:
+            yield node
+    elif isinstance(node, Mapping):
+        for key, value in node.items():
+            yield from texts_of(value, key in TEXTS)
+    elif isinstance(node, Sequence):
+        for value in node:
+            yield from texts_of(value, within)
+
+
+def extract(
+    file: io.BufferedIOBase, keywords: Any, comment_tags: Any, options: Any
+) -> Iterator[tuple[int, None, str, list[str]]]:
+    """The texts of a file of tours, for ``pybabel extract``: line, function, text, comments."""
+    lines = file.read().decode("utf-8").splitlines()
+    for text in dict.fromkeys(texts_of(json.loads("\n".join(lines)))):
+        quoted = json.dumps(text, ensure_ascii=False)
+        yield next(k for k, line in enumerate(lines, 1) if quoted in line), None, text, []

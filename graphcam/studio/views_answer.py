@@ -1,0 +1,147 @@
+"""The answer to "views": a task drawn in the views that are asked for, with what is said of it."""
+
+import time
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from graphcam.language import Language, language
+from graphcam.report.documents import scene_of
+from graphcam.report.mechanism_view import mechanism_view
+from graphcam.sheets.formats import Lettering
+from graphcam.solving.arcs_solution import AnySolution
+from graphcam.solving.sheet_papers import format_of
+from graphcam.solving.solution import Solution
+from graphcam.studio.drawn_views import DrawnView, digest, drawn_view, key_of
+from graphcam.studio.handles import MECHANISM, handles_of
+from graphcam.studio.held_board import diagrams_of, scales_of, station_of
+from graphcam.studio.hold import Hold, hold_of
+from graphcam.studio.moved_task import MovedTask, moved_task
+from graphcam.studio.request import AskedView, ViewsRequest, views_request
+from graphcam.studio.sizes_form import form_of
+from graphcam.studio.studio_values import compared_in, given_sizes, sizes, values, warnings
+from graphcam.studio.told_steps import ToldSteps, told_steps
+from graphcam.studio.view_steps import ViewSteps, view_steps
+
+T = TypeVar("T")
+Plain = dict[str, Any]
+
+
+@dataclass
+class Clock:
+    """How long the parts of an answer took [ms of the processor]."""
+
+    ms: dict[str, float] = field(default_factory=dict[str, float])
+
+    def timed(self, name: str, work: Callable[[], T]) -> T:
+        """What some work comes to."""
+        start = time.process_time()
+        done = work()
+        self.ms[name] = round(self.ms.get(name, 0.0) + 1e3 * (time.process_time() - start), 2)
+        return done
+
+
+def views_answer(data: Mapping[str, Any]) -> Plain:
+    """The answer to a request of views.
+
+    Raises
+    ------
+    GraphcamError : a senseless request, or a task that has no solution
+    """
+    request, clock = views_request(data), Clock()
+    spoken, hold = language(request.language), hold_of(request.hold) if request.hold else None
+    moved = clock.timed("construct", lambda: moved_task(request, hold))
+    solution = moved.solution
+    known = clock.timed("construct", lambda: _steps(solution, request, hold))
+    asked = [view for view in request.views if view.name in known.views]
+    told = clock.timed("told", lambda: _told(request, known, asked, spoken))
+    drawn = clock.timed("svg", lambda: _drawn(solution, known, asked, spoken, hold))
+    plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], told, spoken) for view in asked])
+    names = list(hold.names) if hold else known.names(spoken.text)
+    return {
+        "changes": moved.changes,
+        "names": names,
+        "views": plain,
+        **clock.timed("exact", lambda: _numbers(solution, known, request, spoken)),
+        "sizes": given_sizes(solution) if request.upto else sizes(solution),
+        "form": form_of(solution, spoken.text) if request.form and not request.upto else [],
+        "handles": clock.timed("handles", lambda: _handles(moved, asked, request, spoken)),
+        # What is kept tells scales and accelerations, and where nothing is dragged nothing need be kept.
+        "hold": None if request.upto else _kept(solution, known, drawn, names, hold).plain(),
+        "station": moved.station,
+        "ms": clock.ms,
+    }
+
+
+def _steps(solution: AnySolution, request: ViewsRequest, hold: Hold | None) -> ViewSteps:
+    """The steps that are drawn: at rest all of them, while the hand is down those of the views that are asked for."""
+    needs = hold.needs(key_of(view) for view in request.views) if hold and not request.told else None
+    if needs is None:
+        return view_steps(solution, upto=request.upto)
+    return view_steps(solution, needs[0] | needs[1], needs[1], request.upto)
+
+
+def _handles(moved: MovedTask, asked: Iterable[AskedView], request: ViewsRequest, spoken: Language) -> list[Plain]:
+    """The handles of the views that are asked for, and of the mechanism with it; an exercise has none."""
+    if request.upto:
+        return []
+    views = [*(view.name for view in asked), *([MECHANISM] if request.mechanism else [])]
+    return handles_of(moved.solution, views, spoken.text, moved.phi, moved.station)
+
+
+def _told(request: ViewsRequest, known: ViewSteps, asked: Iterable[AskedView], spoken: Language) -> ToldSteps | None:
+    return told_steps(known, {view.name for view in asked}, spoken.text) if request.told else None
+
+
+def _drawn(
+    solution: AnySolution, known: ViewSteps, asked: Iterable[AskedView], spoken: Language, hold: Hold | None
+) -> dict[str, DrawnView]:
+    """The views that are asked for, by what they are kept by."""
+    paper: Lettering = format_of(solution.task.drawing).lettering
+    held = hold.views if hold else {}
+    found: dict[str, DrawnView] = {}
+    for view in asked:
+        key, name = key_of(view), view.name
+        constructions = known.drawing_in(name), known.settling(name)
+        found[key] = drawn_view(known.of_view(name), constructions, view, paper, spoken.text, held.get(key))
+    return found
+
+
+def _view(asked: AskedView, drawn: DrawnView, told: ToldSteps | None, spoken: Language) -> Plain:
+    """A view as plain data; of a step that the page has already only its hash."""
+    svg = drawn.svg(told.shown_by if told else None)
+    steps: dict[str, Plain] = {}
+    for each, _ in drawn.steps:
+        found = digest(svg[each.id])
+        new = {} if asked.have.get(each.id) == found else {"svg": svg[each.id]}
+        steps[each.id] = {"hash": found, **new, **(told.plain(each) if told else {})}
+    title = spoken.text(drawn.steps[-1][0].step.view.title)
+    return {"name": asked.name, "title": title, "frame": drawn.frame, "order": list(steps), "steps": steps}
+
+
+def _numbers(solution: AnySolution, known: ViewSteps, request: ViewsRequest, spoken: Language) -> Plain:
+    """What is asked for in numbers; of an exercise no more than is read in the constructions that are shown."""
+    quantities = solution.comparison.quantities if request.values else {}
+    if request.upto:
+        there = compared_in(known.drawn)
+        kept = {name: quantity for name, quantity in quantities.items() if name in there}
+        return {"values": values(kept, spoken), "warnings": [], "scales": {}, "mechanism": None}
+    return {
+        "values": values(quantities, spoken),
+        "warnings": warnings(solution, spoken) if request.warnings else [],
+        "scales": solution.scales if request.hold is None else {},
+        "mechanism": mechanism_view(scene_of(solution), spoken.text, spoken.decimal) if request.mechanism else None,
+    }
+
+
+def _kept(
+    solution: AnySolution, known: ViewSteps, drawn: Mapping[str, DrawnView], names: list[Plain], hold: Hold | None
+) -> Hold:
+    """What the next answer may keep of this one; what was held before stays held."""
+    former = hold or Hold()
+    shown = {name: view.mu_l for name, view in known.views.items() if view.mu_l}
+    scales = former.scales if hold else scales_of(solution, shown)
+    of_motion = diagrams_of(solution) if isinstance(solution, Solution) else None
+    views = {**former.views, **{key: view.kept for key, view in drawn.items()}}
+    station = former.station if hold else station_of(known.drawn)
+    return Hold(scales, former.diagrams if hold else of_motion, station, views, tuple(names))

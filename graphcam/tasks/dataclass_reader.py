@@ -1,0 +1,281 @@
+"""Dataclasses out of plain tables: each field is read as its type hint says, and every fault is told with its place.
+
+It is strict: no text stands for a number, no number for a switch, nothing is infinite, nothing unknown is passed over.
+What a hint may be: ``float``, ``int``, ``str``, ``bool``, a ``Literal``, ``Any``, a dataclass, a tuple of fixed or of
+any length, a mapping of texts, one of several of these, and with :class:`ByKind` one of several dataclasses.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import types
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
+
+from graphcam.errors import DesignError
+
+Place = tuple[int | str, ...]
+"""Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
+A_TABLE = "a table"
+_Read = TypeVar("_Read")
+
+
+class ByKind:
+    """Marks a choice among dataclasses as one by the key ``kind``, whose ``Literal`` each of them has."""
+
+
+class ByName:
+    """Marks a field whose value is a name in a file, whatever else it may be in Python."""
+
+
+@dataclass(frozen=True)
+class Missing:
+    """A key that must be there."""
+
+    place: Place
+
+
+@dataclass(frozen=True)
+class UnknownKey:
+    """A key that its table does not have."""
+
+    place: Place
+
+
+@dataclass(frozen=True)
+class UnknownKind:
+    """A table whose key ``kind`` is missing or names none of its classes."""
+
+    place: Place
+
+
+@dataclass(frozen=True)
+class WrongType:
+    """A value that is not of the field's type; ``expected`` is what the file must give."""
+
+    place: Place
+    expected: str
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """A table whose values are of their types and make no design."""
+
+    place: Place
+    error: DesignError
+
+
+Fault = Missing | UnknownKey | UnknownKind | WrongType | Misfit
+Reader = Callable[[Any, Place, list[Fault]], Any]
+"""Makes a value of what a file says at a place; what is wrong goes into the list, and the value is then of no use."""
+
+
+def read_dataclass(kind: type[_Read], said: Mapping[str, Any]) -> _Read | list[Fault]:
+    """The dataclass that plain tables, lists, numbers and texts describe, or all that is wrong with them.
+
+    Faults are in the order of the fields, of one table after those in its fields.
+
+    >>> @dataclass(frozen=True)
+    ... class Roller:
+    ...     radius: float
+    ...     material: Literal["steel", "bronze"] = "steel"
+    >>> read_dataclass(Roller, {"radius": 17})
+    Roller(radius=17.0, material='steel')
+    >>> read_dataclass(Roller, {"radius": "17", "bore": 3})
+    [WrongType(place=('radius',), expected='a number (without quotes)'), UnknownKey(place=('bore',))]
+    """
+    faults: list[Fault] = []
+    made = _dataclass_reader(kind)(said, (), faults)
+    return faults or made
+
+
+@cache
+def _dataclass_reader(kind: type) -> Reader:
+    """Reads a table as a dataclass; a field's key in the file is its name, or its ``alias``."""
+    hints = get_type_hints(kind, include_extras=True)
+    fields = [each for each in dataclasses.fields(kind) if each.init]
+    readers = {each.metadata.get("alias", each.name): (each.name, _reader(hints[each.name])) for each in fields}
+    needed = {each.name for each in fields if each.default is each.default_factory is dataclasses.MISSING}
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, dict):
+            return faults.append(WrongType(place, A_TABLE))
+        table, before, values = cast(dict[str, Any], said), len(faults), dict[str, Any]()
+        for key, (name, reader) in readers.items():
+            if key in table:
+                values[name] = reader(table[key], (*place, key), faults)
+            elif name in needed:
+                faults.append(Missing((*place, key)))
+        faults.extend(UnknownKey((*place, key)) for key in table if key not in readers)
+        if len(faults) > before:
+            return None
+        try:
+            return kind(**values)
+        except DesignError as error:
+            return faults.append(Misfit(place, error))
+
+    return read
+
+
+def _reader(hint: Any) -> Reader:
+    """What reads a value as a type hint says."""
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin is Annotated:
+        marks = [type(mark) for mark in parts[1:]]
+        return (
+            _reader(str)
+            if ByName in marks
+            else _kind_reader(get_args(parts[0]))
+            if ByKind in marks
+            else _reader(parts[0])
+        )
+    if origin in (Union, types.UnionType):
+        return _union_reader(parts)
+    if origin is Literal:
+        return _literal_reader(parts)
+    if origin is tuple:
+        return _list_reader(parts[0]) if parts[1:] == (...,) else _tuple_reader(parts)
+    if origin is Mapping:
+        return _mapping_reader(parts[1])
+    return _PLAIN[hint] if hint in _PLAIN else _dataclass_reader(hint)
+
+
+def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
+    """A finite number; a whole one becomes one with decimals, as of every field that is measured."""
+    if isinstance(said, bool) or not isinstance(said, int | float):
+        return faults.append(WrongType(place, "a number (without quotes)"))
+    try:
+        number = float(said)
+    except OverflowError:
+        number = math.inf
+    return number if math.isfinite(number) else faults.append(WrongType(place, "a finite number"))
+
+
+def _whole(said: Any, place: Place, faults: list[Fault]) -> Any:
+    whole = isinstance(said, int) and not isinstance(said, bool)
+    return said if whole else faults.append(WrongType(place, "a whole number (without quotes)"))
+
+
+def _text(said: Any, place: Place, faults: list[Fault]) -> Any:
+    return said if isinstance(said, str) else faults.append(WrongType(place, "text in quotes"))
+
+
+def _switch(said: Any, place: Place, faults: list[Fault]) -> Any:
+    return said if isinstance(said, bool) else faults.append(WrongType(place, "true or false"))
+
+
+def _anything(said: Any, _place: Place, _faults: list[Fault]) -> Any:
+    return said
+
+
+_PLAIN: dict[Any, Reader] = {float: _number, int: _whole, str: _text, bool: _switch, Any: _anything}
+
+
+def _literal_reader(choices: tuple[Any, ...]) -> Reader:
+    *most, last = map(repr, choices)
+    expected = f"{', '.join(most)} or {last}" if most else last
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        for choice in choices:
+            if said == choice and not isinstance(said, bool):
+                return choice
+        return faults.append(WrongType(place, expected))
+
+    return read
+
+
+def _union_reader(hints: tuple[Any, ...]) -> Reader:
+    """Reads what the first of several hints can read; else the fault of what came furthest is told."""
+    readers = [_reader(hint) for hint in hints if hint is not type(None)]
+    optional = type(None) in hints
+    if len(readers) == 1 and not optional:
+        return readers[0]
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if said is None and optional:
+            return None
+        found: list[list[Fault]] = []
+        for reader in readers:
+            wrong: list[Fault] = []
+            value = reader(said, place, wrong)
+            if not wrong:
+                return value
+            found.append(wrong)
+        return faults.extend(_furthest(found, place))
+
+    return read
+
+
+def _furthest(found: list[list[Fault]], place: Place) -> list[Fault]:
+    """The faults of the choice that fits best; where none fits at all, what each of them expected."""
+    best = max(found, key=lambda faults: len(faults[0].place))
+    if len(found) == 1 or best[0].place != place:
+        return best
+    expected = (fault.expected for faults in found if isinstance(fault := faults[0], WrongType))
+    return [WrongType(place, " or ".join(expected))]
+
+
+def _kind_reader(classes: tuple[type, ...]) -> Reader:
+    """Reads a table as that class whose ``kind`` it names."""
+    tags = {kind: get_args(get_type_hints(kind)["kind"])[0] for kind in classes}
+    readers: dict[Any, Reader] = {tag: _dataclass_reader(kind) for kind, tag in tags.items()}
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, dict):
+            return faults.append(WrongType(place, A_TABLE))
+        tag = cast(dict[str, Any], said).get("kind")
+        if not isinstance(tag, str) or tag not in readers:
+            return faults.append(UnknownKind(place))
+        return readers[tag](said, (*place, tag), faults)
+
+    return read
+
+
+def _list_reader(hint: Any) -> Reader:
+    """Reads a list of any length."""
+    reader = _reader(hint)
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, list | tuple):
+            return faults.append(WrongType(place, "a list"))
+        items = cast(list[Any], said)
+        return tuple(reader(item, (*place, number), faults) for number, item in enumerate(items))
+
+    return read
+
+
+def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
+    """Reads a list of just so many."""
+    readers = [_reader(hint) for hint in hints]
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, list | tuple):
+            return faults.append(WrongType(place, "a list"))
+        items = cast(list[Any], said)
+        if len(items) > len(readers):
+            return faults.append(WrongType(place, f"a list of {len(readers)}"))
+        # Of a list that is too short the places that lack are read no further.
+        values = tuple(
+            reader(item, (*place, number), faults)
+            for number, (reader, item) in enumerate(zip(readers, items, strict=False))
+        )
+        faults.extend(Missing((*place, number)) for number in range(len(items), len(readers)))
+        return values
+
+    return read
+
+
+def _mapping_reader(hint: Any) -> Reader:
+    """Reads a table with keys of the file's own."""
+    reader = _reader(hint)
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, dict):
+            return faults.append(WrongType(place, A_TABLE))
+        table = cast(dict[str, Any], said)
+        return {key: reader(value, (*place, key), faults) for key, value in table.items()}
+
+    return read

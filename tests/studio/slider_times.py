@@ -1,0 +1,115 @@
+"""From a slider to the picture: how long a hand waits in the studio, from the local server and in WebAssembly.
+
+``python tests/studio/slider_times.py [--pyodide DIR]``, with ``tests`` on the path, moves the offset of the coursework
+task a hundred times in each of three views.  It tells the median and the 95th percentile from the event to the painted
+picture, and what the engine took of it; with a folder of Pyodide also for the one file, its size, and the processor
+time from its opening to its first answer.  On an idle machine.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import Page, sync_playwright
+from programs import program
+
+import graphcam as gc
+from graphcam.studio.one_file import write_one_file
+
+VIEWS = "combined", "profile", "acceleration"
+MOVES = 100
+MOVED = """async ([from, by, moves]) => {
+  const found = [], slider = document.querySelector("[data-key='follower.offset/range']"), { stats } = studio;
+  const wait = (time) => new Promise((done) => setTimeout(done, time));
+  const painted = () => new Promise((done) => requestAnimationFrame(() => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = done;
+    port2.postMessage(0);
+  }));
+  for (let k = 0; k < moves; k += 1) {
+    await wait(30);
+    const before = stats.at(-1).seq, start = performance.now();
+    slider.value = from + by * (k % 40);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    while (stats.at(-1).seq === before) await wait(1);
+    await painted();
+    const { construct, exact, svg, told } = studio.shown.ms;
+    found.push([performance.now() - start, construct + exact + svg + (told || 0)]);
+  }
+  slider.dispatchEvent(new Event("change", { bubbles: true }));
+  return found;
+}"""
+
+
+@contextmanager
+def served() -> Iterator[str]:
+    """The address of the local page."""
+    command = [sys.executable, "-m", "graphcam", "studio", "--no-browser"]
+    with tempfile.TemporaryDirectory() as folder:
+        running = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder)
+        assert running.stdout
+        address = re.search(r"http://\S+", running.stdout.readline())
+        assert address
+        yield address[0]
+        running.terminate()
+        running.wait()
+
+
+def processor_time() -> float:
+    """Of all Chromiums that this process has started [s]."""
+    ticks = 0
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            name, _, rest = stat.read_text(encoding="utf-8").rpartition(") ")
+        except OSError:  # it has ended
+            continue
+        if "(chrom" in name:
+            ticks += sum(map(int, rest.split()[11:13]))
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def told(page: Page, where: str) -> None:
+    """Print the times of each view."""
+    for view in VIEWS:
+        page.locator(f"#view-{view}").click()
+        page.wait_for_timeout(2500)
+        pictures, engines = (sorted(times) for times in zip(*page.evaluate(MOVED, [-15, 0.5, MOVES]), strict=True))
+        middle, late = statistics.median(pictures), pictures[int(0.95 * MOVES)]
+        engine = statistics.median(engines)
+        sys.stdout.write(f"{where}, {view}: median {middle:.0f} ms, 95 % {late:.0f} ms, engine {engine:.0f} ms\n")
+
+
+def main() -> None:
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program("chromium"), args=["--no-sandbox"])
+        window = {"width": 1440, "height": 900}
+        with served() as address:
+            page = browser.new_page(viewport=window)
+            page.goto(address)
+            page.wait_for_function("() => window.studio && studio.stats.length")
+            told(page, "server")
+            page.close()
+        if "--pyodide" in sys.argv:
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder, "studio.html")
+                write_one_file(path, Path(sys.argv[-1]), gc.builtin_task())
+                page = browser.new_page(viewport=window)
+                before = processor_time()
+                page.goto(path.as_uri())
+                page.wait_for_function("() => window.studio && studio.stats.length", timeout=120_000)
+                size, took = path.stat().st_size / 1e6, processor_time() - before
+                sys.stdout.write(f"one file: {size:.1f} MB, first answer after {took:.1f} s of the processor\n")
+                told(page, "one file")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

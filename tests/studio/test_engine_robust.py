@@ -1,0 +1,40 @@
+"""Whatever is asked, an answer comes: a picture, or an error with a field and a message, in strict JSON."""
+
+import json
+import os
+
+import pytest
+from random_requests import random_request
+
+from graphcam.studio.engine import answer
+
+MANY = int(os.environ.get("GRAPHCAM_RANDOM_REQUESTS", "2000"))
+"""So many are asked by the slow test; ten thousand take a quarter of an hour of the processor."""
+
+
+def check(seed):
+    request = random_request(seed)
+    found = answer(request)
+    json.dumps(found, allow_nan=False)
+    assert found["seq"] in (seed, None, request["seq"])
+    if not found["ok"]:
+        assert isinstance(found["error"]["field"], str)
+        assert found["error"]["message"]
+    return found["ok"]
+
+
+def test_random_requests_are_answered():
+    assert 15 < sum(check(seed) for seed in range(80)) < 75
+
+
+@pytest.mark.slow
+def test_thousands_of_random_requests_are_answered():
+    assert 0.2 * MANY < sum(check(seed) for seed in range(1000, 1000 + MANY)) < 0.95 * MANY
+
+
+@pytest.mark.parametrize("ask", ["task_file", "open", "sweep", "nothing", 3, [], {}])
+def test_other_questions_are_answered_too(ask):
+    for seed in range(12):
+        found = answer({**random_request(seed), "ask": ask, "text": str(random_request(seed)["task"])})
+        json.dumps(found, allow_nan=False)
+        assert found["ok"] or found["error"]["message"]

@@ -1,0 +1,184 @@
+"""Every error that a task of the studio can meet has a field of the form to stand beside."""
+
+import ast
+import functools
+from pathlib import Path
+
+import pytest
+from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
+
+import graphcam as gc
+from graphcam.studio.error_fields import FIELDS, field_of
+from graphcam.studio.sizes_form import form_of
+from graphcam.studio.task_paths import changed
+from graphcam.tasks import task_file
+
+PACKAGE = Path(gc.__file__).parent
+ROOMS = "comparison", "constructions", "drafting", "given", "mechanism", "solving", "tasks"
+"""What a task that is drawn and computed goes through."""
+CHECKS = "DesignError", "RowError", "positive", "bounded", "one_of", "_check_length", "_check_positive"
+"""What raises, and which argument names the quantity."""
+NOT_REACHED = {
+    "exact counterpart": "a construction of the package itself names its counterpart",
+    "reading of *": "a construction of the package itself names its readings",
+    "scale": "scales are made of sizes that were checked",
+    "side": "named by the package itself",
+    "number of points": "only an export asks for a number of points",
+    "pencil samples": "one hand draws in the studio",
+    "pencil seed": "one hand draws in the studio",
+    "acceleration": "a speed that changes stands in Python only",
+    "friction": "a guide with friction stands in Python only",
+    "overhang": "a guide stands in Python only",
+    "length": "a guide stands in Python only",
+    "built-in task": "the page has the tasks themselves",
+    "force": "Hertzian stress is worked out in Python only",
+    "radii": "Hertzian stress is worked out in Python only",
+    "contact force": "Hertzian stress is worked out in Python only",
+    "permitted stress": "sizing stands in Python and in exercises only",
+    "smallest cam": "sizing stands in Python and in exercises only",
+    "least contact force": "sizing stands in Python and in exercises only",
+    "range of the *": "sizing stands in Python and in exercises only",
+    "deviation": "only an export asks for a spline",
+    "degree": "only an export asks for a spline",
+    "profile": "only an export asks for a spline",
+    "control_points": "only an export asks for a spline",
+    "* of the law '*'": "a law of one's own stands in Python only",
+    "samples * of the law '*'": "a law of one's own stands in Python only",
+    "shapes of the samples of the law '*'": "a law of one's own stands in Python only",
+}
+"""Quantities that no request of the studio meets, and why."""
+PARAMETERS = {
+    "pencil *": ("pencil line",),
+    "poles[*]": ("poles[0]", "poles[1]"),
+    "permitted pressure angle on the *": tuple(f"permitted pressure angle on the {way}" for way in ("rise", "return")),
+    "drawing.poles[*]": ("drawing.poles[0]", "drawing.poles[1]"),
+    "motion.phases[*].law": ("motion.phases[0].law",),
+    "limits.*": ("limits.pressure_angle_rise", "limits.pressure_angle_return", "limits.min_curvature_radius"),
+    "angle of the arc *": tuple(f"angle of the arc {arc}" for arc in ("AG", "GF", "FD")),
+}
+"""What stands in the places of a text."""
+
+
+def literal(node):
+    """A text, its places as stars; None for what is no text."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if isinstance(node, ast.JoinedStr):
+        return "".join(part.value if isinstance(part, ast.Constant) else "*" for part in node.values)
+    return None
+
+
+@functools.cache
+def quantities():
+    """The texts by which errors of the rooms name a quantity, with where each is raised."""
+    found = {}
+    for room in ROOMS:
+        for file in sorted((PACKAGE / room).rglob("*.py")):
+            for node in ast.walk(ast.parse(file.read_text())):
+                name = getattr(getattr(node, "func", None), "id", "")
+                if name in CHECKS and node.args:
+                    text = literal(node.args[1 if name == "RowError" else 0])
+                    if text is not None:
+                        found.setdefault(text, []).append(f"{room}/{file.name}:{node.lineno}")
+    return found
+
+
+@functools.cache
+def of_variables():
+    """Where an error is raised for a quantity that a variable names, the texts of the function around it."""
+    found = set()
+    for room in ROOMS:
+        for file in sorted((PACKAGE / room).rglob("*.py")):
+            for function in ast.walk(ast.parse(file.read_text())):
+                if isinstance(function, ast.FunctionDef) and raises_of_variables(function):
+                    found |= {node.value for node in ast.walk(function) if isinstance(node, ast.Constant)}
+    return found
+
+
+def raises_of_variables(function):
+    calls = [node for node in ast.walk(function) if getattr(getattr(node, "func", None), "id", "") == "DesignError"]
+    return any(isinstance(call.args[0], ast.Name) for call in calls)
+
+
+def test_every_quantity_has_a_field_or_a_reason():
+    unknown = {}
+    for text, places in quantities().items():
+        if text in NOT_REACHED:
+            continue
+        for quantity in PARAMETERS.get(text, (text,)):
+            if not field_of(gc.DesignError(quantity, 0, "another"), {}):
+                unknown[quantity] = places
+    # The part is no matter of the studio's form; its errors name their place.
+    assert not {name: places for name, places in unknown.items() if not all("part_table" in each for each in places)}
+
+
+def test_no_reason_is_out_of_date():
+    assert set(NOT_REACHED) <= set(quantities()) | of_variables()
+    assert set(PARAMETERS) <= set(quantities())
+
+
+def test_quantities_are_collected():
+    """The search sees plain texts, texts with places, and those that a check is given."""
+    assert {"least prime radius", "offset", "poles[*]", "cam angle", "arm", "drawing.ordinate"} <= set(quantities())
+
+
+def test_fields_agree_with_those_of_task_files():
+    for quantity, key in task_file._KEYS.items():
+        assert FIELDS[quantity].endswith(key.split(" (")[0])
+
+
+def test_fields_are_in_the_form():
+    """What is shown beside a field must find it."""
+    shown = {field["path"] for name in BUILT_IN for field in form_of(solved(name), str)}
+    of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation"}
+    springs = {"spring.mass", "spring.stiffness", "spring.preload"}
+    assert set(FIELDS.values()) - shown == of_no_field | springs
+    sprung = changed(plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}})
+    assert springs <= {field["path"] for field in form_of(gc.solve(rebuilt(sprung)), str)}
+
+
+LIFTS = "motion.phases[0].lift", "motion.phases[2].lift"
+WRONG = [
+    ("coursework", {"follower.offset": "left"}, "follower.offset"),
+    ("coursework", {"cam.prime_radius": -3}, "cam.prime_radius"),
+    ("coursework", {"cam.prime_radius": 10.0, "follower.offset": 12.0}, "follower.offset"),
+    ("coursework", {"motion.phases[0].angle": 81}, "motion.phases"),
+    ("coursework", {"motion.phases[0].lift": 31}, "motion.phases"),
+    ("coursework", {"motion.phases[1].angle": -5}, "motion.phases[1].angle"),
+    ("coursework", {"motion.phases[0].law": "cubic"}, "motion.phases[0].law"),
+    ("coursework", {"limits.pressure_angle_rise": 95.0}, "limits.pressure_angle_rise"),
+    ("coursework", {"limits.min_curvature_radius": 5.0}, "limits.min_curvature_radius"),
+    ("coursework", {"follower.roller_rule": "rho / 2"}, "follower.roller_rule"),
+    ("coursework", {"follower.roller_rule": "rho - 5000"}, "follower.roller_rule"),
+    ("coursework", {"drawing.divisions": 0}, "drawing.divisions"),
+    ("coursework", {"drawing.poles": [40.0, -1.0]}, "drawing.poles[1]"),
+    ("coursework", {"drawing.language": "xx"}, "drawing.language"),
+    ("coursework", {"rotation": "left"}, "rotation"),
+    ("coursework", {"spring": {"mass": 1.0, "stiffness": -2.0}}, "spring.stiffness"),
+    ("coursework", {"follower.kind": "magnetic"}, "follower.kind"),
+    (
+        "coursework",
+        {"follower.offset": None, "limits.pressure_angle_return": 0.5, "limits.pressure_angle_rise": 0.4},
+        "cam.prime_radius",
+    ),
+    ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None}, "follower.distance"),
+    ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None, "cam.prime_radius": None}, "cam.prime_radius"),
+    ("arm", {"cam.prime_radius": 20.0, "follower.roller_radius": 1.0}, "cam.prime_radius"),
+    ("arm", {"follower.arm": 0.0}, "follower.arm"),
+    ("arm", {"follower.roller_radius": 70.0}, "follower.roller_radius"),
+    ("arm", dict.fromkeys(LIFTS, 170.0), "motion.phases"),
+    ("measured", {"motion.tolerance": -1.0}, "motion.tolerance"),
+    ("measured", {"motion.tolerance": 1e-9}, "motion.tolerance"),
+    ("arcs", {"arcs.rho1": -1.0}, "arcs.rho1"),
+    ("arcs", {"arcs.D": [60.0, 18.0]}, "arcs.D[0]"),
+    ("arcs", {"arcs.G": [50.0, 37.0], "arcs.C2": None}, "arcs.G[0]"),
+    ("arcs", {"arcs.dwell": 350.0}, "arcs.dwell"),
+]
+
+
+@pytest.mark.parametrize(("name", "changes", "field"), WRONG)
+def test_a_wrong_size_is_told_beside_its_field(name, changes, field):
+    task = changed(plain_task(name), changes)
+    with pytest.raises(gc.GraphcamError) as caught:
+        gc.solve(rebuilt(task))
+    assert field_of(caught.value, task) == field, str(caught.value)

@@ -1,0 +1,127 @@
+"""The form of sizes: it names every size of a task, and whatever it offers is a design that can be drawn."""
+
+import json
+import math
+
+import pytest
+from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
+
+import graphcam as gc
+from graphcam.studio.phase_edits import with_dwell, with_step, without
+from graphcam.studio.sizes_form import form_of
+from graphcam.studio.task_paths import changed, steps_of, value_at
+
+DRAWN_ELSEWHERE = "title", "part"
+"""Tables that change nothing in the construction."""
+
+WITHOUT = {"measured": {"motion.table"}, "flat": {"limits.rest"}, "arcs": {"follower.kind"}}
+"""What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one follower."""
+
+
+def leaves(table, path=""):
+    """The paths of all values of a task, phases and a table of a motion as one."""
+    for key, value in table.items():
+        here = f"{path}.{key}".lstrip(".")
+        if isinstance(value, dict) and key != "table":
+            yield from leaves(value, here)
+        elif isinstance(value, list) and key != "phases":
+            yield from (f"{here}[{k}]" for k in range(len(value)))
+        else:
+            yield here
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_every_value_of_a_task_has_its_field(name):
+    task = plain_task(name)
+    paths = {field["path"] for field in form_of(solved(name), str)}
+    said = {path for path in leaves(task) if path.split(".")[0] not in DRAWN_ELSEWHERE}
+    assert said - paths == WITHOUT.get(name, set())
+    assert len(paths) == len(form_of(solved(name), str))
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_values_are_those_of_the_task_and_lie_in_their_ranges(name):
+    task = plain_task(name)
+    for field in form_of(solved(name), str):
+        there = value_at(task, field["path"])
+        if there is not None and field["kind"] != "phases":
+            assert field["value"] == there
+        for value in (field.get("value"), field.get("adopted")):
+            if "min" in field and value is not None:
+                assert field["min"] <= value <= field["max"], field["path"]
+        if field["kind"] == "choice":
+            assert field["value"] in [choice["value"] for choice in field["choices"]]
+    json.dumps(form_of(solved(name), str), allow_nan=False)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_ends_of_every_range_can_be_typed(name):
+    """A slider must not lead to an error of a single field; what two sizes make of each other is said beside them."""
+    task = plain_task(name)
+    for field in form_of(solved(name), str):
+        if field["kind"] not in ("number", "open-number") or field["path"] == "pencil" or field["path"][:4] == "arcs":
+            continue
+        for end in (field["min"], field["max"]):
+            typed = changed(changed(task, field.get("first", {})), {field["path"]: end})
+            assert value_at(rebuilt(typed).to_dict(), field["path"]) == end
+
+
+@pytest.mark.parametrize("name", [name for name in BUILT_IN if name != "arcs"])
+def test_every_kind_of_follower_that_is_offered_can_be_drawn(name):
+    task = plain_task(name)
+    kinds = next(field for field in form_of(solved(name), str) if field["path"] == "follower.kind")
+    assert len(kinds["choices"]) == 3
+    for choice in kinds["choices"]:
+        other = gc.solve(rebuilt(changed(task, choice["changes"])))
+        assert other.task.follower.kind == choice["value"]
+        assert other.chain.prime_radius > 0
+
+
+def test_only_followers_that_a_table_goes_with_are_offered():
+    measured = gc.builtin_task("measured")
+    assert "motion.phases" not in {field["path"] for field in form_of(gc.solve(measured), str)}
+
+
+def within(phases, k, new, made):
+    """Whether a rise and a return were put into the upper dwell."""
+    return new is made["step"] and phases[k]["kind"] == "dwell" and k == 1
+
+
+@pytest.mark.parametrize("name", ["coursework", "arm", "flat"])
+def test_phases_that_are_edited_still_close(name):
+    task = plain_task(name)
+    phases = task["motion"]["phases"]
+    edits = next(field for field in form_of(solved(name), str) if field["kind"] == "phases")["phases"]
+    offered = 0
+    for k, row in enumerate(edits):
+        made = {"remove": without(phases, k), "dwell": with_dwell(phases, k), "step": with_step(phases, k)}
+        assert row["edits"] == made
+        for new in filter(None, made.values()):
+            offered += 1
+            assert math.fsum(phase["angle"] for phase in new) == 360
+            lift = rebuilt(changed(task, {"motion.phases": new})).motion().lift
+            # Half a lift may stand on top of the whole one.
+            assert lift / solved(name).cam.motion.lift == pytest.approx(1.5 if within(phases, k, new, made) else 1.0)
+    assert offered >= 6
+
+
+def test_a_lone_rise_cannot_be_taken_away():
+    phases = plain_task("coursework")["motion"]["phases"]
+    assert without(phases, 0) is None
+    assert without(with_step(phases, 0), 0) is not None
+
+
+def test_paths():
+    task = {"motion": {"phases": [{"angle": 80}, {"angle": 45}]}}
+    assert steps_of("motion.phases[1].angle") == ("motion", "phases", 1, "angle")
+    assert value_at(task, "motion.phases[1].angle") == 45
+    assert value_at(task, "motion.phases[7].angle") is None
+    new = changed(task, {"motion.phases[0].angle": 90, "limits.rest": False})
+    assert (new["motion"]["phases"][0]["angle"], new["limits"]) == (90, {"rest": False})
+    assert task["motion"]["phases"][0]["angle"] == 80
+
+
+@pytest.mark.parametrize("path", ["", "a..b", "a[x]", "[0]", "a[0", "motion.phases[9].angle", "motion.phases.angle"])
+def test_a_path_that_leads_nowhere_is_refused(path):
+    with pytest.raises(gc.DesignError, match="path"):
+        changed({"motion": {"phases": [{"angle": 80}]}}, {path: 1})

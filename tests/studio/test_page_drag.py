@@ -1,0 +1,177 @@
+"""A handle that is dragged: the picture follows and stays in its place, and the drag is one entry of undo."""
+
+from __future__ import annotations
+
+import pytest
+from studio_pages import frame_of, hand, in_hash, middle, settled, task_of
+
+pytestmark = pytest.mark.slow
+
+MOVES = 40
+
+
+def drag(page, name: str, by: tuple[float, float], moves: int = MOVES, each=lambda: None) -> None:
+    """Take hold of a handle and move it in steps; the hand stays down."""
+    x, y = middle(hand(page, name))
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, moves + 1):
+        page.mouse.move(x + by[0] * k / moves, y + by[1] * k / moves)
+        each()
+
+
+def place_of(page, name: str) -> list[float]:
+    """Where a handle lies in the drawing [mm], y downwards."""
+    return page.evaluate("name => studio.shown.handles.find((one) => one.id === name).at", name)
+
+
+def test_a_drag_is_one_entry_and_the_frame_stays(opened):
+    page = opened()
+    before, frames = task_of(page), set()
+    drag(page, "combined/A", (-45, 60), each=lambda: frames.add(frame_of(page)))
+    assert len(frames) == 1
+    page.mouse.up()
+    settled(page)
+    after = task_of(page)
+    assert after["follower"]["offset"] > before["follower"]["offset"]
+    assert after["cam"]["prime_radius"] > 44
+    assert page.evaluate("() => studio.state.past()") == 1
+    offset, radius = after["follower"]["offset"], after["cam"]["prime_radius"]
+    assert in_hash(page)["d"] == {"follower.offset": offset, "cam.prime_radius": radius}
+    page.keyboard.press("Control+z")
+    settled(page)
+    assert task_of(page) == before
+    page.keyboard.press("Control+Shift+z")
+    settled(page)
+    assert task_of(page) == after
+
+
+def test_the_place_of_release_is_what_is_shown(opened, served):
+    page = opened()
+    drag(page, "combined/A", (-30, 40))
+    page.mouse.up()
+    settled(page)
+    last = [each for each in served.pictures() if each.get("drag") and each["told"]]
+    assert len(last) == 1
+    sizes = page.evaluate("() => studio.shown.sizes")
+    assert sizes["offset"] == task_of(page)["follower"]["offset"]
+    assert sizes["prime_radius"] == task_of(page)["cam"]["prime_radius"]
+    # Where the hand let go, but for the steps of the sizes and their magnets.
+    assert place_of(page, "combined/A") == pytest.approx(last[0]["drag"]["to"], abs=2.5)
+
+
+def test_escape_gives_the_old_sizes_back(opened):
+    page = opened()
+    before, place = task_of(page), middle(hand(page, "combined/A"))
+    drag(page, "combined/A", (-40, 50))
+    page.wait_for_function("() => studio.state.get().task.cam?.prime_radius > 44")
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    settled(page)
+    assert task_of(page) == before
+    assert page.evaluate("() => studio.state.past()") == 0
+    assert middle(hand(page, "combined/A")) == pytest.approx(place, abs=0.5)
+
+
+def test_a_click_on_a_handle_changes_nothing(opened):
+    page = opened()
+    before = task_of(page)
+    page.mouse.click(*middle(hand(page, "combined/A")))
+    settled(page)
+    assert task_of(page) == before
+    assert page.evaluate("() => studio.state.past()") == 0
+
+
+def test_while_the_hand_is_down_only_the_large_view_is_drawn_and_nothing_is_told(opened, served):
+    page = opened()
+    served.asked.clear()
+    drag(page, "combined/tangent rise", (20, 0))
+    held = list(served.asked)
+    assert held
+    assert {view["name"] for each in held for view in each["views"]} == {"combined"}
+    assert not any(each["told"] or each["form"] or each["values"] for each in held)
+    assert all(each["hold"] for each in held)
+    page.mouse.up()
+    settled(page)
+
+
+def test_a_drag_by_touch_moves_the_size_and_not_the_page(opened):
+    page = opened(wide=390, high=844, has_touch=True)
+    x, y = middle(hand(page, "combined/A"))
+    wire = page.context.new_cdp_session(page)
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        wire.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y} for x, y in points]})
+
+    touch("touchStart", (x, y))
+    for k in range(1, 11):
+        touch("touchMove", (x - 2 * k, y + 3 * k))
+    touch("touchEnd")
+    settled(page)
+    assert task_of(page)["cam"]["prime_radius"] > 44
+    assert page.evaluate("() => [scrollX, scrollY]") == [0, 0]
+
+
+def test_the_cam_is_turned_by_hand(opened):
+    page = opened()
+    page.locator("#view-mechanism").click()
+    settled(page)
+    x, y = middle(hand(page, "mechanism/phi"))
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y + 60, steps=10)
+    page.mouse.up()
+    settled(page)
+    phi = page.evaluate("() => studio.state.get().phi")
+    assert phi != 30
+    # A clockwise cam turns by the angle that is told.
+    assert page.locator("#scene .cam").get_attribute("transform") == f"rotate({-phi:g})"
+    assert page.evaluate("() => studio.state.past()") == 0
+
+
+def test_keys_move_a_handle_along_the_screen(opened):
+    page = opened()
+    page.evaluate("() => document.querySelector(\".hand[data-id='combined/A'] input\").focus()")
+    x, _ = place_of(page, "combined/A")
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    # To the right on the screen is a smaller offset here; four keys in a row are one entry.
+    assert task_of(page)["follower"]["offset"] == -12
+    assert page.evaluate("() => studio.state.past()") == 1
+    right, _ = place_of(page, "combined/A")
+    assert right > x
+    low, radius = place_of(page, "combined/A")[1], page.evaluate("() => studio.shown.sizes.prime_radius")
+    page.keyboard.press("ArrowDown")
+    settled(page)
+    assert task_of(page)["cam"]["prime_radius"] == radius + 0.5
+    assert page.evaluate("() => document.activeElement.dataset.axis") == "1"
+    assert place_of(page, "combined/A")[1] > low
+    page.keyboard.press("Shift+ArrowDown")
+    settled(page)
+    assert task_of(page)["cam"]["prime_radius"] == pytest.approx(radius + 0.6)
+
+
+def test_a_number_is_typed_at_a_handle(opened):
+    page = opened()
+    hand(page, "combined/A").dblclick()
+    fields = page.locator("#typed input")
+    assert fields.count() == 2
+    fields.first.fill("-7,5")
+    page.keyboard.press("Enter")
+    settled(page)
+    assert task_of(page)["follower"]["offset"] == -7.5
+    assert task_of(page)["cam"] == {}
+
+
+def test_the_live_region_speaks_once_on_release(opened):
+    page = opened()
+    page.evaluate("""() => { window.heard = []; new MutationObserver(() =>
+        heard.push(document.getElementById("announcement").textContent)).observe(document.getElementById("announcement"),
+        { childList: true, characterData: true, subtree: true }); }""")
+    drag(page, "combined/A", (-20, 30))
+    assert page.evaluate("() => heard") == []
+    page.mouse.up()
+    settled(page)
+    (heard,) = page.evaluate("() => heard")
+    assert heard.startswith(f"Offset e {str(task_of(page)['follower']['offset']).replace('-', '−')} mm")

@@ -1,0 +1,132 @@
+"""The tours: their views, steps and paths, goals that can be reached and are not at first, answers by solving."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from tour_facts import facts, right_choice, trend
+
+import graphcam as gc
+from graphcam.errors import DesignError
+from graphcam.studio.foretold import step_ids
+from graphcam.studio.goals import OPERATORS, goal_of
+from graphcam.studio.task_paths import changed
+from graphcam.studio.tours import card_task, extract, texts_of, told_tours, tours
+from graphcam.tasks.task_file import task_of
+
+CARDS = [(tour["task"], card) for tour in tours() for card in tour["cards"]]
+NAMES = [f"{tour['id']}-{k}" for tour in tours() for k, _ in enumerate(tour["cards"], 1)]
+BEYOND = {">=": 0.0, "<=": 0.0, "==": 0.0, ">": 1.0, "<": -1.0}
+
+
+def done(task: dict, goal) -> dict:
+    """The task as it is when the goal is reached; the last dwell takes what a phase gains."""
+    value = goal.value + BEYOND[goal.operator]
+    changes = {goal.path: value}
+    if goal.path.startswith("motion.phases[") and goal.path.endswith(".angle"):
+        last = len(task["motion"]["phases"]) - 1
+        sum_of_others = sum(phase["angle"] for phase in task["motion"]["phases"][:last])
+        changes[f"motion.phases[{last}].angle"] = 360 - sum_of_others - value + task["motion"]["phases"][0]["angle"]
+    return changed(task, changes)
+
+
+def test_there_are_four_tours_and_more_of_four_to_seven_cards():
+    assert len(tours()) >= 4
+    assert all(4 <= len(tour["cards"]) <= 7 for tour in tours())
+    assert len({tour["id"] for tour in tours()}) == len(tours())
+
+
+@pytest.mark.parametrize(("built_in", "card"), CARDS, ids=NAMES)
+def test_what_a_card_shows_is_drawn(built_in, card):
+    solution = gc.solve(task_of("card", card_task(built_in, card)))
+    construction = solution.drawn[card["step"].partition("/")[0]]
+    views = dict(zip(step_ids(construction), (step.view.name for step in construction.steps()), strict=True))
+    assert views[card["step"]] == card["view"]
+
+
+@pytest.mark.parametrize(("built_in", "card"), CARDS, ids=NAMES)
+def test_a_card_is_answered_by_choosing_or_by_doing(built_in, card):
+    assert "choices" in card or "goal" in card
+    if "choices" in card:
+        assert 0 <= card["answer"] < len(card["choices"]) == len(set(card["choices"]))
+
+
+@pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "goal" in c[1]])
+def test_a_goal_is_not_reached_at_the_start_and_can_be_reached(built_in, card):
+    goal, task = goal_of(card["goal"]), card_task(built_in, card)
+    assert not goal.reached(task, card.get("phi", 0.0))
+    if goal.path == "phi":
+        assert 0 <= goal.value < 360
+        return
+    reached = done(task, goal)
+    assert goal.reached(reached)
+    gc.solve(task_of("card", reached))
+
+
+@pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "rests" in c[1] and "choices" in c[1]])
+def test_the_answer_of_a_card_is_right(built_in, card):
+    assert right_choice(card_task(built_in, card), card) == card["answer"]
+
+
+@pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "rests" in c[1] and "choices" not in c[1]])
+def test_what_is_to_be_done_without_a_question_changes_what_the_card_rests_on(built_in, card):
+    assert trend(card_task(built_in, card), card["rests"]) != 0
+
+
+def test_the_check_of_answers_can_fail():
+    card = next(card for _, card in CARDS if card["goal" if "goal" in card else "ask"] == "follower.offset >= 0")
+    wrong = {**card, "rests": {"quantity": "minimum_prime_radius", "with": {"follower.offset": -12.0}}}
+    assert right_choice(card_task("coursework", card), wrong) != card["answer"]
+
+
+def test_an_undercut_that_a_card_speaks_of_is_there_and_its_remedy_helps():
+    spoiled, saved = (
+        card
+        for _, card in CARDS
+        if card.get("rests", {}).get("quantity") == "undercuts" and "follower.roller_radius" in card.get("changes", {})
+    )
+    task = card_task("coursework", spoiled)
+    assert facts(task)["undercuts"] == 0 < facts(done(task, goal_of(spoiled["goal"])))["undercuts"]
+    task = card_task("coursework", saved)
+    assert facts(task)["undercuts"] > 0 == facts(done(task, goal_of(saved["goal"])))["undercuts"]
+
+
+def test_the_scales_follow_from_one_another_as_the_cards_say():
+    task = gc.builtin_task().to_dict()
+    found, (first, second) = facts(task), task["drawing"]["poles"]
+    mu_phi = gc.solve(gc.builtin_task()).chain.board.mu_phi.per_mm
+    assert found["mu_v"] == pytest.approx(first * found["mu_a"] * mu_phi)
+    assert found["mu_s"] == pytest.approx(second * found["mu_v"] * mu_phi)
+
+
+def test_the_page_gets_every_text_and_no_rest():
+    told = told_tours({"language": "en"})["tours"]
+    assert [tour["title"] for tour in told] == [tour["title"] for tour in tours()]
+    assert not any("rests" in card for tour in told for card in tour["cards"])
+    json.dumps(told, allow_nan=False)
+
+
+def test_every_text_is_found_by_the_tools_of_gettext():
+    path = Path(gc.__file__).parent / "data" / "studio" / "tours.json"
+    with path.open("rb") as file:
+        found = {text for _, _, text, _ in extract(file, (), (), {})}
+    assert found == set(texts_of(json.loads(path.read_text(encoding="utf-8"))))
+
+
+@pytest.mark.parametrize("text", ["phi", "phi >= x", "phi >= 1; 2", "a..b > 1", "open('x') > 1", "", "phi => 3"])
+def test_a_goal_that_is_none_is_refused(text):
+    with pytest.raises(DesignError, match=r"goal|path"):
+        goal_of(text)
+
+
+@pytest.mark.parametrize(
+    ("operator", "below", "at", "above"),
+    [("<=", 1, 1, 0), (">=", 0, 1, 1), ("==", 0, 1, 0), ("<", 1, 0, 0), (">", 0, 0, 1)],
+)
+def test_the_operators_of_goals(operator, below, at, above):
+    goal = goal_of(f"cam.prime_radius {operator} 40")
+    assert [goal.reached({"cam": {"prime_radius": r}}) for r in (39.0, 40.0, 41.0)] == [below, at, above]
+    assert not goal.reached({"cam": {}})
+    assert set(OPERATORS) == set(BEYOND)
