@@ -113,10 +113,10 @@ def test_the_same_page_is_written_twice(page):
     assert player(Drawing("The title", (FIRST, SECOND)), SLIDES, None, SAID, "en") == page
 
 
-def test_what_turns_brings_its_own_script_and_words_in_it_end_none(page):
+def test_what_turns_brings_its_own_two_scripts_and_words_in_it_end_none(page):
     mechanism = {"box": [0, 0, 1, 1], "about": "</script><i>", "live": [], "phases": [], "step": 1}
     moving = player(Drawing("The title", (FIRST, SECOND)), SLIDES, mechanism, SAID, "en")
     assert "<i>" not in moving
     assert data(moving)["mechanism"] == mechanism
     assert data(page)["mechanism"] is None
-    assert moving.count("<script") == page.count("<script") + 1
+    assert moving.count("<script") == page.count("<script") + 2
