@@ -91,7 +91,7 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("Without JavaScript the finished sheet is shown."),
 }
 """What the page itself says."""
-SCRIPTS = ("camera.js", "board.js", "lights.js", "player.js")
+SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
 """Around what a step shows when it is looked at closely [mm]."""

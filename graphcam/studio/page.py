@@ -30,6 +30,8 @@ WORDS: Mapping[str, Caption] = {
             "mechanism",
             "readings",
             "drawing",
+            "closer",
+            "farther",
             "steps",
             "step",
             "step_of",
@@ -125,7 +127,7 @@ WORDS: Mapping[str, Caption] = {
     **MODE_WORDS,
 }
 """What the page itself says."""
-SHARED_SCRIPTS = ("board.js", "lights.js", "mechanism.js")
+SHARED_SCRIPTS = ("gestures.js", "board.js", "lights.js", "mechanism.js")
 SCRIPTS = (
     "elements.js", "wire.js", "state.js", "address.js", "stage.js", "handles.js", "phases.js", "sizes.js", "panel.js",
     "what_if.js", "strip.js", "walk.js", "cam_angle.js", "asking.js", "changing.js", "picture.js", "files.js",

@@ -7,6 +7,7 @@ import json
 import threading
 import zlib
 from collections.abc import Callable
+from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
@@ -72,7 +73,9 @@ class Engine:
                 self.send_header("Content-Type", kind)
                 self.send_header("Content-Length", f"{len(body)}")
                 self.end_headers()
-                self.wfile.write(body)
+                # A page may be closed before it is answered.
+                with suppress(ConnectionError):
+                    self.wfile.write(body)
 
             def log_message(self, *_: object) -> None:
                 """Nothing is written about requests."""

@@ -7,7 +7,6 @@ const NEAREST = 6, NARROWEST = 100;
 function cameraOf(pane) {
   const pages = [...pane.querySelectorAll("svg.page")];
   const camera = { zoom: 1, x: 0, y: 0 };
-  const touching = new Map();
   const thin = thinnerOf(pane);
   let shown = 0;
 
@@ -56,40 +55,14 @@ function cameraOf(pane) {
     zoomAbout(factor, onPage(box.left + box.width / 2, box.top + box.height / 2));
   }
 
-  function spread() {
-    const [a, b] = [...touching.values()];
-    return { length: Math.hypot(a.x - b.x, a.y - b.y), x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
-  }
-
-  pane.addEventListener("pointerdown", (event) => {
-    touching.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    pane.setPointerCapture(event.pointerId);
-    pane.classList.add("dragged");
+  gesturesOf(pane, {
+    onDrawing: onPage, zoomAbout,
+    shift({ x, y }) {
+      camera.x += x;
+      camera.y += y;
+      place();
+    },
   });
-  pane.addEventListener("pointermove", (event) => {
-    const before = touching.get(event.pointerId);
-    if (!before) return;
-    const pinch = touching.size === 2 ? spread() : null;
-    const from = onPage(before.x, before.y), to = onPage(event.clientX, event.clientY);
-    touching.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    if (pinch) {
-      const now = spread();
-      zoomAbout(now.length / (pinch.length || 1), onPage(now.x, now.y));
-    }
-    camera.x += (to.x - from.x) / touching.size;
-    camera.y += (to.y - from.y) / touching.size;
-    place();
-  });
-  for (const end of ["pointerup", "pointercancel"]) {
-    pane.addEventListener(end, (event) => {
-      touching.delete(event.pointerId);
-      if (!touching.size) pane.classList.remove("dragged");
-    });
-  }
-  pane.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoomAbout(Math.exp(-event.deltaY / 400), onPage(event.clientX, event.clientY));
-  }, { passive: false });
 
   return { look, turnTo, zoomFromMiddle };
 }

@@ -59,11 +59,11 @@ function camAngleOf(page) {
 
   // The cam angle in a diagram over it.
   function showCursor(handles) {
-    const layer = page.stage.layers.cursors, frame = page.stage.frame();
+    const layer = page.stage.layers.cursors, frame = page.stage.whole();
     layer.replaceChildren();
     for (const handle of handles) {
       if (handle.axes[0]?.path !== "phi" || handle.shape !== "x" || !frame) continue;
-      drawSvg("path", "cursor", { d: `M${handle.at[0]} ${frame[1]}V${frame[1] + frame[3]}` }, layer);
+      drawSvg("path", "cursor", { d: `M${handle.at[0]} ${frame[1] - frame[3]}v${3 * frame[3]}` }, layer);
     }
   }
 

@@ -4,6 +4,9 @@
 // How long the frame glides to another one [ms]; what fills less of it than this is looked at more closely.
 const GLIDE = 300, TOO_SMALL = 0.6;
 
+// How many times as large as all of it a detail may be seen.
+const CLOSEST = 20;
+
 // --- the groups of a view's steps ------------------------------------------------------------------------------------------
 
 // What each view looked like when it was drawn last: its steps by their ids, to which answers bring only what is new.
@@ -69,7 +72,7 @@ const mustMove = (shown, wanted) =>
 
 function stageOf(at) {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const frames = new Map(), watching = [];
+  const frames = new Map(), wholes = new Map(), details = new Set(), watching = [];
   let shown = null, filled = null, board = null, gliding = 0;
 
   const svg = () => (shown === "mechanism" ? at("scene") : at("drawing"));
@@ -94,6 +97,7 @@ function stageOf(at) {
 
   function setFrame(frame) {
     frames.set(shown, frame);
+    document.body.classList.toggle("detailed", details.has(shown));
     svg().setAttribute("viewBox", frame.join(" "));
     // Nothing is drawn thinner than can be seen.
     svg().style.setProperty("--pixel", `${1 / fit(frame).scale}px`);
@@ -113,14 +117,42 @@ function stageOf(at) {
     gliding = requestAnimationFrame(tick);
   }
 
+  // --- a detail: a part of a view, chosen by hand, that stays until all of it is looked at again ---------------------------
+
+  function zoomAbout(factor, { x, y }) {
+    const [left, top, wide, high] = frames.get(shown), whole = fit(wholes.get(shown)).scale, { scale } = fit();
+    const by = Math.min(factor, CLOSEST * whole / scale);
+    cancelAnimationFrame(gliding);
+    if (factor > 1) details.add(shown);
+    if (factor < 1 && scale * by <= whole) {
+      if (details.delete(shown)) setFrame(wholes.get(shown));
+    } else setFrame([x - (x - left) / by, y - (y - top) / by, wide / by, high / by]);
+  }
+
+  function zoomFromMiddle(factor) {
+    const [x, y, w, h] = frames.get(shown);
+    zoomAbout(factor, { x: x + w / 2, y: y + h / 2 });
+  }
+
+  // Its middle stays over the drawing.
+  function shift(by) {
+    if (!details.has(shown)) return;
+    const [x, y, w, h] = frames.get(shown), [left, top, wide, high] = wholes.get(shown);
+    const within = (middle, from, length) => Math.max(from, Math.min(from + length, middle));
+    setFrame([within(x - by.x + w / 2, left, wide) - w / 2, within(y - by.y + h / 2, top, high) - h / 2, w, h]);
+  }
+
   // A view through its frame, which stays while a hand is down, and else as long as it serves.
   function look(name, wanted, { held = false, anew = false } = {}) {
     const other = shown !== name;
     shown = name;
+    wholes.set(name, wanted);
+    if (anew) details.delete(name);
     at("drawing").toggleAttribute("hidden", name === "mechanism");
     at("scene").toggleAttribute("hidden", name !== "mechanism");
     const frame = frames.get(name);
-    if (!frame || (other && !held && mustMove(frame, wanted))) setFrame(wanted);
+    if (details.has(name)) setFrame(frame);
+    else if (!frame || (other && !held && mustMove(frame, wanted))) setFrame(wanted);
     else if (anew || (!held && mustMove(frame, wanted))) glideTo(wanted);
     else setFrame(frame);
   }
@@ -144,13 +176,17 @@ function stageOf(at) {
   const resized = () => shown && frames.get(shown) && setFrame(frames.get(shown));
 
   return {
-    look, fill, pin, toScreen, toDrawing, resized,
+    look, fill, pin, toScreen, toDrawing, resized, zoomAbout, zoomFromMiddle, shift,
     show: (current, part) => board?.show(current, part),
     point: (names) => board?.point(names),
     onMove: (moved) => watching.push(moved),
     scale: (frame) => fit(frame).scale,
     frame: () => frames.get(shown),
-    forget: () => frames.clear(),
+    whole: () => wholes.get(shown),
+    forget() {
+      frames.clear();
+      details.clear();
+    },
     layers: { drawing: at("drawing"), scene: at("scene"), cursors: at("cursors") },
   };
 }

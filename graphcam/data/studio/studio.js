@@ -78,10 +78,23 @@
     if (frame) page.stage.look(page.view(), frame, { anew: true });
   }
 
+  const zoom = (factor) => page.hand || now().board || !page.stage.frame() || page.stage.zoomFromMiddle(factor);
+  gesturesOf(at("stage"), {
+    onDrawing: (x, y) => {
+      const [right, down] = page.stage.toDrawing(x, y);
+      return { x: right, y: down };
+    },
+    zoomAbout: page.stage.zoomAbout, shift: page.stage.shift,
+    // The wheel is meant over a knob too; a page around this one is scrolled with it.
+    wanted: ({ type, target, ctrlKey }) => !page.hand && !now().board && page.stage.frame()
+      && (type === "wheel" ? target.closest(".canvas, .hands") && (ctrlKey || config.transport !== "parent") : target.closest(".canvas")),
+  });
+
   // --- buttons and keys ----------------------------------------------------------------------------------------------------
 
   const clicks = {
     undo: () => page.travel("undo"), redo: () => page.travel("redo"), pin: togglePin, theme: switchTheme, fit,
+    closer: () => zoom(1.25), farther: () => zoom(0.8),
     all: () => now().hidden.includes("board") || state.set({ board: !now().board }), previous: page.back, next: page.on, play: page.turn,
   };
   for (const [id, act] of Object.entries(clicks)) at(id).addEventListener("click", () => act());
@@ -97,7 +110,7 @@
 
   const keys = {
     ArrowRight: page.on, ArrowLeft: page.back, Home: () => page.go(0), End: () => page.go(Infinity),
-    a: clicks.all, p: togglePin, 0: fit, " ": page.turn,
+    a: clicks.all, p: togglePin, 0: fit, "+": clicks.closer, "=": clicks.closer, "-": clicks.farther, " ": page.turn,
   };
   const shifted = { ArrowRight: page.wholeOn, ArrowLeft: page.wholeBack };
 
