@@ -157,8 +157,8 @@ def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
         return found
     spread = 2 * OFF * noise
     usual = spread * (x[-1] - x[0]) / (y[-1] - y[0])
-    # From each row on, as far as the rows have not risen by more than what noise may.
-    ends = np.searchsorted(np.maximum.accumulate(y), y + spread, side="right") - 1
+    # From each row on, as far as the rows have not risen by more than what noise may; an outlier lies below them all.
+    ends = np.maximum(np.searchsorted(np.maximum.accumulate(y), y + spread, side="right") - 1, np.arange(y.size))
     length = x[ends] - x
     while length.max() > SLOW * usual:
         first = int(np.argmax(length))

@@ -24,6 +24,8 @@ DEFAULT_TOLERANCE = 0.01
 FEWEST_ROWS, MOST_ROWS = 8, 10_000
 WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
+LARGEST, SMALLEST = 1e100, 1e-100
+"""A value of a row and a tolerance between which squares are numbers still."""
 SAMPLES = 50
 """Places of a leg among which one is sought where it moves fast."""
 TOLERANCE_OF_NOISE = 4.5
@@ -130,6 +132,8 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
+    if tolerance < SMALLEST:
+        raise DesignError("tolerance", tolerance, f"{SMALLEST:g} at least", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)
     least = LEAST_NOISE * float(np.ptp(s))
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
@@ -198,6 +202,8 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
             raise RowError(k, "row", f"{phi[k]:g}, {values[k]:g}", "finite numbers", "measure it")
+    for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
+        raise RowError(int(k), "row", f"{phi[k]:g}, {values[k]:g}", f"numbers up to {LARGEST:g}", "measure again")
     for k, step in enumerate(np.diff(phi), 1):
         if step <= ROUNDING:
             remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"

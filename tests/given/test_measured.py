@@ -236,6 +236,7 @@ S = table(LAWS["3-4-5"])
         (DEGREES[::60], S[::60], 5, "number of rows is 6, but must be 8 to 10000"),
         (np.append(DEGREES[:9], math.nan), S[:10], 9, "row is 'nan, "),
         (DEGREES[:9], np.append(S[:8], math.inf), 8, "finite numbers"),
+        (DEGREES, np.where(DEGREES[7] == DEGREES, -1e300, S), 7, "numbers up to 1e+100"),
         (np.insert(DEGREES, 5, DEGREES[4]), np.insert(S, 5, S[4]), 5, "greater than the one before, 4 degrees; give"),
         (np.roll(DEGREES, 3), S, 3, "sort the rows"),
         (DEGREES[:300], S[:300], 299, "299 degrees', but must be 360 degrees, or a step less"),
@@ -255,6 +256,7 @@ def test_a_row_that_cannot_be_is_named(phi, s, row, words):
     [
         (DEGREES, S, 0.0, "tolerance is 0.0"),
         (DEGREES, S, math.nan, "tolerance is nan"),
+        (DEGREES, S * 1e-150, 1e-152, "1e-100 at least"),
         (DEGREES, S[:-1], 0.01, "one number for each cam angle"),
         (DEGREES, 0 * S, 0.01, "lift is '0', but must be more than 0.02"),
         (DEGREES, np.random.default_rng(1).standard_normal(360), 0.01, "greater than the noise that turns the table"),
@@ -264,6 +266,21 @@ def test_a_table_that_cannot_be_is_refused(phi, s, tolerance, words):
     with pytest.raises(DesignError) as caught:
         measured_motion(phi, s, tolerance)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("row", [1, 2, 3])
+def test_a_row_that_lies_too_low_at_the_foot_of_a_rise_is_no_rest(row):
+    rows = np.round(S, 3)
+    rows[row] = 0.0
+    motion = measured_motion(DEGREES, rows)
+    assert [phase.kind for phase in motion.phases if phase.kind != "dwell"] == ["rise", "return"]
+    assert motion.greatest_residual <= motion.tolerance
+
+
+@pytest.mark.parametrize("size", [1e-90, 1e-30, 1e6, 1e90])
+def test_the_unit_of_a_table_does_not_matter(size):
+    motion = measured_motion(DEGREES, S * size, 0.01 * size)
+    assert motion.lift / size == pytest.approx(measured_motion(DEGREES, S).lift, rel=1e-6)
 
 
 def test_a_measured_motion_travels():
