@@ -12,6 +12,7 @@ function pictureOf(page) {
     document.body.classList.toggle("boarding", now().board);
     document.body.classList.toggle("turnable", page.turns());
     at("all").setAttribute("aria-pressed", now().board);
+    for (const id of ["closer", "farther", "fit"]) at(id).disabled = now().board;
     strip.select(name, now().board, (each) => now().hidden.includes(each));
     if (page.turns()) page.showScene();
     else if (own) {
