@@ -8,7 +8,7 @@ from random_requests import random_request
 
 from graphcam.studio.engine import answer
 
-MANY = int(os.environ.get("GRAPHCAM_RANDOM_REQUESTS", "2000"))
+MANY = int(os.environ.get("GRAPHCAM_RANDOM_REQUESTS", "800"))
 """So many are asked by the slow test; ten thousand take a quarter of an hour of the processor."""
 
 

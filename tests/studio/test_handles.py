@@ -306,4 +306,4 @@ def test_a_drag_never_leads_to_an_error(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_no_drag_of_many_leads_to_an_error(name):
-    draws(name, 40, 6)
+    draws(name, 10, 6)
