@@ -83,7 +83,7 @@ def test_a_commit_is_checked_as_a_clone_is():
     script = (ROOT / ".ci" / "run").read_text()
     for command in ("ruff check", "ruff format --check", "pyright --project pyproject.toml", "lint-imports"):
         assert f"entry: {command}," in hooks
-        assert re.search(rf"^step {command}( \.)?$", script, re.MULTILINE)
+        assert re.search(rf"^ *step {command}( \.)?$", script, re.MULTILINE)
 
 
 def test_the_wheel_holds_tasks_and_types(tmp_path):
