@@ -31,6 +31,8 @@ NEAREST = 6.0
 """A dimension line comes no nearer to what it measures when it is shown reduced, mm."""
 SPACING = 3.0
 """Between the lines of hatching, mm."""
+MOST_LINES = 2000
+"""Of a hatching: more than the largest sheet holds; what is larger than any sheet gets wider ones."""
 
 
 @dataclass(frozen=True)
@@ -206,6 +208,7 @@ def hatch(boundary: Points, spacing: float = SPACING) -> Strokes:
     turn = cmath.rect(1.0, -math.pi / 4)
     corners = np.asarray(boundary, dtype=np.complex128) * turn
     nexts = np.roll(corners, -1)
+    spacing = max(spacing, float(np.ptp(corners.imag)) / MOST_LINES)
     low, high = math.floor(corners.imag.min() / spacing), math.ceil(corners.imag.max() / spacing)
     starts: list[complex] = []
     ends: list[complex] = []

@@ -9,6 +9,7 @@ from itertools import chain
 
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Dimension, Label
+from graphcam.errors import DesignError
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn, Placement, expand
 from graphcam.sheets.fonts import points_size
@@ -19,6 +20,7 @@ from graphcam.sheets.model import Entity, Group
 from graphcam.sheets.panels import AIR
 from graphcam.sheets.player_svg import MM_PER_POINT, Numbers, group_svg
 from graphcam.sheets.sampling import box_of
+from graphcam.studio.held_board import TALLEST
 from graphcam.studio.hold import HeldView
 from graphcam.studio.request import AskedView
 from graphcam.studio.view_steps import NamedStep
@@ -88,13 +90,20 @@ def drawn_view(
     constructions : those that draw in it, and those that settle its scale
     paper : the lettering of the sheet
     held : what the view keeps, None where it is free
+
+    Raises
+    ------
+    DesignError : it is larger than any sheet
     """
     letters = screen_letters(paper, max(asked.px_per_mm, 0.01))
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
-    former = held.labels if held else {}
+    former, room = held.labels if held else {}, _room(drawn)
+    if (largest := max(room.width, room.height)) > TALLEST:
+        remedy = "take sizes of which none is so much greater than the others"
+        raise DesignError("drawing", f"{largest:.3g} mm", f"at most {TALLEST:g} mm wide and high", remedy)
     if held is None:
-        places: list[int | None] = [*places_of(drawn, [], _room(drawn))]
+        places: list[int | None] = [*places_of(drawn, [], room)]
     else:
         places = held_places(names, drawn, former)
     finished = shading_parted(with_texts(drawn, places))

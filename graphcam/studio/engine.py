@@ -56,10 +56,10 @@ def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:
 
 
 def told_error(error: GraphcamError) -> Plain:
-    """An error as plain data: what is wrong, and what to do about it."""
+    """An error as plain data: what is wrong, and apart from it what to do about it."""
     remedy = getattr(error, "remedy", "")
-    if not isinstance(error, TaskError):
-        return {"message": str(error), "remedy": remedy}
+    message = str(error).removesuffix(f"; {remedy}")
     # The page has no files: what the message says of one is left out.
-    message = str(error).removeprefix(f"{error.path}: ").removesuffix(f"; {EXAMPLE}")
+    if isinstance(error, TaskError):
+        message = message.removeprefix(f"{error.path}: ").removesuffix(f"; {EXAMPLE}")
     return {"message": message, "remedy": "" if remedy == EXAMPLE else remedy}

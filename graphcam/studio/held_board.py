@@ -23,7 +23,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
 TALLEST = 2000.0
-"""Of the diagrams [mm of paper]; no sheet takes a fifth of it."""
+"""Of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
 
 
 def solved(

@@ -44,12 +44,13 @@ class WrittenFiles:
         """Write the files of a request's "kind" for its "task": their names and the folder, or what is wrong.
 
         >>> WrittenFiles(Path("out")).write({"kind": "../notes", "task": {}})["error"]["message"]
-        "kind is '../notes', but must be one of sheet, note, notebook, working drawing, all; did you mean 'note'?"
+        "kind is '../notes', but must be one of sheet, note, notebook, working drawing, all"
         """
         try:
             folder, names = self._written(_kind(request), self._task(request))
         except (GraphcamError, OSError) as error:
-            return {"error": {"field": "", "message": str(error), "remedy": getattr(error, "remedy", "")}}
+            remedy = getattr(error, "remedy", "")
+            return {"error": {"field": "", "message": str(error).removesuffix(f"; {remedy}"), "remedy": remedy}}
         return {"files": names, "folder": str(folder)}
 
     def _task(self, request: Mapping[str, Any]) -> Task | ArcsTask:

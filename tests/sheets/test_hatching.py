@@ -7,7 +7,7 @@ import pytest
 import shapely
 from hypothesis import given, strategies as st
 
-from graphcam.sheets.expand import SPACING, hatch
+from graphcam.sheets.expand import MOST_LINES, SPACING, hatch
 from graphcam.sheets.labels import interrupted
 from graphcam.sheets.model import Strokes, Text
 from graphcam.sheets.sampling import corners
@@ -37,6 +37,10 @@ def test_hatching_covers_its_region() -> None:
     square = np.array([0, 300, 300 + 200j, 100 + 50j, 200j])
     polygon = shapely.Polygon(np.column_stack([square.real, square.imag]))
     assert lines(hatch(square)).length * SPACING == pytest.approx(polygon.area, rel=0.01)
+
+
+def test_a_region_larger_than_any_sheet_has_no_more_lines_than_a_sheet_could_hold() -> None:
+    assert len(hatch(np.array([0, 1e9, 1e9 + 1e9j, 1e9j])).starts) <= MOST_LINES + 1
 
 
 def test_hatching_runs_at_45_degrees() -> None:

@@ -180,7 +180,7 @@ def test_it_answers_writes_into_its_folder_and_ends_with_ctrl_c(tmp_path):
         stolen = {**task, "motion": {"table": "/etc/passwd"}}
         for path in ("/engine", "/write"):
             error = post(address, path, {"kind": "note", "task": stolen, "folder": "/tmp/x", "out": "/tmp/x"})["error"]
-            assert "no file is read here" in error["message"]
+            assert "no file is read here" in error["remedy"]
         process.send_signal(signal.SIGINT)
         assert process.wait(10) == 130
         assert process.stderr.read() == "graphcam: interrupted\n"

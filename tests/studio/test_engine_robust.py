@@ -5,6 +5,7 @@ import os
 
 import pytest
 from random_requests import random_request
+from studio_tasks import plain_task
 
 from graphcam.studio.engine import answer
 
@@ -21,6 +22,17 @@ def check(seed):
         assert isinstance(found["error"]["field"], str)
         assert found["error"]["message"]
     return found["ok"]
+
+
+def test_a_view_larger_than_any_sheet_is_an_error_at_once():
+    """Hatching alone would have a line for every three millimetres of it."""
+    request = {"task": plain_task("coursework"), "views": [{"name": "combined", "px_per_mm": 4}]}
+    request["task"]["cam"] = {"prime_radius": 1e9}
+    error = answer(request)["error"]
+    assert "at most 2000 mm wide and high" in error["message"]
+    # The page puts the two together.
+    assert error["remedy"] not in error["message"]
+    assert answer({**request, "views": [{"name": "profile", "px_per_mm": 4}]})["ok"]
 
 
 def test_random_requests_are_answered():
