@@ -93,17 +93,14 @@ def drawn_view(
 
     Raises
     ------
-    DesignError : it is larger than any sheet
+    DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
     letters = screen_letters(paper, max(asked.px_per_mm, 0.01))
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
-    former, room = held.labels if held else {}, _room(drawn)
-    if (largest := max(room.width, room.height)) > TALLEST:
-        remedy = "take sizes of which none is so much greater than the others"
-        raise DesignError("drawing", f"{largest:.3g} mm", f"at most {TALLEST:g} mm wide and high", remedy)
+    former = held.labels if held else {}
     if held is None:
-        places: list[int | None] = [*places_of(drawn, [], room)]
+        places: list[int | None] = [*places_of(drawn, [], _room(drawn))]
     else:
         places = held_places(names, drawn, former)
     finished = shading_parted(with_texts(drawn, places))
@@ -131,9 +128,13 @@ def label_names(named: NamedStep) -> list[str]:
 
 
 def _room(drawn: Iterable[Drawn]) -> Box:
-    """The box that no label leaves."""
+    """The box that no label leaves; it is looked through point by point, so it has an end."""
     lines = [entity for entities, _ in drawn for entity in entities]
-    return (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
+    room = (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
+    if (largest := max(room.width, room.height)) > TALLEST:
+        remedy = "take sizes of which none is so much greater than the others"
+        raise DesignError("drawing", f"{largest:.3g} mm", f"at most {TALLEST:g} mm wide and high", remedy)
+    return room
 
 
 def _frame(entities: Iterable[Entity]) -> Box:

@@ -36,6 +36,7 @@ class _PlainTask(traitlets.Dict):
     """Plain data of a task, also where the task itself is set."""
 
     def validate(self, obj: Any, value: Any) -> Any:
+        """The plain data of what was set."""
         return super().validate(obj, plain_task(value) if isinstance(value, Task | ArcsTask) else value)
 
 
