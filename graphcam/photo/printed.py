@@ -1,0 +1,126 @@
+"""What a reader of photographs must know of a printed page: its tags, its bars, what is printed and where is drawn.
+
+It is written down when the page is printed, since paper does not change with the program.  Lengths are mm of paper, and
+places are complex, x to the right and y up from the lower left corner of the page.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import TaskError
+
+Points = NDArray[np.complex128]
+Edges = tuple[float, float, float, float]
+"""Left, bottom, right and top of a box."""
+Ink = Literal["colour", "grey"]
+"""How the givens are printed: in a light tint, or in light grey."""
+FORMAT = 1
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedView:
+    """A view on a page in which something is to be drawn.
+
+    origin : of the view, on the page
+    room : the box in which is drawn
+    closed : whether a curve runs once round the origin, or else over the x axis from ``start`` to ``end``
+    start, end : of a curve that is not closed, from the origin along x
+    """
+
+    origin: complex
+    room: Edges
+    closed: bool
+    start: float = 0.0
+    end: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedPage:
+    """One printed page.
+
+    code : the text of its QR code, which also says whose it is
+    width, height : of the page; of an A3 page on two A4 tiles that of both together
+    tags : the lower left corner of each black square, by the tag's number
+    tag_side : of the black square
+    bars : start and end of the scale bars, across and up
+    patches, patch_side : lower left corners of the squares that are filled with the ink of the givens
+    ink : of the givens
+    givens : the light lines, as polylines
+    black : boxes about what is printed in black: texts, tables, tags
+    views : by name
+    seam : the x at which two tiles meet; None of a page on one sheet
+    """
+
+    code: str
+    width: float
+    height: float
+    tags: Mapping[int, complex]
+    tag_side: float
+    bars: tuple[tuple[complex, complex], ...]
+    patches: tuple[complex, ...]
+    patch_side: float
+    ink: Ink
+    givens: tuple[Points, ...]
+    black: tuple[Edges, ...]
+    views: Mapping[str, PrintedView]
+    seam: float | None = None
+
+    def to_json(self) -> str:
+        """As text."""
+        said = {name: getattr(self, name) for name in ("code", "width", "height", "tag_side", "patch_side", "ink")}
+        said |= {"format": FORMAT, "seam": self.seam, "black": self.black, "patches": _pairs(self.patches)}
+        said["tags"] = {str(number): _pair(corner) for number, corner in self.tags.items()}
+        said["bars"] = [_pairs(bar) for bar in self.bars]
+        said["givens"] = [_pairs(np.round(line, 3).tolist()) for line in self.givens]
+        said["views"] = {
+            name: {"origin": _pair(view.origin), "room": view.room, "closed": view.closed}
+            | {"start": view.start, "end": view.end}
+            for name, view in self.views.items()
+        }
+        return json.dumps(said, allow_nan=False)
+
+    @staticmethod
+    def from_json(text: str, path: str = "page") -> PrintedPage:
+        """A page out of its text.
+
+        Raises
+        ------
+        TaskError : it is none, or of another format
+        """
+        try:
+            return _read(json.loads(text))
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            found, wanted = f"not readable ({error})", f"one of format {FORMAT}"
+            raise TaskError(path, "the page", found, wanted, "make the course again") from None
+
+
+def _read(said: dict[str, Any]) -> PrintedPage:
+    if said["format"] != FORMAT:
+        raise ValueError(f"format {said['format']}")
+    return PrintedPage(
+        **{name: said[name] for name in ("code", "width", "height", "tag_side", "patch_side", "ink", "seam")},
+        tags={int(number): complex(*corner) for number, corner in said["tags"].items()},
+        bars=tuple((complex(*start), complex(*end)) for start, end in said["bars"]),
+        patches=tuple(complex(*corner) for corner in said["patches"]),
+        givens=tuple(np.array([complex(*place) for place in line]) for line in said["givens"]),
+        black=tuple((left, bottom, right, top) for left, bottom, right, top in said["black"]),
+        views={
+            name: PrintedView(complex(*view["origin"]), tuple(view["room"]), view["closed"], view["start"], view["end"])
+            for name, view in said["views"].items()
+        },
+    )
+
+
+def _pair(place: complex) -> tuple[float, float]:
+    return (place.real, place.imag)
+
+
+def _pairs(places: Any) -> list[tuple[float, float]]:
+    return [_pair(place) for place in places]
