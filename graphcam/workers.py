@@ -54,12 +54,13 @@ class WorkerPool:
     close: Callable[[], object] = lambda: None
 
 
-def processes(workers: int, *preloaded: str) -> WorkerPool:
+def processes(workers: int, *preloaded: str, fresh: bool = False) -> WorkerPool:
     """Processes on this machine.
 
     preloaded : modules that the jobs need, loaded once where the processes do not begin as copies of this one
+    fresh : whether they never do: a copy of one whose libraries have threads of their own, as OpenCV has, may hang
     """
-    return WorkerPool(partial(_process_executor, workers, preloaded), workers)
+    return WorkerPool(partial(_process_executor, workers, preloaded, fresh), workers)
 
 
 def cluster(address: str) -> WorkerPool:
@@ -206,8 +207,8 @@ def _deaf() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def _process_executor(workers: int, preloaded: tuple[str, ...]) -> Executor:
-    if sys.platform == "linux" and threading.active_count() == 1:
+def _process_executor(workers: int, preloaded: tuple[str, ...], fresh: bool = False) -> Executor:
+    if sys.platform == "linux" and threading.active_count() == 1 and not fresh:
         # All that is loaded is there at once: a new Python takes longer to start than hundreds of students to grade.
         return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _begin)
     if "forkserver" not in multiprocessing.get_all_start_methods():

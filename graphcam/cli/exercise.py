@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 from typer import Argument, Option
 
+from graphcam.cli.exercise_read import read
 from graphcam.cli.grade_options import (
     Anonymous,
     Attempts,
@@ -139,6 +141,12 @@ def make(
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
+    paper: Annotated[
+        str, Option(metavar="P", help="A1, A3, A4 or A3-tiles, to be photographed; A3 where it can be; or unmarked.")
+    ] = "",
+    ink: Annotated[
+        Literal["colour", "grey"], Option("--print", help="How the light lines of these papers are printed.")
+    ] = "colour",
     studio: Annotated[str, Option(metavar="URL", help="Where your studio's page is; each gets a link into it.")] = "",
     studio_checks: Annotated[
         bool, Option("--studio-checks", help="Let it say right and wrong: by hashes, which a program can guess.")
@@ -150,9 +158,11 @@ def make(
 
     graphcam exercise make pressure-angle --roster roster.csv --secret-file secret --out week-5
 
+    graphcam exercise make inversion-arm --roster roster.csv --secret-file secret --paper A4 --print grey
+
     graphcam exercise make least-radius --roster roster.csv --secret-file secret --studio https://course.example/studio/
     """
-    from graphcam.exercises.course.make import make as run
+    from graphcam.exercises.course.make import UNMARKED, make as run, usual_paper
     from graphcam.exercises.exports.studio_link import check_url, write_links
 
     progress = progress_lines(quiet=False)
@@ -164,12 +174,21 @@ def make(
     with one_message():
         if studio:
             check_url(studio)
-        papers = {"language": language, "hand": hand}
-        count = run(name, roster, secret_file, out, **papers, workers=workers, cluster=cluster, step=step)
+        chosen = usual_paper(name) if not paper else "" if paper == UNMARKED else paper
+        if not paper and chosen and find_spec("segno") is None:
+            chosen = ""
+            progress(
+                f"{name}: worksheets without tags; for such that can be photographed: pip install 'graphcam[photo]'"
+            )
+        papers = {"language": language, "hand": hand, "paper": chosen}
+        count = run(name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step)
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
+
+
+exercise.command()(read)
 
 
 @exercise.command()

@@ -23,9 +23,21 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import letters_of, start_of
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import (
+    ArcEntity,
+    Circles,
+    Curve,
+    Drawing,
+    Entity,
+    Group,
+    Page,
+    Polygons,
+    Stroke,
+    Strokes,
+    Text,
+)
 from graphcam.sheets.smooth import clamped_spline
-from graphcam.sheets.styles import ACCENT, CENTER, DASHED, GREY, STYLES
+from graphcam.sheets.styles import ACCENT, CENTER, CYAN_TINT, DASHED, GREY, GREY_TINT, STYLES
 
 BETWEEN_PAGES = 40.0
 """Several pages stand side by side, so far apart, mm."""
@@ -37,7 +49,7 @@ LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
 }
 POINT_STYLE, POINT_SIZE = 34, 3.0
 """A POINT is shown as a cross in a circle, so many mm wide."""
-COLOURS = {GREY: 8, ACCENT: 1}
+COLOURS = {GREY: 8, ACCENT: 1, CYAN_TINT: 4, GREY_TINT: 9}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
 DrawGroup = Callable[[Document, Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
@@ -172,7 +184,7 @@ def draw_group(document: Document, group: Group, prefix: str, left: float) -> No
 def layer(document: Document, group: Group, prefix: str, role: str) -> str:
     """The name of the layer of a group and role; it is made if it is not there yet."""
     # A name of a layer may hold letters, digits, hyphens and underscores in every program.
-    name = prefix + re.sub(r"[^\w-]+", "-", group.name) + f"-{role}"
+    name = prefix + re.sub(r"[^\w-]+", "-", f"{group.name}-{role}")
     if name not in document.layers:
         style = STYLES[role]
         colour, linetype = COLOURS.get(style.colour, 7), LINETYPES.get(style.pattern, ("CONTINUOUS",))[0]
@@ -197,9 +209,11 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> No
                 space.add_circle(centre, radius, dxfattribs=on)
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             space.add_arc(xy(centre + left), radius, math.degrees(start), math.degrees(end), dxfattribs=on)
-        case Heads(corners=corners):
-            for triangle in corners:
-                space.add_solid(_xy(triangle, left), dxfattribs=on)
+        case Polygons(corners=corners):
+            # The third and the fourth corner of a SOLID lie crosswise.
+            order = [0, 1, 3, 2] if corners.shape[1] == 4 else [0, 1, 2]
+            for polygon in corners[:, order]:
+                space.add_solid(_xy(polygon, left), dxfattribs=on)
         case Text():
             _add_text(space, entity, layer, left)
 

@@ -30,7 +30,19 @@ from matplotlib.transforms import Affine2D, Transform
 
 from graphcam.drafting.marks import Points
 from graphcam.sheets.fonts import Letters, letters_of, points_size, start_of
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Heads, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import (
+    ArcEntity,
+    Circles,
+    Curve,
+    Drawing,
+    Entity,
+    Group,
+    Page,
+    Polygons,
+    Stroke,
+    Strokes,
+    Text,
+)
 from graphcam.sheets.png import png_of
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES
@@ -228,9 +240,10 @@ def _path(entity: Entity) -> Path:
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             arc = Path.arc(math.degrees(start), math.degrees(end))
             return Path(np.asarray(arc.vertices) * radius + (centre.real, centre.imag), arc.codes)
-        case Heads(corners=corners):
+        case Polygons(corners=corners):
             closed = np.column_stack([corners, corners[:, :1]]).ravel()
-            return Path(_xy(closed), [Path.MOVETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY] * len(corners))
+            sides = [Path.LINETO] * (corners.shape[1] - 1)
+            return Path(_xy(closed), [Path.MOVETO, *sides, Path.CLOSEPOLY] * len(corners))
         case Text():
             raise AssertionError("a text has no path")
 

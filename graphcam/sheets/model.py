@@ -83,12 +83,17 @@ class ArcEntity:
 
 
 @dataclass(frozen=True, eq=False)
-class Heads:
-    """Filled triangles with corners (n, 3): the heads of arrows."""
+class Polygons:
+    """Filled triangles or quadrangles, all convex, with corners (n, 3) or (n, 4) in order."""
 
     corners: Points
     role: str
     source: Source | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Heads(Polygons):
+    """Filled triangles with corners (n, 3): the heads of arrows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +143,7 @@ class Text:
     source: Source | None = None
 
 
-Entity = Stroke | Strokes | Curve | Circles | ArcEntity | Heads | Text
+Entity = Stroke | Strokes | Curve | Circles | ArcEntity | Polygons | Text
 
 
 @dataclass(frozen=True)
@@ -171,7 +176,7 @@ def kind_of(entity: Entity) -> str:
     match entity:
         case Text():
             return "text"
-        case Heads():
+        case Polygons():
             return "filled"
         case Circles(opaque=True):
             return "opaque"
@@ -213,7 +218,7 @@ def moved(entity: Entity, by: complex) -> Entity:
             return replace(entity, centres=entity.centres + by)
         case ArcEntity():
             return replace(entity, centre=entity.centre + by)
-        case Heads():
+        case Polygons():
             return replace(entity, corners=entity.corners + by)
         case Text():
             return replace(entity, at=entity.at + by)

@@ -18,7 +18,7 @@ from graphcam.sheets.model import (
     Curve,
     Entity,
     Group,
-    Heads,
+    Polygons,
     Source,
     Stroke,
     Strokes,
@@ -124,8 +124,9 @@ def _path(entity: Entity, height: float) -> str:
             return _numbers(f"M%.2f %.2f{turns}" * len(centres), centres - radius, height)
         case ArcEntity():
             return _arc(entity, height)
-        case Heads(corners=corners):
-            return _numbers("M%.2f %.2fL%.2f %.2fL%.2f %.2fZ" * len(corners), corners, height)
+        case Polygons(corners=corners):
+            sides = "L%.2f %.2f" * (corners.shape[1] - 1)
+            return _numbers(f"M%.2f %.2f{sides}Z" * len(corners), corners, height)
         case Text():
             raise AssertionError("a text has no path")
 

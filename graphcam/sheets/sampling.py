@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent, start_of
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Polygons, Stroke, Strokes, Text
 
 Floats = NDArray[np.float64]
 FLATNESS = 0.02
@@ -35,8 +35,8 @@ def pieces(entity: Entity) -> tuple[Points, Points]:
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             bow = centre + _bow(radius, start, end)
             return bow[:-1], bow[1:]
-        case Heads(corners=triangles):
-            return triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+        case Polygons(corners=filled):
+            return filled.ravel(), np.roll(filled, -1, axis=1).ravel()
         case Text():
             box = corners(entity)
             return box, np.roll(box, -1)

@@ -1,5 +1,6 @@
 """How lines look: widths and types by ISO 128 and GOST 2.303, one style for each role."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphcam.drafting.marks import Role
@@ -39,6 +40,12 @@ _FINISHED: dict[str, Style] = {
     "table": Style(MEDIUM),
     "text": Style(THIN),
 }
+CYAN_TINT, GREY_TINT = "#a6e3fa", "#b3b3b3"
+"""Ink of what is drawn over by hand and photographed: tints of 35 % and 30 %, lighter than any pencil."""
+LIGHT: Mapping[str, str] = {"colour": "light colour", "grey": "light grey"}
+"""The role of what a printer of colours, or of black alone, prints so."""
+CODE = "printed code"
+"""The role of the cells of tags and codes."""
 FADED, CURRENT = "#9b9b9b", "#0b57a4"
 """Ink of a drawing in progress: what stood before the current step, and what the step adds."""
 FORMER_STEP, CURRENT_STEP, CURRENT_PART = "former", "current", "part"
@@ -65,6 +72,9 @@ def _bold(style: Style) -> Style:
 
 STYLES: dict[str, Style] = {
     **_FINISHED,
+    LIGHT["colour"]: Style(THIN, colour=CYAN_TINT),
+    LIGHT["grey"]: Style(THIN, colour=GREY_TINT),
+    CODE: Style(THIN),
     **{
         in_progress(role, FORMER_STEP): Style(min(style.width, MEDIUM), style.pattern, FADED)
         for role, style in _FINISHED.items()
@@ -72,4 +82,7 @@ STYLES: dict[str, Style] = {
     **{in_progress(role, CURRENT_STEP): _current(style) for role, style in _FINISHED.items()},
     **{in_progress(role, CURRENT_PART): _bold(_current(style)) for role, style in _FINISHED.items()},
 }
-"""The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress."""
+"""The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress.
+
+The names of the sheet's own roles have one word, those that only some sheets have two.
+"""

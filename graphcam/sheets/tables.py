@@ -56,15 +56,20 @@ class Block:
         return [moved(entity, by) for entity in (self.entities + self.answers if answered else self.entities)]
 
 
-def table_blocks(table: Table, height: float, room: float = math.inf, tall: float = math.inf) -> list[Block]:
+def table_blocks(
+    table: Table, height: float, room: float = math.inf, tall: float = math.inf, *, row_height: float = ROW
+) -> list[Block]:
     """A table in letters of ``height`` mm, in a block no wider than ``room`` and no higher than ``tall`` mm.
 
     Its cells are broken into lines where it takes that, then it is parted, first by its columns.
+
+    row_height : in heights of its letters
     """
-    parts = [part for columns in _by_columns(table, height, room) for part in _by_rows(columns, height, room, tall)]
+    letters = height, row_height
+    parts = [part for columns in _by_columns(table, height, room) for part in _by_rows(columns, letters, room, tall)]
     if len(parts) > 1:
         parts = [replace(part, title=f"{part.title}, {k}/{len(parts)}") for k, part in enumerate(parts, 1)]
-    return [table_block(part, height, room) for part in parts]
+    return [table_block(part, height, room, row_height=row_height) for part in parts]
 
 
 def _by_columns(table: Table, height: float, room: float) -> list[Table]:
@@ -81,13 +86,13 @@ def _by_columns(table: Table, height: float, room: float) -> list[Table]:
     return [_part(table, columns=first), *_by_columns(_part(table, columns=rest), height, room)]
 
 
-def _by_rows(table: Table, height: float, room: float, tall: float) -> list[Table]:
-    """The table, or parts of it that all have its header."""
-    count = len(table.rows)
-    if count < 2 or table_block(table, height, room).box.height <= tall:
+def _by_rows(table: Table, letters: tuple[float, float], room: float, tall: float) -> list[Table]:
+    """The table, or parts of it that all have its header; ``letters`` are their height and that of a row."""
+    count, (height, row_height) = len(table.rows), letters
+    if count < 2 or table_block(table, height, room, row_height=row_height).box.height <= tall:
         return [table]
     halves = range((count + 1) // 2), range((count + 1) // 2, count)
-    return [part for rows in halves for part in _by_rows(_part(table, rows=rows), height, room, tall)]
+    return [part for rows in halves for part in _by_rows(_part(table, rows=rows), letters, room, tall)]
 
 
 def _part(table: Table, columns: Sequence[int] | None = None, rows: Sequence[int] | None = None) -> Table:

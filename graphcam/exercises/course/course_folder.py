@@ -17,6 +17,8 @@ STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
 SUBMITTED = "submitted"
 """Where nbgrader collects: a folder for every student, and in it one for every assignment."""
+PRINTED = "printed"
+"""In the teacher's folder, what a reader of photographs must know of the printed pages of every worksheet."""
 COURSE = "course.json"
 """In the teacher's folder, what the course is about."""
 KEPT = "certificates"
@@ -123,6 +125,10 @@ class AnswerKeys:
     def hand(self) -> str:
         """The hand that the course is noted to be made for; empty where it is the exercise's."""
         return str(self.course().get("hand", ""))
+
+    def paper(self) -> str:
+        """The paper that the worksheets are printed on to be photographed; empty where they are not made for it."""
+        return str(self.course().get("paper", ""))
 
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""

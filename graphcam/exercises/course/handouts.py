@@ -1,6 +1,6 @@
 """What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import nbformat
@@ -11,7 +11,7 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.ink import Step
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
-from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, views_of
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -68,10 +68,14 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
         (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
     ]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
+    return _composed(variant, student, steps, [answer_table(exercise)], [instructions(variant)])
+
+
+def answer_table(exercise: Exercise) -> Table:
+    """The table for the answers, to be filled in."""
     blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
     rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
-    table = Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
-    return _composed(variant, student, steps, [table], [instructions(variant)])
+    return Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
 
 
 def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Drawing:
@@ -111,8 +115,8 @@ def origins(variant: Variant) -> dict[str, str]:
     {'ORIGIN': 'profile'}
     """
     chain = board_chain(variant.task)
-    of = {asked.layer: asked.construction for asked in variant.exercise.answers if asked.kind != "number"}
-    views = {layer: {step.view.name for step in construction_of(chain, name).steps()} for layer, name in of.items()}
+    drawn = [asked for asked in variant.exercise.answers if asked.kind != "number"]
+    views = {asked.layer: views_of(chain, asked) for asked in drawn}
     if len(set().union(*views.values())) == 1:
         return {ORIGIN.upper(): next(iter(views.values())).pop()}
     # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
@@ -129,7 +133,9 @@ def _composed(
     profile = {PROFILE.name: mu_l}
     steps = [(name, replace(step, view=replace(step.view, mu_l=profile.get(step.view.name)))) for name, step in steps]
     block = title_block(title, tell)
-    return compose(steps, tables, block, task.drawing.format, task.drawing.frame, notes, tell=tell)
+    # A worksheet that is photographed has a larger profile than a finished sheet of its format.
+    paper = "A1" if variant.exercise.paper else task.drawing.format
+    return compose(steps, tables, block, paper, task.drawing.frame, notes, tell=tell)
 
 
 def _how(asked: Asked) -> Caption:
@@ -148,13 +154,24 @@ def _how(asked: Asked) -> Caption:
     return say("(in {unit}, {decimals}.)", unit=asked.unit_said, decimals=decimals)
 
 
-def write_handouts(variant: Variant, student: Student, folder: Path) -> None:
-    """Write all that the student gets into a folder."""
+@dataclass(frozen=True)
+class Sheets:
+    """The sheets of a student's worksheet: as they are printed, and as one draws on them in CAD."""
+
+    printed: Drawing
+    in_cad: Drawing
+
+
+def write_handouts(variant: Variant, student: Student, folder: Path, marked: Sheets | None = None) -> None:
+    """Write all that the student gets into a folder.
+
+    marked : the worksheet where it is made to be photographed
+    """
     from graphcam.sheets.dxf_renderer import write_dxf
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
-    sheet = worksheet(variant, student)
-    write_pdf(sheet, folder / "worksheet.pdf")
+    sheet = marked.in_cad if marked else worksheet(variant, student)
+    write_pdf(marked.printed if marked else sheet, folder / "worksheet.pdf")
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
     files = {TOML: answer_file(variant.exercise), NOTEBOOK: nbformat.writes(notebook(variant))}

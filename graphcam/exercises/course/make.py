@@ -1,13 +1,18 @@
 """Making an exercise for a course: the students' handouts in one folder, the teacher's in another."""
 
 import csv
+import importlib
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import get_args
 
-from graphcam.exercises.course.course_folder import ROSTER, STUDENTS, TEACHER, AnswerKeys, read_secret
-from graphcam.exercises.course.handouts import key_rows, key_sheet, write_handouts
+from graphcam.errors import installed
+from graphcam.exercises.course.course_folder import PRINTED, ROSTER, STUDENTS, TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.handouts import Sheets, key_rows, key_sheet, write_handouts
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
 from graphcam.exercises.definition.exercise import Exercise
@@ -17,8 +22,25 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
+from graphcam.photo.printed import Ink
 from graphcam.tasks.sheet_tables import one_of
 from graphcam.workers import executor_of, in_order
+
+UNMARKED = "unmarked"
+"""What asks for worksheets that are not made to be photographed."""
+
+
+def usual_paper(name: str) -> str:
+    """The paper of a new course's worksheets where nobody chooses: A3, if the exercise is made for it, with marks.
+
+    >>> usual_paper("inversion-arm"), usual_paper("integration")
+    ('A3', '')
+
+    Raises
+    ------
+    GraphcamError : there is no such exercise
+    """
+    return "A3" if "A3" in find_exercise(name).papers else ""
 
 
 def make(
@@ -29,6 +51,8 @@ def make(
     *,
     language: str = "en",
     hand: str = "",
+    paper: str = "",
+    ink: Ink = "colour",
     workers: int = 1,
     cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
@@ -37,6 +61,8 @@ def make(
 
     language : of all handouts, and noted for the feedback
     hand : of the students, by its name, and noted too; else as the exercise says
+    paper : "A1", "A3", "A4" or "A3-tiles", for worksheets that are photographed; else as the task says, without tags
+    ink : of what is given on these: "colour", or "grey" for a printer of black alone
     workers, cluster : processes here, or the address of a dask scheduler, whose machines share no files with this one
 
     Raises
@@ -45,7 +71,13 @@ def make(
     OSError : no scheduler answers at the address
     """
     one_of("language", language, languages())
-    exercise, students, secret = find_exercise(name, language, hand), read_roster(roster), read_secret(secret_file)
+    one_of("print", ink, get_args(Ink))
+    if paper:
+        # At once, and not in a worker.
+        with installed("--paper", "segno", "photo"):
+            importlib.import_module("graphcam.sheets.qr")
+    exercise = find_exercise(name, language, hand, paper)
+    students, secret = read_roster(roster), read_secret(secret_file)
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
@@ -54,7 +86,9 @@ def make(
         answer_keys: list[AnswerKey] = []
         variants = course_variants(exercise, (student.id for student in students), secret, executor)
         jobs = zip(students, variants, strict=True)
-        for text, files in in_order(executor, papers, jobs):
+        for text, files in in_order(
+            executor, partial(papers, marks=Marks(secret, paper, ink) if paper else None), jobs
+        ):
             answer_keys.append(AnswerKey.from_json(text))
             for name_in_draft, data in files.items():
                 path = draft / name_in_draft
@@ -62,14 +96,24 @@ def make(
                 path.write_bytes(data)
             step(len(answer_keys), len(students))
         kept = AnswerKeys(draft / TEACHER)
-        kept.keep_course(exercise_path(name), secret, version=exercise.version, language=language, hand=hand)
+        said = {"version": exercise.version, "language": language, "hand": hand}
+        kept.keep_course(exercise_path(name), secret, **said, **({"paper": paper, "print": ink} if paper else {}))
         # Who hands in is told by it, whatever a learning system calls the folders.
         (draft / TEACHER / ROSTER).write_bytes(Path(roster).read_bytes())
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
     return len(students)
 
 
-def papers(job: tuple[Student, tuple[Variant, AnswerKey]]) -> tuple[str, dict[str, bytes]]:
+@dataclass(frozen=True)
+class Marks:
+    """What worksheets need that are photographed: the secret by which their codes are signed, the paper and the ink."""
+
+    secret: bytes
+    paper: str
+    ink: Ink
+
+
+def papers(job: tuple[Student, tuple[Variant, AnswerKey]], marks: Marks | None = None) -> tuple[str, dict[str, bytes]]:
     """One student's answer key as text, and the bytes of all files about the student by their paths in the course."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
@@ -80,11 +124,23 @@ def papers(job: tuple[Student, tuple[Variant, AnswerKey]]) -> tuple[str, dict[st
         theirs, key_sheets = place / STUDENTS / name, place / TEACHER / "keys"
         for folder in (theirs, key_sheets):
             folder.mkdir(parents=True)
-        write_handouts(variant, student, theirs)
+        write_handouts(variant, student, theirs, _marked(variant, student, marks, place) if marks else None)
         write_pdf(key_sheet(variant, student, answer_key), key_sheets / f"{name}.pdf")
         AnswerKeys(place / TEACHER).keep(student.id, text)
         files = sorted(path for path in place.rglob("*") if path.is_file())
         return text, {path.relative_to(place).as_posix(): path.read_bytes() for path in files}
+
+
+def _marked(variant: Variant, student: Student, marks: Marks, place: Path) -> Sheets:
+    """The worksheet to be photographed; what a reader must know of its pages is kept for the teacher."""
+    from graphcam.exercises.course.marked_worksheet import marked_sheets
+
+    sheets, pages = marked_sheets(variant, student, marks.secret, marks.paper, marks.ink)
+    folder = place / TEACHER / PRINTED
+    folder.mkdir()
+    for number, page in enumerate(pages, 1):
+        (folder / f"{folder_name(student.id)}-{number}.json").write_text(page.to_json(), encoding="utf-8")
+    return sheets
 
 
 def _write_keys(path: Path, exercise: Exercise, answer_keys: list[AnswerKey]) -> None:

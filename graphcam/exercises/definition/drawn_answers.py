@@ -15,6 +15,7 @@ from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
 from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.marked_scale import MarkedDrawing, on_marked_paper
 from graphcam.given.stations import Stations
 from graphcam.tasks.task import Task
 
@@ -32,7 +33,10 @@ def board_chain(task: Task, pencil: Pencil | None = None) -> Chain:
     # Marking needs the catalogue of mistakes, which redraw, but draws nothing itself.
     from graphcam.solving.task_board import board_of
 
-    return Chain(board_of(task), pencil or Pencil())
+    board = board_of(task)
+    if isinstance(task.drawing, MarkedDrawing):
+        board = on_marked_paper(board, task.drawing)
+    return Chain(board, pencil or Pencil())
 
 
 def construction_of(chain: Chain, name: str) -> Construction:
@@ -45,6 +49,13 @@ def construction_of(chain: Chain, name: str) -> Construction:
     if name == "differentiation":
         return chain.differentiation
     return _named(chain, name, "construction", "differentiation")
+
+
+def views_of(chain: Chain, asked: Asked) -> set[str]:
+    """The views in which an answer may be drawn: the one that it names, or those of its construction."""
+    if asked.place:
+        return {asked.place}
+    return {step.view.name for step in construction_of(chain, asked.construction).steps()}
 
 
 def ask(chain: Chain, asked: Asked) -> NDArray[Any]:

@@ -10,6 +10,7 @@ from graphcam.drafting.marks import Points
 from graphcam.drafting.units import UNITS
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition.hands import HandTable
+from graphcam.exercises.definition.marked_formats import PAPERS
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.given.ranges import positive
 from graphcam.language import ENGLISH, language, languages
@@ -19,6 +20,7 @@ from graphcam.words import Tell, Words
 Kind = Literal["number", "points", "curve"]
 Of = Literal["value", "paper", "scale"]
 Diagram = Literal["acceleration", "velocity", "displacement"]
+Drawn = Literal["", "curve", "cross", "circle", "crossing", "length"]
 Value = float | str
 """A parameter's value: a number, or a word such as a law's name."""
 STEP_DIGITS = 9
@@ -84,6 +86,10 @@ class Asked:
     marks : for this answer
     kind : a "number", plotted "points", or a "curve"; points and curves are in mm of paper
     layer : of a DXF file, for points and curves
+    place : the view of the worksheet in which it is drawn and read off a photograph; by default that of its
+        construction, if this has but one
+    mark : how it is drawn there: a "curve", points as a "cross", as a "circle" or as the "crossing" of two lines, or
+        the "length" between two marked points; by default a curve is a curve, and points are crosses
     """
 
     name: str
@@ -99,6 +105,8 @@ class Asked:
     marks: float = 1.0
     kind: Kind = "number"
     layer: str = ""
+    place: str = ""
+    mark: Drawn = ""
 
     def __post_init__(self) -> None:
         positive("marks", self.marks, "")
@@ -110,11 +118,32 @@ class Asked:
             raise DesignError("points", self.points, f"given with a layer where a {self.kind} is asked")
         if self.layer and not re.fullmatch(r"[\w-]+", self.layer):
             raise DesignError("layer", self.layer, "of letters, digits, hyphens and underscores")
+        if self.mark not in (marks := MARKS[self.kind if self.kind != "number" or not self.points else "place"]):
+            said = ", ".join(mark for mark in marks if mark)
+            raise DesignError("mark", self.mark, f"one of {said} for this answer", "leave it out for the usual one")
+        if self.mark and self.kind == "number" and not self.place:
+            raise DesignError("place", self.place, "given where a number has a mark", "name the view it is drawn in")
+
+    @property
+    def drawn_as(self) -> Drawn:
+        """How it is drawn on the worksheet; empty for what is written down."""
+        return self.mark or USUAL_MARKS[self.kind]
 
     @property
     def unit_said(self) -> Words:
         """The unit as a language writes it; one that only this exercise has stays as its file writes it."""
         return UNITS.get(self.unit, self.unit)
+
+
+MARKS: Mapping[str, tuple[str, ...]] = {
+    "number": ("", "length"),
+    "place": ("", "cross", "circle", "crossing"),
+    "points": ("", "cross", "circle", "crossing"),
+    "curve": ("", "curve"),
+}
+"""How an answer may be drawn, by its kind; the "place" is a coordinate of a point."""
+USUAL_MARKS: Mapping[Kind, Drawn] = {"number": "", "points": "cross", "curve": "curve"}
+"""How one is drawn where the file does not say."""
 
 
 @dataclass(frozen=True)
@@ -135,6 +164,8 @@ class Exercise:
     axes, sheet : what the student's worksheet shows: empty axes of diagrams over the cam angle, and so many steps of
         each construction, which are then given
     hand : the students for whom the tolerances are made, the table ``[hand]``
+    papers : for which worksheets can be made that are photographed: "A1", "A3", "A4"; "A3" takes two sheets of A4 too
+    paper : the one that this is for, whose scales it has; empty for that of its task and a worksheet without tags
     careful : part of those who draw everything right who may lose any point
     policy : what answers that are not right earn, the table ``[marks]``
     """
@@ -152,14 +183,18 @@ class Exercise:
     careful: float = 0.03
     # Its table in the file has a name that is taken here.
     policy: MarksPolicy = field(default_factory=MarksPolicy, metadata={"alias": "marks"})
+    papers: tuple[str, ...] = ()
     version: int = 1
     name: str = ""
+    paper: str = ""
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
         one_of("language", self.language, languages())
         if not self.answers:
             raise DesignError("answers", "empty", "a list of one or more")
+        for paper in self.papers:
+            one_of("papers", paper, PAPERS)
         names = [asked.name for asked in self.answers]
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:

@@ -6,18 +6,22 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError, TaskError, nearest
-from graphcam.exercises.definition.drawn_answers import ask, board_chain
+from graphcam.exercises.definition.blank_axes import empty_axes
+from graphcam.exercises.definition.drawn_answers import ask, board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
 from graphcam.exercises.definition.hands import HandTable
+from graphcam.exercises.definition.marked_formats import PAPERS, TILES, format_of, orientation_of
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
+from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task_file import Classes, Unquoted, checked, other_file, parse_toml, read_content
 
 HOW_TO = "see exercises/README.md"
-NO_KEYS = {"name", "language"}
+NO_KEYS = {"name", "language", "paper"}
 """What an exercise has and its file does not say."""
 
 
@@ -30,18 +34,49 @@ def library() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
 
 
-def find_exercise(name: str, language: str = ENGLISH.name, hand: str = "") -> Exercise:
+def find_exercise(name: str, language: str = ENGLISH.name, hand: str = "", paper: str = "") -> Exercise:
     """An exercise by its name in the library, or by the path of its file; its texts in a language.
 
     hand : another one than the file names, for whose students the tolerances are made; see :data:`hands.HANDS`
+    paper : "A1", "A3", "A4" or "A3-tiles", for worksheets that are photographed, instead of the format of the task
 
     Raises
     ------
     TaskError : there is none of that name, or its file is wrong
-    DesignError : there is no such hand
+    DesignError : there is no such hand, or the exercise is not made for the paper
     """
     exercise = load_exercise(exercise_path(name), language)
-    return dataclasses.replace(exercise, hand=dataclasses.replace(exercise.hand, name=hand)) if hand else exercise
+    if hand:
+        exercise = dataclasses.replace(exercise, hand=dataclasses.replace(exercise.hand, name=hand))
+    return on_paper(exercise, paper) if paper else exercise
+
+
+CHOSEN_FOR_A_FORMAT = ("ordinate", "poles")
+"""Keys of a task's ``[drawing]`` that belong to one size of sheet."""
+
+
+def on_paper(exercise: Exercise, paper: str) -> Exercise:
+    """An exercise for worksheets that are photographed, drawn at the scales of that paper.
+
+    Ordinate and poles are chosen anew: those that the file gives were chosen for its own format.
+
+    >>> on_paper(find_exercise("inversion-arm"), "A3-tiles").task["drawing"]
+    {'format': 'A3', 'divisions': 12, 'orientation': 'landscape'}
+
+    Raises
+    ------
+    DesignError : it is not made for the paper
+    """
+    format_ = format_of(paper)
+    if format_ not in exercise.papers or paper not in (*PAPERS, TILES):
+        made_for = [*exercise.papers, *([TILES] if "A3" in exercise.papers else [])]
+        none = "left out: no paper of this exercise is made to be photographed"
+        raise DesignError("paper", paper, f"one of {', '.join(made_for)}" if made_for else none)
+    drawing = dict(exercise.task.get("drawing", {}))
+    sheet = {"format": format_, "orientation": orientation_of(paper)}
+    if format_ != drawing.get("format", SheetTable.format) or "orientation" in drawing:
+        drawing = {key: value for key, value in drawing.items() if key not in CHOSEN_FOR_A_FORMAT}
+    return dataclasses.replace(exercise, paper=paper, task={**exercise.task, "drawing": {**drawing, **sheet}})
 
 
 def exercise_path(name: str) -> Path:
@@ -108,12 +143,24 @@ def _check(path: str, exercise: Exercise) -> None:
             raise TaskError(path, "misconceptions", name, error.limit, error.remedy) from None
     task = fill_in(exercise, {name: parameter.values[0] for name, parameter in exercise.parameters.items()}, path)
     chain = board_chain(task)
+    shown = worksheet_views(exercise, chain)
     for k, asked in enumerate(exercise.answers):
         try:
             ask(chain, asked)
+            if asked.place and asked.place not in shown:
+                limit = f"a view of the worksheet: {', '.join(shown) or 'none is shown'}"
+                raise DesignError("place", asked.place, limit, nearest(asked.place, shown) if shown else "")
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
             raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
+
+
+def worksheet_views(exercise: Exercise, chain: Chain) -> list[str]:
+    """The names of the views on the worksheet, those of empty axes first."""
+    shown = [empty_axes(exercise, chain, name).view.name for name in exercise.axes]
+    for name, count in exercise.sheet.items():
+        shown += [step.view.name for step in construction_of(chain, name).steps()[:count]]
+    return list(dict.fromkeys(shown))
 
 
 TEXTS = ("title", "text")

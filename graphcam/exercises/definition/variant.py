@@ -14,6 +14,7 @@ from graphcam.constructions.axes import turning
 from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.errors import TaskError, nearest
 from graphcam.exercises.definition.exercise import Exercise, Value
+from graphcam.exercises.definition.marked_scale import MarkedDrawing
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_of
 from graphcam.words import Tell, Words, say
@@ -36,7 +37,8 @@ def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "")
     phases = table.get("motion", {}).get("phases", [])
     taken = sum(phase["angle"] for phase in phases if isinstance(phase.get("angle"), int | float))
     task = task_of(path, _filled(table, {REST: 360 - taken}, path))
-    return replace(task, drawing=replace(task.drawing, language=exercise.language))
+    drawing = replace(task.drawing, language=exercise.language)
+    return replace(task, drawing=MarkedDrawing.of(drawing) if exercise.paper else drawing)
 
 
 def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> str:

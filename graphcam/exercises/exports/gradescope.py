@@ -111,7 +111,7 @@ def main(root: Path) -> None:
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     email = str(metadata["users"][0]["email"])
     kept = AnswerKeys(source / TEACHER)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand())
+    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     student = kept.course().get("emails", {}).get(_plain(email))
     if student is None:
         found = _nothing(exercise, email)

@@ -162,7 +162,7 @@ def write_links(folder: Path, secret_file: Path, url: str, *, checks: bool = Fal
     students, kept = AnswerKeys.of(folder)
     secret = read_secret(secret_file)
     kept.check_secret(secret, secret_file)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand())
+    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     written = 0
     for student in kept.students():
         key = AnswerKey.from_json(kept.find(student.id))

@@ -25,6 +25,7 @@ from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
 from graphcam.exercises.course.hidden_names import hidden_names
 from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
 from graphcam.exercises.course.packed import unpacked
+from graphcam.exercises.course.photo_reports import with_photo_notes
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -216,6 +217,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
             check_gradebook(course.gradebook)
     with unpacked(folder) as (submissions, unsafe):
         hand_ins, refused = hand_ins_in(submissions, kept, course.roster)
+        hand_ins = with_photo_notes(hand_ins, submissions)
         return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], step)
 
 
@@ -247,7 +249,8 @@ def _graded(
         files = write_reports(course.out, exercise, records, answer_keys, notes)
         if course.feedback is not None:
             store.note_pages(course.feedback)
-            write_feedback(course.feedback, exercise, records, answer_keys, names, right=course.show_right)
+            folders = {one.student: one.path for one in hand_ins}
+            write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
         told = [f"not graded: {one.place}: {one.why}" for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, records, kept.folder / ENTERED)
@@ -309,7 +312,7 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     noted = kept.exercise()
     if not noted and not course.exercise:
         raise TaskError(str(course.folder), "the exercise", "not noted there", "known", "name it with --exercise")
-    exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand())
+    exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand(), kept.paper())
     if noted and exercise.name != Path(noted).stem:
         made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
         raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")

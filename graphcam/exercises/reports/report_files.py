@@ -4,9 +4,11 @@ import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.course.photo_reports import photo_pictures
 from graphcam.exercises.course.regrade_requests import RegradeRequest
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import table
@@ -45,6 +47,7 @@ class GroupNotes:
 
 IDS = ShownNames()
 """The students go by their ids."""
+NO_FOLDERS: Mapping[str, Path] = MappingProxyType({})
 NOTHING_NOTED = GroupNotes()
 
 
@@ -125,11 +128,13 @@ def write_feedback(
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
     names: ShownNames = IDS,
+    folders: Mapping[str, Path] = NO_FOLDERS,
     *,
     right: bool = False,
 ) -> None:
     """A page for every student, under the student's id or hidden name as a file's name.
 
+    folders : of the hand-ins by student; those that were read off photographs hold pictures
     right : whether the pages show what would have been right
 
     Raises
@@ -139,7 +144,10 @@ def write_feedback(
     with whole_folder(folder) as draft:
         for record in records:
             name, answer_key = names.of(record["student"]), answer_keys.get(record["student"])
-            text = student_page(exercise, {**record, "student": name}, answer_key, right=right)
+            place = folders.get(record["student"])
+            photographs = photo_pictures(place, right=right) if place is not None else []
+            shown = {**record, "student": name}
+            text = student_page(exercise, shown, answer_key, right=right, photographs=photographs)
             (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8")
 
 

@@ -1,5 +1,6 @@
 """The page a student gets: what was right, where to look again, the own curve; the key only where that is asked for."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,12 +43,18 @@ class AnswerRow:
 
 
 def student_page(
-    exercise: Exercise, record: dict[str, Any], answer_key: AnswerKey | None, *, right: bool = False
+    exercise: Exercise,
+    record: dict[str, Any],
+    answer_key: AnswerKey | None,
+    *,
+    right: bool = False,
+    photographs: Sequence[str] = (),
 ) -> str:
     """The feedback on one record as HTML.
 
     answer_key : tells where on the student's own curve it is farthest off
     right : whether what would have been right is shown; without it nothing of the key is
+    photographs : addresses of pictures that answers were read off, with what is right drawn in only if that is shown
     """
     marked = list(zip(exercise.answers, record["answers"], strict=True))
     shown = answer_key if right else None
@@ -73,6 +80,8 @@ def student_page(
         rows=rows,
         remarks=_remarks(record),
         pictures=pictures,
+        photographs=photographs,
+        told=right,
         step=first_step_off(exercise, record, right=shown is not None),
     )
 

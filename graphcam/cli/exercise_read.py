@@ -1,0 +1,56 @@
+"""``graphcam exercise read``: photographs of worksheets become answers that can be graded."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from typer import Argument, Option
+
+from graphcam.cli.shared import named, one_message, progress_bar
+
+
+def read(
+    photographs: Annotated[
+        list[Path] | None,
+        Argument(parser=named, metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."),
+    ] = None,
+    *,
+    course: Annotated[Path, Option(parser=named, metavar="DIR", help="The course, as 'exercise make' wrote it.")],
+    secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
+    out: Annotated[
+        Path | None, Option(parser=named, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
+    ] = None,
+    review: Annotated[
+        Path | None, Option(parser=named, metavar="FILE.html", help="Write the page on which you check and correct.")
+    ] = None,
+    corrections: Annotated[
+        Path | None, Option(parser=named, metavar="FILE", help="What that page exported; it is kept for later runs.")
+    ] = None,
+    workers: Annotated[
+        int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
+    ] = os.cpu_count() or 1,
+) -> None:
+    """Read photographs of the worksheets of a course, whatever the files are called; then grade DIR/photos.
+
+    A photograph is read once: an interrupted run goes on where it was, and later photographs are added.  Without any
+    photograph the corrections alone are taken in.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise read telephone/ --course week-5 --secret-file secret --review review.html
+
+    graphcam exercise read --course week-5 --secret-file secret --corrections photo-corrections.json
+
+    graphcam exercise grade week-5/photos --secret-file secret --out grades.csv --feedback pages
+    """
+    from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
+
+    with one_message(), progress_bar("photographs") as step:
+        order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
+        lines = list(summary(read_course(order, step)))
+    for line in lines:
+        # A name may hold what is no line, and what a terminal obeys.
+        typer.echo(line if line.isprintable() else ascii(line))

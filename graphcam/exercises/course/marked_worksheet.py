@@ -1,0 +1,259 @@
+"""A worksheet to be drawn on in pencil and photographed: light givens, room for all that is drawn, marks, and its code.
+
+Ordinary sheets are laid out by :mod:`graphcam.sheets.layout`.  Here nothing may depend on what a student gets: every
+view has its room, and every page the same places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from graphcam.errors import DesignError
+from graphcam.exercises.course.handouts import Sheets, answer_table, instructions
+from graphcam.exercises.course.marked_views import MarkedView, marked_views
+from graphcam.exercises.course.page_parts import (
+    TextColumn,
+    bar_captions,
+    captions,
+    code_group,
+    code_side,
+    mark_group,
+    paragraphs,
+    standing,
+)
+from graphcam.exercises.course.printed_lines import black_boxes, polylines
+from graphcam.exercises.course.roster import Student
+from graphcam.exercises.course.sheet_code import SheetCode
+from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.variant import Variant
+from graphcam.photo.printed import Ink, PrintedPage
+from graphcam.sheets.box import Box, around_all
+from graphcam.sheets.expand import Placement, expand
+from graphcam.sheets.formats import Format, Lettering
+from graphcam.sheets.labels import lettered
+from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH, TITLE, MarkedPaper
+from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
+from graphcam.sheets.page_tiles import in_tiles
+from graphcam.sheets.styles import LIGHT
+from graphcam.sheets.tables import Block, table_blocks
+from graphcam.words import Caption, say
+
+BETWEEN = 3.0
+"""Between views, and between blocks of text, mm."""
+FROM_TAGS = 1.5
+"""Between the white about a tag and a line beside it, mm."""
+BESIDE = 5.0
+"""Between a view and the text beside it, mm."""
+ROW = 2.8
+"""Height of the rows of the answers, in heights of the letters: wide enough for handwriting."""
+HOW = say(
+    "Draw in pencil. Write down what each bar measures on your print, to half a millimetre. Draw nothing on the black "
+    "squares and the code. Photograph each page from above, with all of its edges."
+)
+
+TAPE = say("First lay the two halves edge to edge and tape them together from behind.")
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedView:
+    """A view with its origin on its page."""
+
+    view: MarkedView
+    origin: complex
+
+    @property
+    def room(self) -> Box:
+        """Its room on the page."""
+        return self.view.room.moved(self.origin)
+
+    @property
+    def box(self) -> Box:
+        """Its room with that for its titles."""
+        room = self.room
+        if self.view.turn:
+            return Box(room.left - TITLE, room.bottom, room.right + TITLE, room.top)
+        return Box(room.left, room.bottom, room.right, room.top + TITLE)
+
+
+def marked_worksheet(
+    variant: Variant, student: Student, secret: bytes, paper: str, ink: Ink
+) -> tuple[Drawing, list[PrintedPage]]:
+    """The pages to be printed, and what a reader of photographs must know of them.
+
+    paper : a name of ``MARKED_PAPERS``; of tiles two pages of the drawing print one page
+    variant : of an exercise for that paper
+
+    Raises
+    ------
+    DesignError : the worksheet shows a view for which no room is known, or the text is too long for a page
+    """
+    sheets, pages = marked_sheets(variant, student, secret, paper, ink)
+    return sheets.printed, pages
+
+
+def marked_sheets(
+    variant: Variant, student: Student, secret: bytes, paper: str, ink: Ink
+) -> tuple[Sheets, list[PrintedPage]]:
+    """The same, with the sheets as one draws on them in CAD, every page whole."""
+    whole, pages = _one_sheet_each(variant, student, secret, paper, ink)
+    seam = MARKED_PAPERS[paper].seam
+    return Sheets(whole if seam is None else in_tiles(whole, seam), whole), pages
+
+
+def _one_sheet_each(
+    variant: Variant, student: Student, secret: bytes, paper: str, ink: Ink
+) -> tuple[Drawing, list[PrintedPage]]:
+    marked, exercise = MARKED_PAPERS[paper], variant.exercise
+    views = marked_views(exercise, board_chain(variant.task), marked.square, exercise.tell)
+    pages = _placed(views, marked)
+    maker = _PageMaker(variant, student, secret, marked, ink)
+    # The text comes before the table, and where one finds no room the next must wait too.
+    blocks, drawn = maker.blocks(pages), list[tuple[list[PlacedView], list[Entity]]]()
+    for k, placed in enumerate(pages):
+        entities, blocks = maker.column(placed, k + 1).filled(blocks, BETWEEN)
+        drawn.append((placed, entities))
+    while blocks:
+        entities, left = maker.column([], len(drawn) + 1).filled(blocks, BETWEEN)
+        if len(left) == len(blocks):
+            limit, remedy = f"for which a page of {paper} has room", "shorten them, or take a larger paper"
+            raise DesignError("the text and the answers", "longer", limit, remedy)
+        blocks = left
+        drawn.append(([], entities))
+    made = [maker.page(placed, entities, k, len(drawn)) for k, (placed, entities) in enumerate(drawn, 1)]
+    return Drawing(exercise.title, tuple(page for page, _ in made)), [printed for _, printed in made]
+
+
+def _placed(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[PlacedView]]:
+    """The views on their pages, diagrams one under the other as long as there is room."""
+    stacks = list[list[MarkedView]]()
+    for view in views:
+        if view.turn and stacks and stacks[-1][0].turn and _height([*stacks[-1], view]) <= paper.free.height:
+            stacks[-1].append(view)
+        else:
+            stacks.append([view])
+    return [_stacked(stack, paper) for stack in stacks]
+
+
+def _height(stack: Sequence[MarkedView]) -> float:
+    """Of views one under the other, without a title above."""
+    return sum(view.room.height for view in stack) + BETWEEN * (len(stack) - 1)
+
+
+def _stacked(stack: Sequence[MarkedView], paper: MarkedPaper) -> list[PlacedView]:
+    """Views one under the other: a page that stands has its text above them, one that lies on their right."""
+    free, left = paper.free, paper.free.left + (TITLE if stack[0].turn else 0.0)
+    level = free.bottom + _height(stack) if paper.upright else free.top - (0.0 if stack[0].turn else TITLE)
+    placed: list[PlacedView] = []
+    for view in stack:
+        placed.append(PlacedView(view, complex(left - view.room.left, level - view.room.top)))
+        level -= view.room.height + BETWEEN
+    return placed
+
+
+@dataclass(frozen=True, eq=False)
+class _PageMaker:
+    variant: Variant
+    student: Student
+    secret: bytes
+    paper: MarkedPaper
+    ink: Ink
+
+    def code(self, page: int) -> str:
+        exercise = self.variant.exercise
+        said = SheetCode(exercise.name, exercise.version, self.student.id, self.variant.draw, page)
+        return said.text(self.secret)
+
+    def column(self, placed: Sequence[PlacedView], page: int) -> TextColumn:
+        """What the views leave of a page for text and code."""
+        free, side = self.paper.free, code_side(self.code(page))
+        free = Box(free.left, free.bottom, free.right - FROM_TAGS, free.top)
+        if not placed:
+            return TextColumn(free, side, upright=False)
+        views = around_all([each.box for each in placed])
+        if self.paper.upright:
+            return TextColumn(Box(free.left, views.top + BETWEEN, free.right, free.top), side, upright=False)
+        return TextColumn(Box(views.right + BESIDE, free.bottom, free.right, free.top), side, upright=True)
+
+    @property
+    def lettering(self) -> Lettering:
+        drawing = self.variant.task.drawing
+        return Format(drawing.format, drawing.frame, drawing.orientation).lettering
+
+    @property
+    def letters(self) -> float:
+        return self.lettering.label
+
+    def blocks(self, pages: Sequence[Sequence[PlacedView]]) -> list[Block]:
+        """The text, and the table of answers, as wide as the narrowest column."""
+        tell = self.variant.exercise.tell
+        rooms = [self.column(placed, k).room for k, placed in enumerate(pages, 1)]
+        narrow = min(room.width for room in rooms)
+        how = [tell(TAPE), tell(HOW)] if self.paper.seam is not None else [tell(HOW)]
+        text = paragraphs([instructions(self.variant), *how], self.letters, rooms[0].width)
+        table = answer_table(self.variant.exercise).told(tell)
+        tall = max(room.height for room in rooms)
+        return [text, *table_blocks(table, self.letters, narrow, tall, row_height=ROW)]
+
+    def page(
+        self, placed: Sequence[PlacedView], entities: list[Entity], page: int, pages: int
+    ) -> tuple[Page, PrintedPage]:
+        """A page of so many, and what a reader must know of it."""
+        paper, exercise, code = self.paper, self.variant.exercise, self.code(page)
+        column, who = self.column(placed, page), self.student.name or self.student.id
+        whose = [exercise.tell(said.where(who=who, page=page, pages=pages)) for said in self.whose]
+        texts = [*captions(paper, exercise.title, whose), *bar_captions(paper, exercise.tell)]
+        titles = [text for each in placed for text in self.titles(each)]
+        corners = [column.code_corner]
+        if paper.seam is not None:
+            # Either tile is photographed alone.
+            corners.append(complex(paper.strip + BAR_ROOM, paper.height - paper.strip - code_side(code)))
+        groups = [
+            mark_group(paper, LIGHT[self.ink]),
+            Group("captions", tuple(texts)),
+            code_group(code, corners),
+            *([Group("text", tuple(entities))] if entities else []),
+            *([Group("titles", tuple(titles))] if titles else []),
+        ]
+        black = black_boxes(groups)
+        givens = [self.givens(each) for each in placed]
+        named = [
+            Group(f"given-{each.view.name.replace(' ', '-')}", tuple(g)) for each, g in zip(placed, givens, strict=True)
+        ]
+        origins = {each.view.name: each.origin for each in placed}
+        frame = paper.box.grown(-paper.edge)
+        drawn = Page(paper.width, paper.height, frame, (*groups, *named), origins)
+        return drawn, PrintedPage(
+            *(code, paper.width, paper.height, paper.tags, paper.side, paper.bars, paper.patches, PATCH, self.ink),
+            givens=tuple(line for entities in givens for line in polylines(entities)),
+            black=tuple(black),
+            views={each.view.name: each.view.printed(each.origin) for each in placed},
+            seam=paper.seam,
+        )
+
+    @property
+    def whose(self) -> tuple[Caption, ...]:
+        """How a page says whose it is, or how either tile does."""
+        if self.paper.seam is None:
+            return (say("{who}, page {page} of {pages}"),)
+        return (
+            say("{who}, page {page} of {pages}, left half"),
+            say("{who}, page {page} of {pages}, right half"),
+        )
+
+    def titles(self, placed: PlacedView) -> list[Text]:
+        """What a view is called, outside its room."""
+        room, view = placed.room, placed.view
+        if not view.turn:
+            at = complex(room.left, room.top + TITLE / 4)
+            return [Text(at, view.title, self.letters)]
+        left = Box(room.left - TITLE, room.bottom, room.left, room.top)
+        right = Box(room.right, room.bottom, room.right + TITLE, room.top)
+        return [*standing(view.title, left, self.letters), *standing(view.end_title, right, self.letters)]
+
+    def givens(self, placed: PlacedView) -> list[Entity]:
+        """The light lines of a view, with their texts in its room."""
+        tell = self.variant.exercise.tell
+        drawn = expand(placed.view.marks, Placement(placed.origin), self.lettering, tell)
+        entities = lettered([drawn], [], placed.room)[0]
+        return [replace(entity, role=LIGHT[self.ink]) for entity in entities]

@@ -1,0 +1,24 @@
+"""The papers for worksheets that are made to be photographed."""
+
+PAPERS = ("A1", "A3", "A4")
+"""What an exercise may say that it is made for."""
+TILES = "A3-tiles"
+"""A3 on two sheets of A4, for who has no larger printer."""
+
+
+def format_of(paper: str) -> str:
+    """The format of a paper.
+
+    >>> format_of("A3-tiles"), format_of("A4")
+    ('A3', 'A4')
+    """
+    return paper.removesuffix("-tiles")
+
+
+def orientation_of(paper: str) -> str:
+    """How the paper lies: A4 stands, so that the diagrams have room one under the other.
+
+    >>> orientation_of("A4"), orientation_of("A3-tiles")
+    ('portrait', 'landscape')
+    """
+    return "portrait" if paper == "A4" else "landscape"

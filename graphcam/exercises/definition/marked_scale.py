@@ -1,0 +1,37 @@
+"""The scale of a profile on a worksheet that is photographed: its room there is larger than on other sheets."""
+
+from dataclasses import fields, replace
+
+from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.scale import standard_scale
+from graphcam.sheets.marked_paper import MARKED_PAPERS
+from graphcam.tasks.task import DrawingTable
+
+BEYOND = 10.0
+"""What the room of a profile has beyond the cam with its roller, mm."""
+
+
+class MarkedDrawing(DrawingTable):
+    """``[drawing]`` of a task whose worksheet is photographed."""
+
+    @staticmethod
+    def of(drawing: DrawingTable) -> "MarkedDrawing":
+        """The same table, of such a worksheet."""
+        return MarkedDrawing(**{field.name: getattr(drawing, field.name) for field in fields(drawing)})
+
+
+def on_marked_paper(board: Board, drawing: MarkedDrawing) -> Board:
+    """The board with the largest standard scale at which the cam with its roller finds room for every direction.
+
+    Nothing else stands about it there, as on other sheets the angles of the phases do.
+
+    Raises
+    ------
+    DesignError : sizes that the task leaves open cannot be found
+    """
+    chain = Chain(board)
+    reach = board.follower.reach(chain.prime_radius, chain.place, board.motion, max(chain.roller_radius, 0.0))
+    scale = standard_scale(2 * reach, MARKED_PAPERS[drawing.format].square - 2 * BEYOND, board.paper.ratios)
+    return replace(board, paper=replace(board.paper, held={**board.paper.held, PROFILE.name: scale.per_mm}))

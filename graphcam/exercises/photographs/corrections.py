@@ -1,0 +1,254 @@
+"""What a teacher corrects, types and confirms on the review page: kept apart from what was read, so that it lasts."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from graphcam.errors import TaskError
+from graphcam.exercises.definition.exercise import Exercise, Given
+from graphcam.exercises.photographs.read_photo import pairs
+from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.values import Points, number, points
+from graphcam.files import whole_file
+
+FORMAT = 1
+KEPT = "photo-corrections.json"
+"""In the teacher's folder, all corrections of the course."""
+LARGEST = 100_000_000
+"""Bytes of a file of corrections: a thousand students with a curve each fill a third of it."""
+STRETCH = (0.97, 1.03)
+"""A printer scales by less; a bar that differs more was measured from the wrong end."""
+FARTHEST = 2000.0
+"""mm from the view's origin: no paper is larger."""
+Verdict = Literal["corrected", "confirmed", "left out"]
+BY_REVIEW = "export the corrections from the review page again"
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """What the teacher says of one answer.
+
+    verdict : it has another value, it is right as it was read, or it does not count
+    value : of a corrected one: a number that was typed, or the points of a :class:`ReadAnswer`
+    photo : digest of the photograph that the teacher looked at; empty of a number that was typed
+    """
+
+    verdict: Verdict
+    value: Given | None = None
+    photo: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class StudentCorrections:
+    """What the teacher says of one student's sheets.
+
+    answers : by name
+    bars : by page, the measured lengths of the scale bars, across and up [mm]; None where one was not measured
+    reviewed : whether the teacher is done with this student
+    """
+
+    answers: Mapping[str, Correction] = field(default_factory=dict[str, Correction])
+    bars: Mapping[int, tuple[float | None, float | None]] = field(
+        default_factory=dict[int, tuple[float | None, float | None]]
+    )
+    reviewed: bool = False
+
+
+NONE = StudentCorrections()
+"""The teacher has said nothing yet."""
+Corrections = Mapping[str, StudentCorrections]
+"""By the student's id."""
+
+
+def kept_corrections(teacher: Path, exercise: Exercise, students: Collection[str]) -> Corrections:
+    """The corrections that are kept in the teacher's folder; empty where there are none.
+
+    Raises
+    ------
+    TaskError : they cannot be used any more
+    """
+    path = teacher / KEPT
+    return read_corrections(path, exercise, students) if path.exists() else {}
+
+
+def keep_corrections(teacher: Path, exercise: Exercise, corrections: Corrections) -> None:
+    """Keep corrections in the teacher's folder.
+
+    Raises
+    ------
+    OutputError : they cannot be written
+    """
+    with whole_file(teacher / KEPT) as draft:
+        draft.write_text(to_json(exercise, corrections) + "\n", encoding="utf-8")
+
+
+def to_json(exercise: Exercise, corrections: Corrections) -> str:
+    """As text."""
+    students = {student: student_said(one) for student, one in corrections.items()}
+    said = {"format": FORMAT, "exercise": exercise.name, "students": students}
+    return json.dumps(said, allow_nan=False)
+
+
+def student_said(one: StudentCorrections) -> dict[str, Any]:
+    """One student's corrections as JSON takes them."""
+    answers = {
+        name: {"verdict": each.verdict, "value": _value_said(each.value), "photo": each.photo}
+        for name, each in one.answers.items()
+    }
+    bars = {str(page): list(lengths) for page, lengths in one.bars.items()}
+    return {"answers": answers, "bars": bars, "reviewed": one.reviewed}
+
+
+def _value_said(value: Given | None) -> float | list[list[float]] | None:
+    return pairs(value) if isinstance(value, np.ndarray) else value
+
+
+def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) -> Corrections:
+    """The corrections in a file, as the review page exports them.
+
+    students : of the course
+
+    Raises
+    ------
+    TaskError : the file cannot be read, or says what cannot be; field, value, what is allowed and what to do
+    """
+    try:
+        text = read_regular(path, LARGEST).decode("utf-8")
+        said = json.loads(text)
+    except UnreadableError as error:
+        raise TaskError(str(path), "the file", str(error), "a file of corrections", "check the name") from None
+    except (ValueError, RecursionError):
+        raise TaskError(str(path), "the file", "no JSON", "a file of corrections", BY_REVIEW) from None
+    reader = _Reader(str(path), exercise)
+    table = reader.table("the file", said, {"format", "exercise", "students"})
+    reader.one_of("format", table["format"], (FORMAT,))
+    reader.one_of("exercise", table["exercise"], (exercise.name,))
+    listed = reader.table("students", table["students"])
+    for student in listed:
+        if student not in students:
+            raise TaskError(str(path), "students", student, "ids of this course", "use the corrections of this course")
+    return {student: reader.student(f"students.{student}", one) for student, one in listed.items()}
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Reads a file of corrections, strictly: whatever is not understood is said, with its place."""
+
+    path: str
+    exercise: Exercise
+
+    def wrong(self, where: str, value: object, allowed: str) -> TaskError:
+        """The error about a value."""
+        shown = value if isinstance(value, str | int | float | None) else f"a {type(value).__name__}"
+        return TaskError(self.path, where, str(shown)[:60], allowed, BY_REVIEW)
+
+    def table(self, where: str, said: Any, names: set[str] | None = None) -> dict[str, Any]:
+        """A table, with exactly these names if they are given."""
+        if not isinstance(said, dict):
+            raise self.wrong(where, said, "a table")
+        if names is not None and said.keys() != names:
+            raise self.wrong(where, ", ".join(map(str, said)), f"a table of {', '.join(sorted(names))}")
+        return said
+
+    def one_of(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
+        """One of some values, of the same type."""
+        if not any(type(said) is type(one) and said == one for one in allowed):
+            raise self.wrong(where, said, f"one of {', '.join(map(str, allowed))}")
+        return said
+
+    def student(self, where: str, said: Any) -> StudentCorrections:
+        """What is said of one student."""
+        table = self.table(where, said, {"answers", "bars", "reviewed"})
+        answers = self.table(f"{where}.answers", table["answers"])
+        bars = self.table(f"{where}.bars", table["bars"])
+        return StudentCorrections(
+            {name: self.answer(f"{where}.answers.{name}", name, one) for name, one in answers.items()},
+            dict(self.lengths(f"{where}.bars.{page}", page, one) for page, one in bars.items()),
+            self.one_of(f"{where}.reviewed", table["reviewed"], (True, False)),
+        )
+
+    def answer(self, where: str, name: str, said: Any) -> Correction:
+        """What is said of one answer."""
+        asked = next((one for one in self.exercise.answers if one.name == name), None)
+        if asked is None:
+            names = ", ".join(one.name for one in self.exercise.answers)
+            raise self.wrong(where, name, f"one of the answers {names}")
+        table = self.table(where, said, {"verdict", "value", "photo"})
+        # Nothing but a drawing is read, so nothing else can be right as it was read.
+        verdicts = ("corrected", "confirmed", "left out") if asked.drawn_as else ("corrected",)
+        verdict = self.one_of(f"{where}.verdict", table["verdict"], verdicts)
+        photo = table["photo"]
+        if not isinstance(photo, str) or len(photo) > 200:
+            raise self.wrong(f"{where}.photo", photo, "a digest")
+        if verdict != "corrected":
+            self.one_of(f"{where}.value", table["value"], (None,))
+            return Correction(verdict, None, photo)
+        try:
+            given: Given = points(name, table["value"]) if asked.drawn_as else number(name, table["value"])
+        except UnreadableError as error:
+            raise self.wrong(f"{where}.value", str(error), "as the answer is asked") from None
+        if isinstance(given, np.ndarray) and np.abs(given).max() > FARTHEST:
+            raise self.wrong(f"{where}.value", f"{np.abs(given).max():g} mm away", f"within {FARTHEST:g} mm")
+        return Correction(verdict, given, photo)
+
+    def lengths(self, where: str, page: str, said: Any) -> tuple[int, tuple[float | None, float | None]]:
+        """A page, and what its bars measure."""
+        if not (page.isascii() and page.isdecimal() and 0 < int(page[:4]) < 1000):
+            raise self.wrong(where, page, "the number of a page")
+        if not isinstance(said, list) or len(said) != 2:
+            raise self.wrong(where, said, "two lengths in mm, across and up")
+        across, up = (self.length(where, one) for one in said)
+        return int(page), (across, up)
+
+    def length(self, where: str, said: Any) -> float | None:
+        """A length in mm, if it was measured."""
+        if said is None:
+            return None
+        if isinstance(said, bool) or not isinstance(said, int | float) or not 0 < said <= FARTHEST:
+            raise self.wrong(where, said, f"a length in mm, at most {FARTHEST:g}")
+        return float(said)
+
+
+def stretch_of(
+    printed: tuple[float, float], measured: tuple[float | None, float | None], where: str
+) -> tuple[float, float]:
+    """How much longer the paper is than it should be, across and up; 1 where a bar was not measured.
+
+    printed, measured : lengths of the scale bars [mm]
+
+    Raises
+    ------
+    TaskError : a printer does not scale by so much, so the bar is to be measured again
+
+    >>> stretch_of((250.0, 180.0), (252.5, None), "Anna")
+    (1.01, 1.0)
+    """
+    found: list[float] = []
+    for length, said, way in zip(printed, measured, ("across", "up"), strict=True):
+        part = said / length if said is not None and length > 0 else 1.0
+        if not (math.isfinite(part) and STRETCH[0] <= part <= STRETCH[1]):
+            allowed = f"from {STRETCH[0] * length:.1f} to {STRETCH[1] * length:.1f} mm"
+            raise TaskError(where, f"the scale bar {way}", f"{said:g} mm", allowed, "measure it again")
+        found.append(part)
+    return found[0], found[1]
+
+
+def stretched(points: Points, stretch: tuple[float, float]) -> Points:
+    """Points on paper that is so much longer across and up.
+
+    >>> stretched(np.array([10 + 10j]), (1.01, 0.99)).tolist()
+    [(10.1+9.9j)]
+    """
+    return points.real * stretch[0] + 1j * points.imag * stretch[1]
+
+
+def with_changes(kept: Corrections, changes: Corrections) -> Corrections:
+    """The kept corrections, those of the students in the changes replaced."""
+    return {**kept, **changes}

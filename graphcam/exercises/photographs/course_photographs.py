@@ -1,0 +1,256 @@
+"""The photographs of a course: read, judged, written student by student, and listed; an interrupted run goes on."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+
+import graphcam
+from graphcam.errors import TaskError, installed
+from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.spreadsheet import table
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.photographs.corrections import (
+    NONE,
+    Corrections,
+    keep_corrections,
+    kept_corrections,
+    read_corrections,
+    with_changes,
+)
+from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
+from graphcam.exercises.photographs.read_photo import FORMAT, ReadPhoto
+from graphcam.exercises.photographs.review_page import review_page
+from graphcam.exercises.photographs.settling import SettledStudent, settled
+from graphcam.exercises.photographs.student_files import write_student
+from graphcam.exercises.photographs.whose import PrintedSheets
+from graphcam.files import OutputError, whole_file
+from graphcam.words import say
+from graphcam.workers import processes, results
+
+READINGS = "photos"
+"""In the folder of the course, what was read: 'exercise grade' takes it as it takes what was handed in."""
+TABLE = "report.csv"
+"""In the folder of the readings, a line for each photograph."""
+COLUMNS = (
+    *("photograph", "student", "page", "status", "marks_found", "marks_printed", "residual_px", "paper"),
+    *("answers_read", "least_share_seen", "why", "remedy"),
+)
+LIBRARIES = ("cv2", "zxingcpp", "pypdfium2", "pillow_heif", "PIL")
+"""That the extra ``photo`` brings, and reading needs."""
+Step = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class ReadingOrder:
+    """An order to read photographs.
+
+    photographs : files and folders of them; with none the corrections alone are taken in
+    course : the folder that 'exercise make' wrote
+    out : the folder of the readings; None for that in the course
+    review : the file for the review page;  corrections : a file that the review page exported
+    """
+
+    photographs: Sequence[Path]
+    course: Path
+    secret_file: Path
+    out: Path | None = None
+    review: Path | None = None
+    corrections: Path | None = None
+    workers: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class ReadCourse:
+    """What came of it.
+
+    folder : of the readings
+    photos : all that are known
+    students : who have photographs, in the order of the roster
+    """
+
+    folder: Path
+    photos: Sequence[ReadPhoto]
+    students: Sequence[SettledStudent]
+
+
+def read_course(order: ReadingOrder, step: Step = lambda done, total: None) -> ReadCourse:
+    """Read photographs and write what came of them.
+
+    step : hears how many files of how many are done
+
+    Raises
+    ------
+    GraphcamError : wrong input, or the folder cannot be written
+    """
+    with installed("exercise read", ", ".join(LIBRARIES), "photo"):
+        for library in LIBRARIES:
+            import_module(library)
+    kept = AnswerKeys(order.course / TEACHER)
+    exercise, sheets = _course(order, kept)
+    out = order.out or order.course / READINGS
+    _check_places(order, out)
+    corrections = kept_corrections(kept.folder, exercise, sheets.students)
+    if order.corrections is not None:
+        corrections = with_changes(corrections, read_corrections(order.corrections, exercise, sheets.students))
+    readings = KeptPhotographs(out, _basis(exercise, kept))
+    with readings.held():
+        refused = _read(order, exercise, sheets, readings, step)
+        photos = [*readings.all(), *refused]
+        students = _settled(exercise, sheets.students, photos, kept, corrections)
+        # Before anything is written, so that a bar that is measured wrongly changes nothing.
+        if order.corrections is not None:
+            keep_corrections(kept.folder, exercise, corrections)
+        for one in students:
+            write_student(out, exercise, one, _answer_key(kept, one.student), readings)
+        _write(out / TABLE, photo_table(photos, students, exercise))
+        if order.review is not None:
+            keys = ((one, _answer_key(kept, one.student)) for one in students)
+            _write(order.review, review_page(exercise, keys, readings, photos))
+    return ReadCourse(out, photos, students)
+
+
+def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedSheets]:
+    """What the course is about, and its sheets.
+
+    Raises
+    ------
+    TaskError : it is no course, its worksheets are not made to be photographed, or the secret is another one's
+    """
+    noted = kept.course()
+    if not noted:
+        wanted = f"a folder with {TEACHER}/{COURSE}"
+        raise TaskError(str(order.course), "the course", "not there", wanted, "name what 'exercise make' wrote")
+    if not (kept.folder / PRINTED).is_dir():
+        wanted, remedy = "made to be photographed", "make the course with --paper A3"
+        raise TaskError(str(order.course), "the worksheets", "without marks", wanted, remedy)
+    secret = read_secret(order.secret_file)
+    kept.check_secret(secret, order.secret_file)
+    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    students = [student.id for student in kept.students()]
+    return exercise, PrintedSheets(kept.folder, exercise.name, exercise.version, students, secret)
+
+
+def _check_places(order: ReadingOrder, out: Path) -> None:
+    """What must not first come out when all is read."""
+    if out.exists() and not out.is_dir():
+        raise OutputError(out, "it is a file", "name a folder for the readings")
+    if out.resolve() in ((order.course / TEACHER).resolve(), order.course.resolve()):
+        raise OutputError(out, "it holds the course itself", "name a folder of its own")
+    if order.review is not None and order.review.is_dir():
+        raise OutputError(order.review, "it is a folder", "name a file, review.html")
+    for path in order.photographs:
+        if not path.exists() and not path.is_symlink():
+            raise TaskError(str(path), "the photograph", "not there", "a file or a folder of them", "check the name")
+
+
+def _basis(exercise: Exercise, kept: AnswerKeys) -> str:
+    """Tells what photographs are read with: the program, what is asked for, and the course."""
+    drawn = [(asked.name, asked.kind, asked.place, asked.mark) for asked in exercise.answers]
+    said = repr((FORMAT, graphcam.__version__, exercise.name, exercise.version, drawn, kept.course()))
+    return hashlib.sha256(said.encode("utf-8", "backslashreplace")).hexdigest()[:16]
+
+
+def _read(
+    order: ReadingOrder, exercise: Exercise, sheets: PrintedSheets, readings: KeptPhotographs, step: Step
+) -> list[ReadPhoto]:
+    """Read what is not read yet; what cannot be opened at all is given back."""
+    if not order.photographs:
+        return []
+    from graphcam.exercises.photographs.photo_files import ReadingJob, files_in, halves_in, read_file, read_halves_of
+
+    files = list(files_in(order.photographs))
+    job = ReadingJob(exercise, sheets, readings)
+    refused: list[ReadPhoto] = []
+    with closing(processes(order.workers, read_file.__module__, fresh=True)) as pool:
+        # A photograph a time, since each takes seconds; one that kills its worker costs only itself.
+        for done, (file, found) in enumerate(results(pool, partial(read_file, job), files, batch=1), 1):
+            refused += found if found is not None else [_crashed(file.name, exercise)]
+            step(done, len(files))
+        # Of pages on two sheets both must be known first.
+        halves = halves_in(readings.all(), files, readings)
+        for both, found in results(pool, partial(read_halves_of, job), halves, batch=1):
+            refused += found if found is not None else [_crashed(both.name, exercise)]
+    return sorted(refused, key=lambda photo: photo.name)
+
+
+def _crashed(name: str, exercise: Exercise) -> ReadPhoto:
+    why, remedy = say("the reader broke down over it"), say("save it as JPEG anew, or photograph the sheet again")
+    return ReadPhoto(name, "", why=exercise.tell(why), remedy=exercise.tell(remedy))
+
+
+def _answer_key(kept: AnswerKeys, student: str) -> AnswerKey | None:
+    try:
+        return AnswerKey.from_json(kept.find(student))
+    except TaskError:
+        return None
+
+
+def _settled(
+    exercise: Exercise, roster: Sequence[str], photos: Iterable[ReadPhoto], kept: AnswerKeys, corrections: Corrections
+) -> list[SettledStudent]:
+    """What counts, of each student who has photographs or corrections."""
+    of: dict[str, list[ReadPhoto]] = {student: [] for student in roster}
+    for photo in photos:
+        if photo.student in of:
+            of[photo.student].append(photo)
+    return [
+        settled(exercise, student, own, _answer_key(kept, student), corrections.get(student, NONE))
+        for student, own in of.items()
+        if own or student in corrections
+    ]
+
+
+def photo_table(photos: Iterable[ReadPhoto], students: Sequence[SettledStudent], exercise: Exercise) -> str:
+    """A line for each photograph: whose it is, how well it is seen, what was read, and what to do."""
+    by_student = {one.student: one for one in students}
+    return table(COLUMNS, (_line(photo, by_student.get(photo.student), exercise) for photo in photos))
+
+
+def _line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) -> list[object]:
+    counts = student is not None and photo is student.pages.get(photo.page)
+    shares = [one.share for one in photo.answers.values()]
+    answers = [one for one in student.answers if one.page == photo.page] if student is not None and counts else []
+    open_ones = [one for one in answers if one.status == "refused"]
+    status = "counts" if counts else "half a page" if photo.half else "not needed"
+    status = "refused" if photo.why else "to be looked at" if open_ones else status
+    why = [photo.why] if photo.why else [f"{one.asked.name}: {exercise.tell(one.why)}" for one in open_ones]
+    remedy = [photo.remedy] if photo.why else list(dict.fromkeys(exercise.tell(one.remedy) for one in open_ones))
+    return [
+        *(photo.name, photo.student, photo.page or None, status, photo.tags, photo.expected),
+        *(round(photo.residual, 3), photo.kind, " ".join(one.asked.name for one in answers if one.given is not None)),
+        *(round(min(shares), 3) if shares else None, "; ".join(why), "; ".join(remedy)),
+    ]
+
+
+def _write(path: Path, text: str) -> None:
+    with whole_file(path) as draft:
+        draft.write_text(text, encoding="utf-8", errors="backslashreplace")
+
+
+def summary(read: ReadCourse) -> Iterator[str]:
+    """What was done, in lines for a terminal."""
+    refused = [photo for photo in read.photos if photo.why]
+    waiting = [one for one in read.students if one.open]
+    unmeasured = [one for one in read.students if one.pages and not one.corrections.bars]
+    known = f"{_counted(read.photos, 'photograph')} of {_counted(read.students, 'student')}"
+    yield f"{read.folder}: {known}, {len(refused)} refused; to be looked at: {_counted(waiting, 'student')}"
+    if unmeasured:
+        whose = _counted(unmeasured, "student")
+        yield f"of {whose} no scale bar is typed; a printer may be off by 1 %, and no photograph shows it"
+    for photo in refused:
+        yield f"refused: {photo.name}: {photo.why}; {photo.remedy}"
+    for one in waiting:
+        names = ", ".join(each.asked.name for each in one.answers if each.status in ("refused", "not seen"))
+        yield f"to be looked at: {one.student}: {names}"
+
+
+def _counted(things: Sequence[object], name: str) -> str:
+    return f"{len(things)} {name}" if len(things) == 1 else f"{len(things)} {name}s"

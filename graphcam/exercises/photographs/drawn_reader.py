@@ -1,0 +1,106 @@
+"""What is drawn for each answer in the views of a page; the key is not known here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+
+from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.photographs.read_photo import ReadAnswer
+from graphcam.exercises.photographs.seen_page import SeenPage
+from graphcam.photo.curves import read_curve
+from graphcam.photo.ink import Ink
+from graphcam.photo.lines import Segment, crossing, read_lines
+from graphcam.photo.points import PointReading, read_points
+from graphcam.photo.printed import Points, PrintedView
+from graphcam.photo.refusal import RefusedError
+from graphcam.words import Tell, Words, say
+
+MET = 1.0
+"""mm by which two lines may miss each other that cross all the same."""
+ONE_CROSSING = 0.5
+"""Crossings nearer than so many mm are one: three lines through a point make three."""
+KINDS: Mapping[str, tuple[str, ...]] = {"cross": ("cross", "dot"), "circle": ("ring",), "length": ("cross", "dot")}
+"""How the reader calls the marks of an answer; a small cross may be seen as a dot."""
+
+
+def answers_on(seen: SeenPage, asked: Mapping[str, Sequence[Asked]], tell: Tell) -> dict[str, ReadAnswer]:
+    """What is drawn on a page, by the answer's name.
+
+    asked : by the view, the answers that are drawn in it;  tell : says why one is not read
+    """
+    answers: dict[str, ReadAnswer] = {}
+    # View by view: one at a time fills the memory enough.
+    for name, here in asked.items():
+        view = seen.page.views[name]
+        ink = seen.ink(view)
+        answers |= {one.name: _answer(one, name, ink, view, tell) for one in here}
+    return answers
+
+
+def _answer(asked: Asked, place: str, ink: Ink, view: PrintedView, tell: Tell) -> ReadAnswer:
+    try:
+        if asked.drawn_as == "curve":
+            return _curve(place, ink, view, tell)
+        if asked.drawn_as == "crossing":
+            return _points(place, _crossings(read_lines(ink, view)), 1.0, tell)
+        return _marks(asked, place, read_points(ink, view), tell)
+    except RefusedError as error:
+        return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), (error.why, error.remedy), tell)
+
+
+def _curve(place: str, ink: Ink, view: PrintedView, tell: Tell) -> ReadAnswer:
+    reading = read_curve(ink, view)
+    refusal = reading.refusal()
+    measures = reading.measures
+    # What was not seen stays away; a curve with a long piece of that is refused.
+    points = reading.points[np.isfinite(reading.points)]
+    answer = ReadAnswer(
+        place,
+        points if points.size > 1 else None,
+        closed=view.closed,
+        share=min(1.0, measures.share),
+        confidence=min(1.0, max(0.0, measures.share * measures.coherence)),
+        measures={name: round(float(value), 4) for name, value in vars(measures).items()},
+    )
+    return answer if refusal is None else _refused(answer, refusal, tell)
+
+
+def _refused(answer: ReadAnswer, refusal: tuple[Words, Words], tell: Tell) -> ReadAnswer:
+    why, remedy = map(tell, refusal)
+    return replace(answer, why=why, remedy=remedy)
+
+
+def _marks(asked: Asked, place: str, reading: PointReading, tell: Tell) -> ReadAnswer:
+    wanted = [kind in KINDS[asked.drawn_as] for kind in reading.kinds]
+    surest = float(reading.scores[wanted].min()) if any(wanted) else 0.0
+    return _points(place, reading.points[wanted], surest, tell)
+
+
+def _points(place: str, points: Points, confidence: float, tell: Tell) -> ReadAnswer:
+    if points.size:
+        return ReadAnswer(place, points, confidence=confidence)
+    refusal = say("no points are seen"), say("mark them more clearly, and photograph the page again")
+    return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), refusal, tell)
+
+
+def _crossings(lines: Sequence[Segment]) -> Points:
+    """Where lines meet, each place once."""
+    found: list[complex] = []
+    for one, other in combinations(lines, 2):
+        try:
+            place = crossing(one, other)
+        except RefusedError:
+            continue
+        if _reaches(one, place) and _reaches(other, place) and all(abs(place - z) > ONE_CROSSING for z in found):
+            found.append(place)
+    return np.array(found, dtype=np.complex128)
+
+
+def _reaches(line: Segment, place: complex) -> bool:
+    ahead = (line.end - line.start) / line.length
+    along = ((place - line.start) * ahead.conjugate()).real
+    return -MET <= along <= line.length + MET

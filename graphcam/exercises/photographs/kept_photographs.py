@@ -1,0 +1,113 @@
+"""What was read off photographs, kept from run to run: a photograph is read once, whatever it is called."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from graphcam.errors import TaskError
+from graphcam.exercises.course.photo_reports import HIDDEN
+from graphcam.exercises.photographs.read_photo import ReadPhoto, from_json, to_json
+from graphcam.files import OutputError, whole_folder
+
+READINGS = "readings.json"
+DIGITS = 32
+"""Of the digest of a file: no two files of a course share so many."""
+
+
+@dataclass(frozen=True)
+class KeptPhotographs:
+    """The photographs of a course that were read.
+
+    folder : of the readings
+    basis : tells what they are read with; who gives a photograph again that was read with something else, has it read
+        anew
+    """
+
+    folder: Path
+    basis: str
+
+    def find(self, digest: str) -> list[ReadPhoto] | None:
+        """The photographs of a file; None where it is to be read."""
+        try:
+            photos, basis = self._read(self._of(digest))
+        except (OSError, TaskError):
+            return None
+        return photos if basis == self.basis else None
+
+    def keep(self, digest: str, photos: list[ReadPhoto], pictures: Mapping[str, bytes]) -> None:
+        """Keep the photographs of a file, and their pictures, by their names.
+
+        Raises
+        ------
+        OutputError : they cannot be written
+        """
+        with whole_folder(self._of(digest)) as draft:
+            for name, data in pictures.items():
+                (draft / name).write_bytes(data)
+            (draft / READINGS).write_text(to_json(photos, self.basis), encoding="utf-8")
+
+    def all(self) -> list[ReadPhoto]:
+        """All photographs, in the order of their names; a reading of another program is left out."""
+        found: list[ReadPhoto] = []
+        for path in sorted((self.folder / HIDDEN).glob("*")):
+            try:
+                photos, _ = self._read(path)
+            except (OSError, TaskError):
+                continue
+            found += photos
+        return sorted(found, key=lambda photo: (photo.name, photo.digest))
+
+    def picture(self, photo: ReadPhoto, name: str) -> bytes | None:
+        """A picture of a photograph as JPEG; None where there is none."""
+        if name not in photo.pictures:
+            return None
+        try:
+            return (self._of(photo.digest) / photo.pictures[name].file).read_bytes()
+        except OSError:
+            return None
+
+    @contextmanager
+    def held(self) -> Generator[None]:
+        """Keep other runs out meanwhile: of two that write the same files the slower one would win.
+
+        Raises
+        ------
+        OutputError : another run is at it, or the folder cannot be made
+        """
+        place = self.folder / HIDDEN
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            lock = os.open(place, os.O_RDONLY | os.O_CLOEXEC)
+        except OSError as error:
+            raise OutputError(self.folder, error.strerror or str(error)) from None
+        try:
+            _lock(lock, self.folder)
+            yield
+        finally:
+            os.close(lock)
+
+    def _of(self, digest: str) -> Path:
+        """The folder of a file, by its digest or by that of a photograph in it."""
+        return self.folder / HIDDEN / digest[:DIGITS]
+
+    def _read(self, path: Path) -> tuple[list[ReadPhoto], str]:
+        return from_json((path / READINGS).read_text(encoding="utf-8"), str(path))
+
+
+def _lock(descriptor: int, folder: Path) -> None:
+    """Hold a lock until the file is closed, however the run ends.
+
+    Raises
+    ------
+    OutputError : another run holds it
+    """
+    import fcntl
+
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise OutputError(folder, "another run reads photographs into it", "wait until it ends") from None

@@ -1,0 +1,200 @@
+"""Files of photographs: each is read once, by a worker, and what was read is kept at once.
+
+It needs the libraries of the extra ``photo``, and is loaded by who reads photographs only.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+
+import cv2
+
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.photographs.kept_photographs import DIGITS, KeptPhotographs
+from graphcam.exercises.photographs.photo_reader import read_halves, read_photograph
+from graphcam.exercises.photographs.read_photo import ReadPhoto
+from graphcam.exercises.photographs.whose import PrintedSheets
+from graphcam.files import OutputError
+from graphcam.photo.halves import SIDES, Side
+from graphcam.photo.intake import ENDINGS, FOLDERS_DEEP, MOST_BYTES, Unopened, pictures_in
+from graphcam.photo.pictures import Picture
+from graphcam.photo.refusal import RefusedError
+from graphcam.words import say
+
+CHUNK = 1 << 20
+"""Bytes of a file that are looked at together."""
+
+
+@dataclass(frozen=True)
+class ReadingJob:
+    """What all photographs of a course have in common; it travels to the workers."""
+
+    exercise: Exercise
+    sheets: PrintedSheets
+    kept: KeptPhotographs
+
+
+@dataclass(frozen=True)
+class PhotoFile:
+    """A file that may hold photographs.
+
+    name : as it is told;  named : whether the user named it, and wants to hear that it holds none
+    """
+
+    path: Path
+    name: str
+    named: bool
+
+    @property
+    def told(self) -> bool:
+        """Whether somebody wants to hear that it holds no photograph."""
+        return self.named or self.path.suffix.lower() in ENDINGS
+
+
+def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
+    """Read the photographs in a file and keep what was read; those that are not kept are given back, with the reason.
+
+    It does not raise: one photograph that none foresaw is told like any other that cannot be read.
+    """
+    tell = job.exercise.tell
+    try:
+        # Other workers have the other cores.
+        cv2.setNumThreads(1)
+        return _read(job, file)
+    except OutputError as error:
+        why, remedy = say("what was read cannot be written ({error})", error=error.why), error.remedy
+    except Exception as error:  # noqa: BLE001  # one photograph never stops the others
+        why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
+        remedy = say("photograph the sheet again, and save it as JPEG")
+    return [ReadPhoto(file.name, "", why=tell(why), remedy=tell(remedy))]
+
+
+def _read(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
+    digest = digest_of(file.path)
+    if digest and job.kept.find(digest) is not None:
+        return []
+    photos: list[ReadPhoto] = []
+    unread: list[ReadPhoto] = []
+    pictures: dict[str, bytes] = {}
+    tell = job.exercise.tell
+    for number, found in enumerate(pictures_in([file.path])):
+        name = file.name + found.name.removeprefix(file.path.name)
+        if isinstance(found, Unopened):
+            unread.append(ReadPhoto(name, "", why=tell(found.why), remedy=tell(found.remedy)))
+        else:
+            picture = replace(found, name=name)
+            photo, shown = read_photograph(job.sheets, job.exercise, picture, f"{digest}-{number}", f"{number}-")
+            photos.append(photo)
+            pictures |= shown
+    # Of a scan that is broken in its middle what comes before counts.
+    if photos:
+        job.kept.keep(digest, photos, pictures)
+    return unread if file.told else []
+
+
+@dataclass(frozen=True)
+class Halves:
+    """Photographs of the two sheets of a page, each in a file.
+
+    name : of both, as they are told;  digest : of both together
+    left, right : the file, and the number of the picture in it
+    """
+
+    name: str
+    digest: str
+    left: tuple[Path, int]
+    right: tuple[Path, int]
+
+
+def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
+    """Read a page off photographs of its two sheets and keep what was read; it does not raise, as :func:`read_file`."""
+    try:
+        cv2.setNumThreads(1)
+        photographs: dict[Side, Picture] = {"left": _picture(*halves.left), "right": _picture(*halves.right)}
+        digest = f"{halves.digest}-0"
+        photo, shown = read_halves(job.sheets, job.exercise, photographs, digest, "0-")
+        job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
+    except Exception as error:  # noqa: BLE001  # one page never stops the others
+        why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
+        remedy = say("photograph the sheet again, and save it as JPEG")
+        return [ReadPhoto(halves.name, "", why=job.exercise.tell(why), remedy=job.exercise.tell(remedy))]
+    return []
+
+
+def _picture(path: Path, number: int) -> Picture:
+    found = next(islice(pictures_in([path]), number, None))
+    if isinstance(found, Unopened):
+        raise RefusedError(found.why, found.remedy)
+    return found
+
+
+def halves_in(photos: Iterable[ReadPhoto], files: Iterable[PhotoFile], kept: KeptPhotographs) -> Iterator[Halves]:
+    """The pages on two sheets of which both are photographed, and that are not read yet.
+
+    files : that are at hand: what was kept of a half is not its picture
+    """
+    best: dict[tuple[str, int], dict[str, ReadPhoto]] = {}
+    for photo in sorted(photos, key=lambda one: -one.residual):
+        if photo.half and not photo.why:
+            best.setdefault((photo.student, photo.page), {})[photo.half] = photo
+    pairs = [(sides["left"], sides["right"]) for sides in best.values() if len(sides) == len(SIDES)]
+    paths = {digest_of(file.path): file.path for file in files} if pairs else {}
+    for pair in pairs:
+        digest = hashlib.sha256(" ".join(photo.digest for photo in pair).encode()).hexdigest()[:DIGITS]
+        places = [photo.digest.split("-") for photo in pair]
+        if kept.find(digest) is None and all(of in paths for of, _ in places):
+            left, right = ((paths[of], int(number)) for of, number in places)
+            yield Halves(" + ".join(photo.name for photo in pair), digest, left, right)
+
+
+def digest_of(path: Path) -> str:
+    """Tells a file from all others, whatever it is called; empty of what is no file, or too large to be read."""
+    try:
+        # Nothing is waited for: a pipe would never end.
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+    except OSError:
+        return ""
+    try:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MOST_BYTES:
+            return ""
+        digest = hashlib.sha256()
+        while part := os.read(descriptor, CHUNK):
+            digest.update(part)
+        return digest.hexdigest()[:DIGITS]
+    except OSError:
+        return ""
+    finally:
+        os.close(descriptor)
+
+
+def files_in(paths: Iterable[Path]) -> Iterator[PhotoFile]:
+    """The files that are named, and those in the folders that are: sorted, and one folder deeper too."""
+    for path in paths:
+        if path.is_dir():
+            yield from _files(path, path.name or str(path), FOLDERS_DEEP)
+        else:
+            yield PhotoFile(path, path.name, named=True)
+
+
+def _files(folder: Path, name: str, deeper: int) -> Iterator[PhotoFile]:
+    try:
+        paths = sorted(folder.iterdir())
+    except OSError:
+        # Who reads it says why it cannot be.
+        yield PhotoFile(folder, name, named=True)
+        return
+    for path in paths:
+        if path.name.startswith("."):
+            continue
+        within = f"{name}/{path.name}"
+        if not path.is_dir() or path.is_symlink():
+            yield PhotoFile(path, within, named=False)
+        elif deeper:
+            yield from _files(path, within, deeper - 1)

@@ -1,0 +1,150 @@
+"""What was read off one photograph, without the key: it is kept as JSON beside the pictures of its views."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.errors import TaskError
+from graphcam.photo.printed import Edges, Points
+
+FORMAT = 1
+DECIMALS = 3
+"""Of a place in mm: a thousandth is far below what a photograph shows."""
+REMEDY = "delete the folder that holds it, and read the photographs again"
+
+
+@dataclass(frozen=True, eq=False)
+class ReadAnswer:
+    """One answer as a photograph shows it.
+
+    place : name of the view
+    points : (n,) mm of paper from the view's origin: a curve in its order, plotted points, a crossing, the two ends of
+        a length; None where there are none
+    share : part of what must be seen that is seen
+    confidence : from 0, a guess, to 1
+    measures : by name, what the reader measured besides
+    why, remedy : why it is not read, in the language of the course, and what to do; empty where it is
+    """
+
+    place: str
+    points: Points | None
+    closed: bool = False
+    share: float = 1.0
+    confidence: float = 1.0
+    measures: Mapping[str, float] = field(default_factory=dict[str, float])
+    why: str = ""
+    remedy: str = ""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A flat picture of a part of the page.
+
+    file : its name beside the readings
+    box : what it shows, in mm: of a view from the view's origin, else from the lower left corner of the page
+    """
+
+    file: str
+    box: Edges
+
+
+@dataclass(frozen=True, eq=False)
+class ReadPhoto:
+    """One photograph of one page.
+
+    name : of its file, and of its place in the file where that holds several;  digest : of the file, and the place
+    student, page : whose page it is; page 0 where that is not known
+    tags, expected : marks that were found, and that were printed
+    residual : of the marks [px];  kind : of the paper: plane, fold or cylinder
+    answers : by name, those that are drawn on the page
+    pictures : of the views by their names, and of the table of answers
+    bars : printed lengths of the scale bars, across and up [mm]
+    half : "left" or "right" of one that shows one of the two sheets of a page, and is read with the other one
+    why, remedy : why the photograph is refused as a whole, and what to do
+    """
+
+    name: str
+    digest: str
+    student: str = ""
+    page: int = 0
+    tags: int = 0
+    expected: int = 0
+    residual: float = 0.0
+    kind: str = ""
+    answers: Mapping[str, ReadAnswer] = field(default_factory=dict[str, ReadAnswer])
+    pictures: Mapping[str, Picture] = field(default_factory=dict[str, Picture])
+    bars: tuple[float, float] = (0.0, 0.0)
+    half: str = ""
+    why: str = ""
+    remedy: str = ""
+
+    @property
+    def known(self) -> bool:
+        """Whether it is known whose page it shows."""
+        return self.page > 0
+
+
+def to_json(photos: list[ReadPhoto], basis: str) -> str:
+    """As text.
+
+    basis : tells what the photographs were read with
+    """
+    said = [{**vars(photo)} for photo in photos]
+    for each, photo in zip(said, photos, strict=True):
+        each["answers"] = {name: _answer_said(one) for name, one in photo.answers.items()}
+        each["pictures"] = {name: [one.file, one.box] for name, one in photo.pictures.items()}
+    return json.dumps({"format": FORMAT, "basis": basis, "photos": said}, allow_nan=False)
+
+
+def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
+    """Photographs out of their text, and what they were read with.
+
+    Raises
+    ------
+    TaskError : the text is none, or of another format
+
+    >>> photos, basis = from_json(to_json([ReadPhoto("a.jpg", "d", answers={"x": ReadAnswer("profile", None)})], "b"))
+    >>> photos[0].name, photos[0].answers["x"].place, basis
+    ('a.jpg', 'profile', 'b')
+    """
+    try:
+        said = json.loads(text)
+        if said["format"] != FORMAT:
+            raise ValueError(f"format {said['format']}")
+        return [_photo(each) for each in said["photos"]], str(said["basis"])
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise TaskError(path, "the reading", f"not readable ({error})", f"one of format {FORMAT}", REMEDY) from None
+
+
+def _photo(said: dict[str, Any]) -> ReadPhoto:
+    answers = {name: _answer(each) for name, each in said["answers"].items()}
+    pictures: dict[str, Picture] = {}
+    for name, (file, (left, bottom, right, top)) in said["pictures"].items():
+        pictures[name] = Picture(file, (left, bottom, right, top))
+    across, up = said["bars"]
+    plain = {name: value for name, value in said.items() if name not in ("answers", "pictures", "bars")}
+    return replace(ReadPhoto(**plain), answers=answers, pictures=pictures, bars=(across, up))
+
+
+def _answer_said(answer: ReadAnswer) -> dict[str, Any]:
+    return {**vars(answer), "points": None if answer.points is None else pairs(answer.points)}
+
+
+def _answer(said: dict[str, Any]) -> ReadAnswer:
+    points = None if said["points"] is None else np.array(said["points"], dtype=np.float64).reshape(-1, 2)
+    return replace(ReadAnswer(**said), points=None if points is None else points.view(np.complex128)[:, 0])
+
+
+def pairs(points: NDArray[np.complexfloating[Any, Any]]) -> list[list[float]]:
+    """Points as JSON and TOML take them.
+
+    >>> pairs(np.array([1 + 2j]))
+    [[1.0, 2.0]]
+    """
+    return np.round(np.column_stack([points.real, points.imag]), DECIMALS).tolist()

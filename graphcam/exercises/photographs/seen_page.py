@@ -1,0 +1,130 @@
+"""A page as photographs show it: even pictures of its parts, and what of them is kept to be looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import cv2
+import numpy as np
+
+from graphcam.exercises.course.page_parts import FIELD
+from graphcam.exercises.photographs.jpegs import jpeg
+from graphcam.exercises.photographs.picture_names import BARS, TABLE
+from graphcam.photo.halves import Side
+from graphcam.photo.ink import Ink, ink_of
+from graphcam.photo.pictures import Picture
+from graphcam.photo.printed import Edges, PrintedPage, PrintedView
+from graphcam.photo.rectify import PER_MM, Flat, rectify
+from graphcam.photo.registration import Registration
+from graphcam.photo.tiles import Tile, rectify_tiles
+
+SHOWN_PER_MM = 3.0
+"""Pixels a mm of the pictures that are shown: a pencil line is one wide, and a view of A3 takes 60 kB."""
+MOST_SHOWN = 1000
+"""Pixels of the longer side of a picture that is shown."""
+FINER = 2
+"""A picture that is shown is taken out of the photograph so many times finer, and reduced, so that no line is lost."""
+MOST_PIXELS = 9e6
+"""Of an even picture in which is read: more would not fit the memory, and is finer than a photograph of it."""
+BESIDE = 4.0
+"""mm about what is read, where paper is looked at."""
+LEAST_TABLE = 1500.0
+"""mm² of the table of answers; nothing else that is printed in black is as large."""
+
+
+@dataclass(frozen=True, eq=False)
+class SeenPage:
+    """A page in a photograph, or a page on two sheets in two.
+
+    rectified : an even picture of a box of the page, with so many pixels a mm
+    registered : where a place of the page is registered
+    """
+
+    page: PrintedPage
+    rectified: Callable[[Edges, float], Flat]
+    registered: Callable[[complex], Registration]
+
+    @staticmethod
+    def whole(photograph: Picture, page: PrintedPage, registration: Registration) -> SeenPage:
+        """A page in one photograph."""
+        return SeenPage(page, partial(rectify, photograph.pixels, registration), lambda place: registration)
+
+    @staticmethod
+    def of_tiles(tiles: Mapping[Side, Tile], page: PrintedPage) -> SeenPage:
+        """A page on two sheets that are joined."""
+
+        def rectified(box: Edges, per_mm: float) -> Flat:
+            """A box out of the photographs of both sheets."""
+            return rectify_tiles(tiles, page, box, per_mm)
+
+        def registered(place: complex) -> Registration:
+            """The sheet on which a place is."""
+            return tiles["left" if place.real < (page.seam or 0.0) else "right"].registration
+
+        return SeenPage(page, rectified, registered)
+
+    def ink(self, view: PrintedView) -> Ink:
+        """The pencil in a view."""
+        left, bottom, right, top = box = self._around(view)
+        per_mm = min(PER_MM, float(np.sqrt(MOST_PIXELS / ((right - left) * (top - bottom)))))
+        return ink_of(self.rectified(box, per_mm), self.page, 1 / self._pixels_a_mm(view))
+
+    def _around(self, view: PrintedView) -> Edges:
+        """The room of a view, and what shows the ink of the givens, within the page."""
+        left, bottom, right, top = view.room
+        page = self.page
+        # The patches tell the print's colour; with no patch in sight it would be taken for grey.
+        places = [complex(left, bottom), complex(right, top)]
+        places += [corner + side * (1 + 1j) for corner in page.patches for side in (0.0, page.patch_side)]
+        x, y = [place.real for place in places], [place.imag for place in places]
+        lower = (max(0.0, min(x) - BESIDE), max(0.0, min(y) - BESIDE))
+        return (*lower, min(page.width, max(x) + BESIDE), min(page.height, max(y) + BESIDE))
+
+    def _pixels_a_mm(self, view: PrintedView) -> float:
+        """Pixels of the photograph in a mm of the view, where they are fewest."""
+        left, bottom, right, top = view.room
+        middle = complex((left + right) / 2, (bottom + top) / 2)
+        ends = self.registered(middle).pixels(middle + np.array([-1.0, 1.0, -1j, 1j]))
+        return float(min(abs(ends[1] - ends[0]), abs(ends[3] - ends[2])) / 2)
+
+    def shown(self) -> Iterator[tuple[str, tuple[bytes, Edges]]]:
+        """By name JPEGs of the views, of the table of answers and of the bars' written lengths, with their boxes.
+
+        The box of a view is counted from its origin.
+        """
+        page = self.page
+        for name, view in page.views.items():
+            data, (left, bottom, right, top) = self._picture(view.room)
+            x, y = view.origin.real, view.origin.imag
+            yield name, (data, (left - x, bottom - y, right - x, top - y))
+        boxes = [box for box in page.black if _area(box) >= LEAST_TABLE]
+        if boxes:
+            yield TABLE, self._picture(max(boxes, key=_area))
+        for name, size in zip(BARS, (FIELD, FIELD[::-1]), strict=True):
+            fields = [box for box in page.black if np.allclose((box[2] - box[0], box[3] - box[1]), size, atol=0.1)]
+            if fields:
+                left, bottom, right, top = fields[0]
+                around = (left - BESIDE, bottom - BESIDE, right + BESIDE, top + BESIDE)
+                yield name, self._picture(around, turned=size != FIELD)
+
+    def _picture(self, box: Edges, *, turned: bool = False) -> tuple[bytes, Edges]:
+        """A part of the page as JPEG, and what it shows.
+
+        turned : whether it is read from the right, and is shown upright
+        """
+        left, bottom, right, top = box
+        per_mm = min(SHOWN_PER_MM, MOST_SHOWN / max(right - left, top - bottom))
+        flat = self.rectified(box, FINER * per_mm)
+        rows, columns = (max(1, length // FINER) for length in flat.linear.shape[:2])
+        linear = cv2.resize(flat.linear, (columns, rows), interpolation=cv2.INTER_AREA)
+        # Light as a screen shows it, near enough for a picture to look at.
+        screen = (255 * np.clip(linear, 0, 1) ** (1 / 2.2)).astype(np.uint8)
+        upright = np.rot90(screen, -1) if turned else screen
+        return jpeg(np.ascontiguousarray(upright[..., ::-1])), flat.box
+
+
+def _area(box: Edges) -> float:
+    left, bottom, right, top = box
+    return (right - left) * (top - bottom)

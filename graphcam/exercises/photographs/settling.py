@@ -1,0 +1,236 @@
+"""What counts of one student's photographs: the best of each page, judged, and with the teacher's corrections."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from graphcam.exercises.definition.exercise import Asked, Exercise, Given
+from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.photographs.corrections import (
+    KEPT,
+    NONE,
+    Correction,
+    StudentCorrections,
+    stretch_of,
+    stretched,
+)
+from graphcam.exercises.photographs.judging import LOOK, chosen, given_by, not_taken
+from graphcam.exercises.photographs.read_photo import ReadAnswer, ReadPhoto
+from graphcam.photo.printed import Points
+from graphcam.words import Words, say
+
+Status = Literal["read", "refused", "not seen", "corrected", "confirmed", "left out", "typed", "not typed"]
+COUNTING: tuple[Status, ...] = ("read", "corrected", "confirmed", "typed")
+"""Of an answer that goes into answers.toml."""
+UNSCALED = (1.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class SettledAnswer:
+    """What became of one answer.
+
+    read : as the photograph shows it; None where it shows none
+    status : whether it counts, and by whose word
+    given : what counts, as answers.toml takes it, on paper as long as its bars measure; None where nothing does
+    as_read : what was read and taken, on paper as it was printed; None where nothing was
+    points : that are drawn for it, as the photograph has them, corrections included; None where none are
+    why, remedy : of one that does not count
+    page : on which it is drawn; 0 where it is not
+    outdated : whether the teacher looked at another photograph than the one that counts now
+    """
+
+    asked: Asked
+    read: ReadAnswer | None
+    status: Status
+    given: Given | None = None
+    as_read: Given | None = None
+    points: Points | None = None
+    why: Words = ""
+    remedy: Words = ""
+    page: int = 0
+    outdated: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class SettledStudent:
+    """What counts of a student's photographs.
+
+    pages : the photograph that counts, by page
+    others : photographs of the same pages that do not count, and those that are refused
+    answers : in the order of the exercise
+    stretches : by page, how much longer the paper is than it should be, across and up, where a bar was measured
+    """
+
+    student: str
+    pages: Mapping[int, ReadPhoto]
+    others: Sequence[ReadPhoto]
+    answers: Sequence[SettledAnswer]
+    corrections: StudentCorrections
+    stretches: Mapping[int, tuple[float, float]]
+
+    @property
+    def open(self) -> bool:
+        """Whether a teacher has to look at it."""
+        waits = any(one.status in ("refused", "not seen") for one in self.answers)
+        return (waits and not self.corrections.reviewed) or any(one.outdated for one in self.answers)
+
+    def values(self) -> dict[str, Given]:
+        """What counts, by the answer's name."""
+        return {one.asked.name: one.given for one in self.answers if one.given is not None}
+
+    def read_values(self) -> dict[str, Given]:
+        """What was read and taken, on paper as it was printed, by the answer's name."""
+        return {one.asked.name: one.as_read for one in self.answers if one.as_read is not None}
+
+    @property
+    def notes(self) -> list[Words]:
+        """Sentences for the teacher."""
+        found: list[Words] = [
+            say(
+                "{answer} was looked at on another photograph than {photo}, which counts now; look again",
+                answer=one.asked.name,
+                photo=self.pages[one.page].name,
+            )
+            for one in self.answers
+            if one.outdated
+        ]
+        found += [
+            say(
+                "{photo} shows page {page} too; {best} is the better photograph and counts",
+                photo=photo.name,
+                page=photo.page,
+                best=self.pages[photo.page].name,
+            )
+            for photo in self.others
+            if not photo.why and not photo.half and photo.page in self.pages
+        ]
+        found += [
+            say(
+                "{photo} shows one of the two sheets of page {page}; give the photographs of both in one run",
+                photo=photo.name,
+                page=photo.page,
+            )
+            for photo in self.others
+            if photo.half and not photo.why and photo.page not in self.pages
+        ]
+        return found
+
+
+def best_of(photos: Iterable[ReadPhoto]) -> dict[int, ReadPhoto]:
+    """Of each page the photograph that counts: the one with most answers read, most of them seen, least residual."""
+    best: dict[int, ReadPhoto] = {}
+    for photo in sorted(photos, key=_merit, reverse=True):
+        if photo.known and not photo.why and not photo.half:
+            best.setdefault(photo.page, photo)
+    return dict(sorted(best.items()))
+
+
+def _merit(photo: ReadPhoto) -> tuple[int, float, float, str]:
+    read = [one for one in photo.answers.values() if not one.why]
+    # In steps, so that a hair more that is seen does not outweigh marks that fit badly.
+    share = round(min((one.share for one in read), default=0.0), 2)
+    return len(read), share, -photo.residual, photo.digest
+
+
+def settled(
+    exercise: Exercise,
+    student: str,
+    photos: Sequence[ReadPhoto],
+    answer_key: AnswerKey | None,
+    corrections: StudentCorrections = NONE,
+) -> SettledStudent:
+    """What counts of a student's photographs.
+
+    answer_key : without it nothing is judged, so nothing that is drawn counts
+
+    Raises
+    ------
+    TaskError : a scale bar is measured so that no printer scales like that
+    """
+    pages = best_of(photos)
+    others = [photo for photo in photos if photo is not pages.get(photo.page)]
+    stretches = {
+        page: stretch_of(photo.bars, corrections.bars[page], f"{KEPT}: students.{student}.bars.{page}")
+        for page, photo in pages.items()
+        if page in corrections.bars
+    }
+    answers: list[SettledAnswer] = []
+    for asked in exercise.answers:
+        correction = corrections.answers.get(asked.name)
+        photo = next((one for one in pages.values() if asked.name in one.answers), None)
+        if not asked.drawn_as:
+            answers.append(_typed(asked, correction))
+        elif photo is None:
+            why = say("no photograph that can be read shows it")
+            remedy = say("photograph the page on which it is drawn")
+            answers.append(SettledAnswer(asked, None, "not seen", why=why, remedy=remedy))
+        else:
+            read = photo.answers[asked.name]
+            judge = _Judge(exercise, asked, answer_key, read.closed, stretches.get(photo.page, UNSCALED))
+            one = _drawn(judge, read, correction)
+            outdated = correction is not None and correction.photo not in ("", photo.digest)
+            answers.append(replace(one, page=photo.page, outdated=outdated))
+    return SettledStudent(student, pages, others, answers, corrections, stretches)
+
+
+def _typed(asked: Asked, correction: Correction | None) -> SettledAnswer:
+    if correction is None:
+        why = say("the table of answers is not read; type it on the review page")
+        return SettledAnswer(asked, None, "not typed", why=why)
+    return SettledAnswer(asked, None, "typed", correction.value)
+
+
+@dataclass(frozen=True, eq=False)
+class _Judge:
+    """What it takes to make an answer of what is drawn."""
+
+    exercise: Exercise
+    asked: Asked
+    answer_key: AnswerKey | None
+    closed: bool
+    stretch: tuple[float, float]
+
+    def given(self, points: Points, stretch: tuple[float, float]) -> Given | None:
+        """The answer that the points give; None where there are too few or too many."""
+        key = None if self.answer_key is None else self.answer_key.keys[self.asked.name]
+        points = np.append(points, points[:1]) if self.closed else points
+        return given_by(self.asked, stretched(points, stretch), key)
+
+    def judged(self, read: ReadAnswer) -> tuple[Points | None, tuple[Words, Words] | None]:
+        """The points that are meant for the answer, and why they are not marked and what to do, if they are not."""
+        points = read.points
+        if read.why or points is None:
+            return points, (read.why or say("nothing is read"), read.remedy or LOOK)
+        if self.answer_key is None:
+            return points, (say("the student has no answer key"), LOOK)
+        points, why = chosen(self.asked, points, self.answer_key, self.exercise.answers.index(self.asked))
+        if why is None:
+            # As long as the bars measure: a page that was printed small is not foreign for that.
+            given = self.given(points, self.stretch)
+            if given is None:
+                why = say("{count} points are seen, other than are asked", count=int(points.size))
+            else:
+                why = not_taken(self.exercise, self.asked, given, self.answer_key)
+        return points, None if why is None else (why, LOOK)
+
+
+def _drawn(judge: _Judge, read: ReadAnswer, correction: Correction | None) -> SettledAnswer:
+    """What becomes of a drawn answer."""
+    asked = judge.asked
+    points, refused = judge.judged(read)
+    as_read = judge.given(points, UNSCALED) if points is not None and not refused else None
+    if correction is not None and correction.verdict == "left out":
+        return SettledAnswer(asked, read, "left out", None, as_read, points, say("the teacher leaves it out"))
+    if correction is not None:
+        said = np.asarray(correction.value) if correction.verdict == "corrected" else points
+        given = None if said is None else judge.given(said, judge.stretch)
+        if given is not None:
+            return SettledAnswer(asked, read, correction.verdict, given, as_read, said)
+    if refused or points is None:
+        why, remedy = refused or ("", "")
+        return SettledAnswer(asked, read, "refused", None, None, points, why, remedy)
+    return SettledAnswer(asked, read, "read", judge.given(points, judge.stretch), as_read, points)

@@ -1,0 +1,87 @@
+"""Whose page of which worksheet a photograph shows: the QR code says so, and nothing else is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from graphcam.errors import TaskError
+from graphcam.exercises.course.course_folder import PRINTED
+from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.course.sheet_code import SheetCode
+from graphcam.photo.printed import PrintedPage
+from graphcam.photo.refusal import RefusedError
+from graphcam.words import say
+
+TAKE_IN_THE_CODE = say("take in the whole sheet, its QR code too, and keep the picture sharp")
+
+
+@dataclass(frozen=True)
+class PrintedSheets:
+    """The worksheets that were printed for a course.
+
+    teacher : the teacher's folder of the course
+    exercise, version : that the course is about
+    students : ids of those in the course
+    """
+
+    teacher: Path
+    exercise: str
+    version: int
+    students: Sequence[str]
+    secret: bytes
+
+    def page(self, texts: Iterable[str], *, tags: bool) -> tuple[SheetCode, PrintedPage]:
+        """The page whose code is among the texts that were read off a photograph.
+
+        tags : whether the photograph shows tags, as a worksheet has them
+
+        Raises
+        ------
+        RefusedError : there is none, or there are two, or it is not of this course; each has its own reason
+        """
+        codes: set[SheetCode] = set()
+        errors: list[TaskError] = []
+        for text in dict.fromkeys(texts):
+            try:
+                codes.add(SheetCode.read(text, self.secret, self.students, self.exercise))
+            except TaskError as error:
+                errors.append(error)
+        if len(codes) > 1:
+            raise RefusedError(say("it shows {count} sheets", count=len(codes)), say("photograph each sheet by itself"))
+        if not codes:
+            raise _nobodys(errors, tags=tags)
+        code = codes.pop()
+        return code, self._printed(code)
+
+    def _printed(self, code: SheetCode) -> PrintedPage:
+        """What must be known of a page to read it."""
+        if code.version != self.version:
+            raise RefusedError(
+                say("it is of version {found} of the exercise, not {wanted}", found=code.version, wanted=self.version),
+                say("read it with the course that it was printed for"),
+            )
+        path = self.teacher / PRINTED / f"{folder_name(code.student)}-{code.page}.json"
+        try:
+            page = PrintedPage.from_json(path.read_text(encoding="utf-8"), str(path))
+        except OSError:
+            page = None
+        except TaskError as error:
+            raise RefusedError(str(error), say("make the course again")) from None
+        # The parameters of a student change if the course is made anew after others were added before.
+        if page is None or page.code != code.text(self.secret):
+            raise RefusedError(
+                say("it is not as the sheets of this course were printed"),
+                say("read it with the course that it was printed for"),
+            )
+        return page
+
+
+def _nobodys(errors: Sequence[TaskError], *, tags: bool) -> RefusedError:
+    if errors:
+        error = errors[0]
+        return RefusedError(f"{error.field} is {error.value}, but must be {error.expected}", error.remedy)
+    if tags:
+        return RefusedError(say("the QR code is not seen"), TAKE_IN_THE_CODE)
+    return RefusedError(say("it shows no worksheet: neither its QR code nor its marks are seen"), TAKE_IN_THE_CODE)

@@ -1,0 +1,192 @@
+"""The QR codes in a picture: their texts, also where the paper is oblique, dark or smeared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import zxingcpp
+from numpy.typing import NDArray
+
+from graphcam.photo.light import LINEAR
+from graphcam.photo.tags import CELLS, Grey, Tags
+
+Picture = NDArray[np.uint8]
+SMALLEST = 21
+"""Pixels of a picture: no code has fewer modules."""
+COARSE = 2000
+"""Pixels along the longer side of the picture that is looked at first: most codes are read in it."""
+PAPER = 25
+"""The paper's brightness is that of the brightest place near, within so many parts of the picture's shorter side."""
+MOST = 4000
+"""Pixels along the longer side of a picture that is made even."""
+CELL = 8.0
+"""Pixels of such a picture in a cell of a tag: a cell of a code is half as wide or less."""
+UNBLURRED = ((1.0, 0.03), (1.0, 0.1), (1.5, 0.03), (1.5, 0.01), (2.0, 0.03), (2.0, 0.01))
+"""Parts of the blur that are taken back, as far places are blurred more; and how strong the noise is taken to be."""
+LIKELY = 4
+"""Places that look like a code by their many edges, at which the blur is taken back."""
+WINDOW, AROUND = 10.0, 16.0
+"""Cells of a tag over which edges are counted, and from such a place to the sides of what is looked at."""
+ENLARGED = 1.5
+"""By which a code is then looked at too."""
+WIDTHS = (1.5, 3.0)
+"""Of the blur [px] that pictures are sharpened for if nobody knows it."""
+GAUSSIAN = 1.683
+"""Standard deviations of a blur between a fifth and four fifths of the light of an edge."""
+LEAST_NEAR = 0.3
+"""How large the corner of a picture that is farthest away may be, as a part of its middle."""
+ENOUGH = 3
+"""Tags that tell how oblique the paper is."""
+SHARPER = 2.0
+"""By so much of what a blur takes away is a picture sharpened."""
+
+
+def codes_in(pixels: Picture, tags: Tags | None = None) -> list[str]:
+    """The texts of the QR codes in a picture (h, w, 3) or (h, w), each once; none if none is read.
+
+    tags : the page's, if they have been found; they help where the paper is oblique
+    """
+    grey = pixels if pixels.ndim == 2 else np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), np.uint8)
+    if min(grey.shape) < SMALLEST:
+        return []
+    for picture in _tries(grey, tags):
+        found = zxingcpp.read_barcodes(picture, formats=zxingcpp.BarcodeFormat.QRCode)  # pyright: ignore[reportArgumentType]
+        texts = [code.text for code in found if code.valid and code.text]
+        if texts:
+            return list(dict.fromkeys(texts))
+    return []
+
+
+def _tries(grey: Grey, tags: Tags | None) -> Iterator[Grey]:
+    """The picture in several ways, those first that cost least."""
+    shrink = COARSE / max(grey.shape)
+    if shrink < 1:
+        yield _enlarged(grey, shrink)
+    yield grey
+    even = _even(grey)
+    yield even
+    upright = None if tags is None else _upright(even, tags)
+    if upright is not None:
+        yield upright.picture
+        for place in _likely(upright):
+            for clear in _unblurred(place, upright.blur):
+                yield clear
+                yield _enlarged(clear, ENLARGED)
+    for width in WIDTHS:
+        yield _sharpened(even, width)
+    # Small codes of small pictures.
+    if max(grey.shape) < COARSE:
+        yield _enlarged(even, 2.0)
+
+
+def _enlarged(grey: Grey, factor: float) -> Grey:
+    way = cv2.INTER_AREA if factor < 1 else cv2.INTER_CUBIC
+    return np.asarray(cv2.resize(grey, None, fx=factor, fy=factor, interpolation=way), np.uint8)
+
+
+def _even(grey: Grey) -> Grey:
+    """Without the shadows: paper is white everywhere."""
+    small = cv2.resize(grey, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
+    size = max(3, min(small.shape) // PAPER | 1)
+    paper = cv2.blur(cv2.dilate(small, np.ones((size, size), np.uint8)), (size, size))
+    height, width = grey.shape
+    wide = cv2.resize(paper, (width, height), interpolation=cv2.INTER_LINEAR)
+    return np.asarray(cv2.divide(grey, wide, scale=235), np.uint8)
+
+
+def _sharpened(grey: Grey, width: float) -> Grey:
+    blurred = cv2.GaussianBlur(grey, (0, 0), width)
+    return np.asarray(cv2.addWeighted(grey, 1 + SHARPER, blurred, -SHARPER, 0), np.uint8)
+
+
+def _likely(upright: Upright) -> Iterator[Grey]:
+    """Parts of a picture where there are many edges in both directions, as a code has."""
+    picture, cell = upright.picture, upright.cell
+    size = (round(WINDOW * cell), round(WINDOW * cell))
+    across, down = (cv2.Sobel(picture, cv2.CV_32F, *way) for way in ((1, 0), (0, 1)))
+    counts = np.minimum(cv2.blur(np.abs(across), size), cv2.blur(np.abs(down), size))
+    reach = round(AROUND * cell)
+    for _ in range(LIKELY):
+        row, column = np.unravel_index(np.argmax(counts), counts.shape)
+        near = np.s_[max(0, row - reach) : row + reach, max(0, column - reach) : column + reach]
+        yield np.ascontiguousarray(picture[near])
+        counts[near] = 0
+
+
+def _unblurred(grey: Grey, blur: float) -> Iterator[Grey]:
+    """The light before a Gaussian blur of so many pixels, as Wiener guesses it."""
+    rows, columns = (cv2.getOptimalDFTSize(length) for length in grey.shape)
+    height, width = grey.shape
+    # Beyond the picture it is as at its edges, which otherwise would shine into it.
+    light = LINEAR[cv2.copyMakeBorder(grey, 0, rows - height, 0, columns - width, cv2.BORDER_REPLICATE)]
+    seen = np.fft.rfft2(light)
+    squared = np.fft.fftfreq(rows)[:, None] ** 2 + np.fft.rfftfreq(columns) ** 2
+    for part, noise in UNBLURRED:
+        lost = np.exp(-2 * (np.pi * part * blur) ** 2 * squared)
+        found = np.fft.irfft2(seen * (lost / (lost**2 + noise)), (rows, columns))[:height, :width]
+        yield np.clip(found * (255 / np.percentile(found, 97)), 0, 255).astype(np.uint8)
+
+
+@dataclass(frozen=True, eq=False)
+class Upright:
+    """A picture as if seen from straight above.
+
+    blur : standard deviation [px] in its middle;  cell : of its tags [px]
+    """
+
+    picture: Grey
+    blur: float
+    cell: float
+
+
+def _upright(grey: Grey, tags: Tags) -> Upright | None:
+    """The picture as if seen from straight above, as the tags tell; None if they do not."""
+    level = _level(grey, tags)
+    if level is None:
+        return None
+    # What has lost its perspective becomes right by an affine map that makes the tags squares.
+    seen = _moved(level, tags.corners)
+    right = ((seen[:, 1] - seen[:, 0]) + (seen[:, 2] - seen[:, 3])).mean() / 2
+    up = ((seen[:, 3] - seen[:, 0]) + (seen[:, 2] - seen[:, 1])).mean() / 2
+    affine = np.eye(3)
+    affine[:2, :2] = CELL * CELLS * np.diag([1, -1]) @ np.linalg.inv([[right.real, up.real], [right.imag, up.imag]])
+    height, width = grey.shape
+    ends = _moved(affine @ level, np.array([0, width, width + 1j * height, 1j * height]))
+    low = complex(ends.real.min(), ends.imag.min())
+    spans = np.array([ends.real.max() - low.real, ends.imag.max() - low.imag])
+    scale = min(1.0, MOST / spans.max())
+    placed = np.diag([scale, scale, 1.0]) @ np.array([[1, 0, -low.real], [0, 1, -low.imag], [0, 0, 1]])
+    columns, rows = np.ceil(spans * scale).astype(int)
+    upright = cv2.warpPerspective(grey, placed @ affine @ level, (int(columns), int(rows)), borderValue=255)
+    sides = np.abs(np.roll(tags.corners, -1, axis=1) - tags.corners)
+    widths = 0.02 * sides if tags.widths is None else tags.widths
+    cell = CELL * scale
+    blur = float(np.median(widths / sides)) * CELLS * cell / GAUSSIAN
+    return Upright(np.asarray(upright, np.uint8), blur, cell)
+
+
+def _level(grey: Grey, tags: Tags) -> NDArray[np.float64] | None:
+    """What takes the perspective (3, 3) from a picture: as printed, all tags are squares of one size.
+
+    Seen obliquely, areas shrink with the third power of the distance, whose inverse is linear in the picture.
+    """
+    if len(tags) < ENOUGH:
+        return None
+    first, second = tags.corners[:, 2] - tags.corners[:, 0], tags.corners[:, 3] - tags.corners[:, 1]
+    near = np.cbrt(np.abs((first.conj() * second).imag))
+    middles = tags.corners.mean(axis=1)
+    design = np.stack([middles.real, middles.imag, np.ones(len(middles))], -1)
+    horizon = np.linalg.lstsq(design, near / near.mean(), rcond=None)[0]
+    height, width = grey.shape
+    corners = np.array([[0, 0, 1], [width, 0, 1], [width, height, 1], [0, height, 1]], float)
+    if (corners @ horizon <= LEAST_NEAR).any():
+        return None
+    return np.array([[1, 0, 0], [0, 1, 0], horizon])
+
+
+def _moved(matrix: NDArray[np.float64], places: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    solid = np.stack([places.real, places.imag, np.ones(places.shape)], -1) @ matrix.T
+    return (solid[..., 0] + 1j * solid[..., 1]) / solid[..., 2]

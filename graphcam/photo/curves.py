@@ -1,0 +1,126 @@
+"""A curve drawn in a view, read without knowing how it should run; what is not seen of it stays missing.
+
+Of a closed curve r(theta) about the view's origin is read, else y(x) over its axis; both are the best way through a
+grid of places, looked for by lines in the pencil, then looked at station by station.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+
+from graphcam.photo.curve_grid import LOST, Evidence, Grid, evidence_of, grid_of, hidden_in
+from graphcam.photo.curve_refusals import Measures, refusal_of
+from graphcam.photo.gaps import bridged
+from graphcam.photo.ink import Ink
+from graphcam.photo.printed import Points, PrintedView
+from graphcam.photo.runs import Flags, longest_run
+from graphcam.photo.tracks import Track, placed, seen_on, track_of
+from graphcam.photo.trellis import Way, best_way
+from graphcam.photo.twins import twin_share
+from graphcam.words import Words
+
+FULL = 12.0
+"""Standard deviations of noise from which on more contrast is no better."""
+FULL_AT_FIRST = 0.05
+"""Density that is full reward while it is not known how strong the curve is."""
+OF_STRONG = 0.7
+"""Share of the curve's strong places that is full reward, so that one dark stroke does not outweigh a whole curve."""
+RIVAL_FULL, RIVAL_OF_STRONG = 8.0, 0.35
+"""The same for a second curve, which may be fainter."""
+APART = 1.2
+"""A second curve runs at least so far [mm] from the first; nearer ones are told by their crests."""
+AS_DARK = 0.8
+"""Share of the curve's strength at a place that a second line has there, to leave it open which is the curve."""
+STEEPEST = 0.2
+"""Cosine of the steepest slope for which this is reckoned."""
+RIVAL = 0.45
+"""Share of the curve's strong places that a second curve must pass, to be one that was meant."""
+
+
+@dataclass(frozen=True, eq=False)
+class CurveReading:
+    """A curve as it was read.
+
+    points : (n,) mm of paper from the view's origin, in order, closed ones counter-clockwise; in gaps up to
+        ``LONGEST_GAP`` by the run of what is seen before and behind, NaN in others
+    seen : (n,) whether the line is seen there
+    measures : of how well it is seen
+    """
+
+    points: Points
+    seen: Flags
+    measures: Measures
+
+    def refusal(self) -> tuple[Words, Words] | None:
+        """Why it cannot be used, and the remedy; None if it can."""
+        return refusal_of(self.measures)
+
+
+def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
+    """The curve in a view."""
+    grid = grid_of(view)
+    evidence = evidence_of(ink, grid)
+    black = hidden_in(ink.black, grid)
+    full = max(FULL * evidence.noise, FULL_AT_FIRST)
+    first = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
+    full = max(FULL * evidence.noise, OF_STRONG * first.strong)
+    way = best_way(_rewards(evidence, black, full), grid.wraps)
+    track = track_of(way, grid, evidence, ink)
+    seen = seen_on(track, evidence, ink, grid.wraps)
+    points = placed(track, ink.sharp, grid.wraps) - view.origin
+    second, there = _rival(track, grid, evidence, black, ink)
+    rival = float(second.lengths[there].sum() / second.lengths.sum())
+    twin = twin_share(track, seen, ink, grid.wraps)
+    # Where a line elsewhere is as dark, it may be the one that is meant.
+    seen &= ~(there & (second.answers > AS_DARK * track.answers))
+    measures = _measures(track, way, seen, grid, rival, twin)
+    return CurveReading(bridged(points, seen, track.lengths, grid.wraps), seen, measures)
+
+
+def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float32]:
+    rewards = np.clip(evidence.answers, LOST, full)
+    rewards /= np.float32(full)
+    rewards[black] = 0
+    return rewards
+
+
+def _measures(track: Track, way: Way, seen: Flags, grid: Grid, rival: float, twin: float) -> Measures:
+    there = ~track.hidden
+    length = float(track.lengths[there].sum())
+    # Against the circle or the axis.
+    direction = np.arctan(way.slopes * grid.spacing[way.states] / np.abs(grid.along[0, way.states]))
+    turns = np.abs(np.diff(direction, append=direction[:1] if grid.wraps else direction[-1:]))
+    return Measures(
+        share=float(track.lengths[seen].sum()) / max(length, 1e-6),
+        gap=longest_run(~seen, np.where(there, track.lengths, 0.0), grid.wraps),
+        coherence=float(np.median(track.coherence[there])) if there.any() else 0.0,
+        rival=rival,
+        bend=float(np.degrees(turns.mean())),
+        twin=twin,
+        hidden=float(track.lengths[track.hidden].sum() / track.lengths.sum()),
+        contrast=track.strong,
+        length=float(track.lengths.sum()),
+    )
+
+
+def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[Track, Flags]:
+    """A second curve, at least ``APART`` from the first, and where it is seen."""
+    full = max(RIVAL_FULL * evidence.noise, RIVAL_OF_STRONG * track.strong)
+    rewards = _rewards(evidence, black, full)
+    room = _room_of(track, grid)
+    rewards[np.abs(grid.offsets - grid.offsets[track.states][:, None]) < room[:, None]] = LOST
+    second = track_of(best_way(rewards, grid.wraps), grid, evidence, ink)
+    apart = np.abs(grid.offsets[second.states] - grid.offsets[track.states]) > room
+    seen = seen_on(second, evidence, ink, grid.wraps) & apart & (second.answers > RIVAL * track.strong)
+    return second, seen
+
+
+def _room_of(track: Track, grid: Grid) -> NDArray[np.float64]:
+    """How far (n,) across the grid the curve keeps others away, at stations, which for a steep one is farther."""
+    upright = np.abs((track.normal * np.conj(grid.across[:, 0])).real)
+    own = APART / np.maximum(upright, STEEPEST)
+    return maximum_filter1d(own, 3, mode="wrap" if grid.wraps else "nearest")

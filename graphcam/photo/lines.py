@@ -1,0 +1,242 @@
+"""Straight lines drawn in a view, such as rays, tangents and limit lines, and where two of them cross.
+
+Each piece of a ridge votes for the line in its own direction (P. Hough, US patent 3069654, 1962); the lines are then
+placed by the middles of their strokes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.photo.ink import Ink
+from graphcam.photo.printed import Points, PrintedView
+from graphcam.photo.raster import Raster
+from graphcam.photo.refusal import RefusedError
+from graphcam.photo.ridges import DIRECTIONS, PER_MM, ridges, spread
+from graphcam.photo.tracks import above_foot
+from graphcam.words import say
+
+SURE = 7.0
+"""Standard deviations of noise that a piece of a line passes."""
+FAINTEST = 0.03
+"""Density of the faintest line."""
+SHORTEST = 20.0
+"""Shortest line [mm]; shorter ones have no direction to speak of."""
+LONGEST_GAP = 4.0
+"""A gap that a line may have [mm]; beyond it another begins."""
+LEAST_COVER = 0.6
+"""Share of its length on which a line is drawn, to be one."""
+COVER_TO_CROSS = 0.7
+"""The same, for a crossing to be taken from it."""
+LEAST_ANGLE = 20.0
+"""Degrees at which lines cross at least; at less a pencil's width moves the crossing by half a mm."""
+DEGREES = 6
+"""Degrees about a piece's own direction for which it votes."""
+BIN = 0.5
+"""mm in which votes for the distance from the middle are counted."""
+ALIKE = 14.0
+"""Degrees by which the direction of a piece may differ from its line's."""
+WIDTHS = (0.8, 0.5, 0.4, 0.4)
+"""Half the widths [mm] within which pieces belong to a line, while it is fitted."""
+MOST_SAG = 0.3
+"""By so much [mm] a line may bulge in its middle; more is an arc."""
+MOST_LINES = 80
+"""Lines looked for; a construction of 24 stations has a third of these."""
+FEWEST = 20
+"""Pieces of a line."""
+PROFILES = (0.7, 0.4)
+"""Half the profiles across a line [mm], by which it is placed and placed again: the second holds no neighbour."""
+STEP = 0.5
+"""Along a line, by which it is looked at [mm]."""
+OF_STRONG, STRONG = 0.3, 80
+"""A line is drawn where it has this share of this percentile of its strength."""
+OUTLYING = 0.1
+"""From so many mm on a place counts less for its line: a digit, another line."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A straight line: its ends [mm of paper from the view's origin], and the share of its length that is drawn."""
+
+    start: complex
+    end: complex
+    cover: float
+
+    @property
+    def length(self) -> float:
+        """Between its ends, mm."""
+        return abs(self.end - self.start)
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Pieces of ridges, one a pixel: places (n,) on the page, and directions (n,) [rad]."""
+
+    places: Points
+    directions: NDArray[np.float64]
+
+    def only(self, kept: NDArray[np.bool_]) -> Pieces:
+        """Some of them."""
+        return Pieces(self.places[kept], self.directions[kept])
+
+
+def read_lines(ink: Ink, view: PrintedView) -> list[Segment]:
+    """The straight lines in a view's room, the longest first."""
+    pieces = _pieces(ink.pencil.reduced(PER_MM), view)
+    placed = (_placed(ink.sharp, start, end) for start, end in _straight(pieces))
+    lines = [
+        Segment(line.start - view.origin, line.end - view.origin, line.cover)
+        for line in placed
+        if line is not None and line.length >= SHORTEST and line.cover >= LEAST_COVER
+    ]
+    return sorted(lines, key=lambda line: -line.length)
+
+
+def crossing(one: Segment, other: Segment) -> complex:
+    """Where two lines cross, prolonged if need be [mm of paper from the view's origin].
+
+    Raises
+    ------
+    RefusedError : they cross at less than ``LEAST_ANGLE``, or one of them is drawn in pieces
+
+    >>> crossing(Segment(-2 + 0j, 2 + 0j, 1.0), Segment(1 - 1j, 1 + 1j, 1.0))
+    (1+0j)
+    """
+    ahead, across = one.end - one.start, other.end - other.start
+    angle = abs(np.degrees(np.angle(ahead / across)))
+    angle = min(angle, 180 - angle)
+    if angle < LEAST_ANGLE:
+        why = say("the lines cross at {angle:.0f}°, and {least:.0f}° are needed", angle=angle, least=LEAST_ANGLE)
+        raise RefusedError(why, say("enter it in the review page"))
+    cover = min(one.cover, other.cover)
+    if cover < COVER_TO_CROSS:
+        why = say("{share:.0f} % of a line can be seen", share=100 * cover)
+        raise RefusedError(why, say("draw over the line and take the photograph again"))
+    along = ((other.start - one.start) * across.conjugate()).imag / (ahead * across.conjugate()).imag
+    return one.start + along * ahead
+
+
+def _pieces(picture: Raster, view: PrintedView) -> Pieces:
+    """The crests of the ridges in the room."""
+    best = np.full(picture.values.shape, -1, np.float32)
+    direction = np.zeros(picture.values.shape, np.int8)
+    quiet: list[NDArray[np.float32]] = []
+    for k, (_, answer) in enumerate(ridges(picture)):
+        better = answer.values > best
+        best[better] = answer.values[better]
+        direction[better] = k
+        quiet.append(answer.values[::6, ::6].ravel())
+    strong = best > max(SURE * spread(np.concatenate(quiet)), FAINTEST)
+    strong[[0, -1]] = strong[:, [0, -1]] = False
+    rows, columns = np.nonzero(strong)
+    angle = np.pi * direction[rows, columns] / DIRECTIONS
+    right, down = np.round(-np.sin(angle)).astype(int), np.round(-np.cos(angle)).astype(int)
+    here = best[rows, columns]
+    crest = (here >= best[rows + down, columns + right]) & (here >= best[rows - down, columns - right])
+    places = picture.places(columns, rows)
+    left, bottom, right_edge, top = view.room
+    crest &= (left < places.real) & (places.real < right_edge) & (bottom < places.imag) & (places.imag < top)
+    return Pieces(places[crest], angle[crest])
+
+
+def _straight(pieces: Pieces) -> Iterator[tuple[complex, complex]]:
+    """Start and end of the lines that the pieces make, on the page, those with the most votes first."""
+    if pieces.places.size < FEWEST:
+        return
+    middle = complex(pieces.places.mean())
+    votes, bins = _votes(pieces, middle)
+    free = np.ones(pieces.places.size, np.bool_)
+    for _ in range(MOST_LINES):
+        count = np.bincount(votes[free].ravel(), minlength=180 * bins).reshape(180, bins)
+        count = count + np.roll(count, 1, 1)
+        degrees, distance = divmod(int(count.argmax()), bins)
+        if count[degrees, distance] < FEWEST:
+            return
+        angle, offset = np.radians(degrees + 0.5), (distance - bins // 2) * BIN
+        fit = _fitted(pieces, free, middle, float(angle), offset)
+        if fit is None:
+            free[(votes == degrees * bins + distance).any(1) | (votes == degrees * bins + distance - 1).any(1)] = False
+            continue
+        angle, offset, run, taken = fit
+        free &= ~taken
+        if run[-1] - run[0] >= SHORTEST:
+            ahead = complex(np.exp(1j * angle))
+            yield middle + ahead * complex(float(run[0]), offset), middle + ahead * complex(float(run[-1]), offset)
+
+
+def _votes(pieces: Pieces, middle: complex) -> tuple[NDArray[np.int64], int]:
+    """For which bins of direction and distance each piece votes (n, m), and how many bins of the distance there are."""
+    reach = float(np.abs(pieces.places - middle).max()) + 2 * BIN
+    bins = 2 * int(np.ceil(reach / BIN)) + 2
+    degrees = np.degrees(pieces.directions)[:, None] + np.arange(-DEGREES, DEGREES + 1)
+    angle = np.radians(degrees % 180)
+    distance = ((pieces.places - middle)[:, None] * np.exp(-1j * angle)).imag
+    column = np.floor(distance / BIN).astype(np.int64) + bins // 2
+    return np.floor(degrees % 180).astype(np.int64) * bins + column, bins
+
+
+def _fitted(
+    pieces: Pieces, free: NDArray[np.bool_], middle: complex, angle: float, offset: float
+) -> tuple[float, float, NDArray[np.float64], NDArray[np.bool_]] | None:
+    """Direction, offset from the middle, where its pieces lie along it (m,) and which are used up (n,); or no line."""
+    from_middle = pieces.places - middle
+    for width in WIDTHS:
+        turned = from_middle * np.exp(-1j * angle)
+        on = free & (np.abs(turned.imag - offset) < width) & _alike(pieces.directions, angle, ALIKE)
+        if on.sum() < FEWEST:
+            return None
+        centre = from_middle[on].mean()
+        # The greater axis of the places: total least squares.
+        angle = float(np.angle(((from_middle[on] - centre) ** 2).sum()) / 2 % np.pi)
+        offset = float((centre * np.exp(-1j * angle)).imag)
+    turned = from_middle * np.exp(-1j * angle)
+    on = free & (np.abs(turned.imag - offset) < WIDTHS[-1]) & _alike(pieces.directions, angle, ALIKE)
+    if on.sum() < FEWEST:
+        return None
+    along = np.sort(turned.real[on])
+    run = max(np.split(along, np.flatnonzero(np.diff(along) > LONGEST_GAP) + 1), key=lambda part: part[-1] - part[0])
+    beside = (turned.real >= run[0] - 0.5) & (turned.real <= run[-1] + 0.5) & (np.abs(turned.imag - offset) < 0.7)
+    return angle, offset, run, free & beside & (_alike(pieces.directions, angle, 20.0) | on)
+
+
+def _alike(directions: NDArray[np.float64], angle: float, degrees: float) -> NDArray[np.bool_]:
+    return np.abs((directions - angle + np.pi / 2) % np.pi - np.pi / 2) < np.radians(degrees)
+
+
+def _placed(sharp: Raster, start: complex, end: complex) -> Segment | None:
+    """The line on the page again, from the middles of its stroke; None if it is an arc, or hardly a stroke."""
+    line: Segment | None = Segment(start, end, 0.0)
+    for reach in PROFILES:
+        line = None if line is None else _through_middles(sharp, line, reach)
+    return line
+
+
+def _through_middles(sharp: Raster, line: Segment, reach: float) -> Segment | None:
+    ahead = (line.end - line.start) / line.length
+    along, offsets = np.arange(STEP / 2, line.length, STEP), np.arange(-reach, reach + 0.025, 0.05)
+    profile = sharp.at((line.start + ahead * along)[:, None] + 1j * ahead * offsets)
+    weights = above_foot(profile, offsets)
+    height = weights.max(1)
+    drawn = height > max(FAINTEST, OF_STRONG * float(np.percentile(height, STRONG)))
+    if drawn.sum() < FEWEST:
+        return None
+    middle = weights @ offsets / np.maximum(weights.sum(1), 1e-9)
+    scaled, use = 2 * along / line.length - 1, drawn.astype(float)
+    bulge = 0.0
+    for _ in range(6):
+        fit = np.polyfit(scaled, middle, 2, w=np.sqrt(use))
+        use = drawn / (1 + ((middle - np.polyval(fit, scaled)) / OUTLYING) ** 2)
+        bulge = abs(float(fit[0]))
+    if bulge > MOST_SAG:
+        return None
+    straight = np.polyfit(scaled, middle, 1, w=np.sqrt(use))
+    first, last = np.flatnonzero(drawn)[[0, -1]]
+    start, end = (
+        line.start + ahead * complex(along[k] + side * STEP / 2, np.polyval(straight, scaled[k]))
+        for k, side in ((first, -1), (last, 1))
+    )
+    return Segment(start, end, float(drawn[first : last + 1].mean()))

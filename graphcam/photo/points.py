@@ -1,0 +1,269 @@
+"""Plotted points: crosses, dots and small rings, found by their shapes wherever they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Literal
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.photo.ink import Ink
+from graphcam.photo.printed import Points, PrintedView
+from graphcam.photo.raster import Raster
+from graphcam.photo.runs import runs
+
+Mark = Literal["cross", "dot", "ring"]
+PER_MM = 6.0
+"""Pixels of the picture in which marks are looked for."""
+LEAST_SCORES: dict[Mark, float] = {"cross": 0.73, "dot": 0.70, "ring": 0.68}
+"""Correlation with a mark's shape, also on a ray: little else is as round as a ring, but much is like a cross."""
+FAINTEST = 0.06
+"""Density of the faintest mark."""
+OF_RESIDUE = 3.0
+"""Times what is left of the print, that a mark passes beside print, where printed lines cross."""
+SURE = 5.0
+"""Standard deviations of noise that a mark passes."""
+TURNS = (0, 15, 30, 45, 60, 75)
+"""Degrees by which crosses may be turned."""
+ARM = 1.5
+"""Half the length of a cross [mm]."""
+STROKE = 0.2
+"""Deviation of the Gauss curve across a stroke [mm]."""
+DOT = 0.45
+"""Radius of a dot [mm]."""
+RINGS = (0.75, 1.1)
+"""Radii of rings [mm]."""
+HALF_SIDE = 2.2
+"""Of a pattern [mm]."""
+APART = 2.0
+"""Nearer than so many mm two marks are one."""
+ENDED = 0.6
+"""Share of its strength that an arm of a cross has at most where it should have ended; construction lines run on."""
+ARM_INSIDE, ARM_OUTSIDE = (0.5, 1.2), (2.2, 3.2)
+"""From where to where along an arm, and behind its end, is looked [mm]."""
+CORE = (0.05, 0.15, 0.25)
+"""Radii [mm] in a dot."""
+SURROUNDINGS = (1.0, 1.2, 1.4)
+"""Radii [mm] about a dot."""
+OUTSTANDING = 2.15
+"""Times the density of the lines about it that a dot has; where lines cross, their densities add to twice."""
+OUTSTANDING_ON_LINE = 1.95
+"""The same, where one line runs through."""
+ROUND_RADII = np.arange(0.4, 1.75, 0.1)
+"""Radii [mm] at which a ring may lie."""
+ROUND_WITHIN, ROUND_SHARE = 0.25, 0.7
+"""So near to one radius [mm] a ring lies in that share of all directions: rays cross it, and a nought is no ring."""
+GAP_IN_RING, WHOLE_RING = 0.4, 0.92
+"""In that share of directions a ring has at least this part of its usual density: the bowl of a 3 or 5 is open."""
+BEHIND_RING = ((0.45, 0.55, 0.65), (0.75, 0.85, 0.95))
+"""So far outside a ring [mm] is looked what meets it: of a 6, 8 or 9 the rest of the digit."""
+RAY_ABOUT, FAINT_RAY = 0.5, 0.2
+"""Shares of a ring's density that such a line has, and a ray that goes on."""
+RADIAL, OPPOSITE = np.radians(14.0), np.radians(25.0)
+"""A ray keeps its direction from the one distance to the other, and goes on at the ring's other side."""
+DIRECTIONS = np.exp(2j * np.pi * np.arange(48) / 48)
+
+
+@dataclass(frozen=True, eq=False)
+class PointReading:
+    """Points that were found, the surest first.
+
+    points : (n,) mm of paper from the view's origin
+    kinds : (n,) their shapes;  scores : (n,) correlations with these
+    """
+
+    points: Points
+    kinds: tuple[Mark, ...]
+    scores: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """A mark's shape: ``kernel`` (n, n) answers with the mark's density; ``window`` (n, n), of sum one, is its room.
+
+    norm : by which, and by the spread in the window, an answer becomes a correlation
+    """
+
+    kind: Mark
+    turn: float
+    kernel: NDArray[np.float32]
+    window: NDArray[np.float32]
+    norm: float
+
+
+def read_points(ink: Ink, view: PrintedView) -> PointReading:
+    """The points in a view's room."""
+    picture = ink.sharp.reduced(PER_MM)
+    marks = [mark for mark in _summits(picture, max(FAINTEST, SURE * ink.noise), view) if _is_mark(ink, picture, mark)]
+    marks.sort(key=lambda mark: -mark.score)
+    apart: list[Found] = []
+    for mark in marks:
+        if all(abs(mark.place - other.place) > APART for other in apart):
+            apart.append(mark)
+    return PointReading(
+        points=np.array([mark.place - view.origin for mark in apart], complex),
+        kinds=tuple(mark.pattern.kind for mark in apart),
+        scores=np.array([mark.score for mark in apart], float),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Where something looks like a mark: its correlation, its place on the page, and the pattern."""
+
+    score: float
+    place: complex
+    pattern: Pattern
+
+
+def _summits(picture: Raster, faintest: float, view: PrintedView) -> Iterator[Found]:
+    """The places in the room that look more like a mark than those about, for each kind of mark."""
+    wide = np.ones((2 * round(APART * PER_MM) + 1,) * 2, np.uint8)
+    left, bottom, right, top = view.room
+    for kind, (score, number) in _correlations(picture, faintest).items():
+        rows, columns = np.nonzero((score > LEAST_SCORES[kind]) & (score >= cv2.dilate(score, wide)))
+        for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
+            down, across = _refined(score, row, column)
+            place = complex(picture.places(np.array(column + across), np.array(row + down)))
+            if left < place.real < right and bottom < place.imag < top:
+                yield Found(float(score[row, column]), place, patterns()[number[row, column]])
+
+
+def _is_mark(ink: Ink, picture: Raster, mark: Found) -> bool:
+    """Whether it is not print, nor lines of a construction that cross."""
+    place, pattern = mark.place, mark.pattern
+    core = float(picture.at(place + _circles(CORE)).mean())
+    darkest = max(core, float(picture.at(place + _circles(RINGS)).mean(1).max()))
+    if bool(ink.beside_print(np.array(place))) and darkest < FAINTEST + OF_RESIDUE * ink.residue:
+        return False
+    if pattern.kind == "cross":
+        return _ends(picture, place, pattern.turn)
+    if pattern.kind == "dot":
+        return _stands_out(picture.at(place + _circles(SURROUNDINGS)), core)
+    radius = _round(picture.at(place + _circles(tuple(ROUND_RADII))))
+    return radius is not None and _only_rays_about(picture, place, radius)
+
+
+def _stands_out(around: NDArray[np.float32], core: float) -> bool:
+    """Whether a dot's core is darker than the lines about it, by densities (radii, places) on circles."""
+    line = float(np.median(np.sort(around, axis=1)[:, -4:].mean(1)))
+    arms = np.median([len(runs(circle > circle.max() / 2, wraps=True)) for circle in around])
+    return core > (OUTSTANDING if arms > 2 else OUTSTANDING_ON_LINE) * line
+
+
+def _round(around: NDArray[np.float32]) -> float | None:
+    """The radius of a ring, by densities (radii, directions) about its middle; None if it is no ring."""
+    radius, height = ROUND_RADII[around.argmax(0)], around.max(0)
+    middle = float(np.median(radius))
+    even = (np.abs(radius - middle) < ROUND_WITHIN).mean() > ROUND_SHARE
+    whole = (height > GAP_IN_RING * np.median(height)).mean() > WHOLE_RING
+    return middle if even and whole else None
+
+
+def _only_rays_about(picture: Raster, place: complex, radius: float) -> bool:
+    """Whether what meets a ring from outside runs straight away from it, through it or, once, up to it."""
+    ring = float(picture.at(place + _circles((radius,))).mean())
+    near, far = (picture.at(place + _circles(tuple(radius + np.array(more)))).mean(0) for more in BEHIND_RING)
+    arms = _arms(near > RAY_ABOUT * ring)
+    goes_on, faint = _arms(far > FAINT_RAY * ring), _arms(near > FAINT_RAY * ring)
+    if not all(_any_along(goes_on, arm, RADIAL) for arm in arms):
+        return False
+    return sum(not _any_along(faint, -arm, OPPOSITE) for arm in arms) <= 1
+
+
+def _any_along(arms: Points, direction: complex, within: float) -> bool:
+    return bool((np.abs(np.angle(arms / direction)) < within).any())
+
+
+def _arms(dark: NDArray[np.bool_]) -> Points:
+    """The directions (n,), of length one, of the dark pieces of a circle (48,)."""
+    return np.array([complex(np.exp(1j * np.angle(DIRECTIONS[run].sum()))) for run in runs(dark, wraps=True)], complex)
+
+
+def _circles(radii: tuple[float, ...]) -> Points:
+    """Places (radii, 48) on circles."""
+    return np.array(radii)[:, None] * DIRECTIONS
+
+
+@cache
+def patterns() -> tuple[Pattern, ...]:
+    """The shapes that are looked for.
+
+    >>> sorted({pattern.kind for pattern in patterns()})
+    ['cross', 'dot', 'ring']
+    """
+    return tuple(_patterns())
+
+
+def _patterns() -> Iterator[Pattern]:
+    side = np.arange(-round(HALF_SIDE * PER_MM), round(HALF_SIDE * PER_MM) + 1) / PER_MM
+    z = side + 1j * side[::-1, None]
+    for degrees in TURNS:
+        turned = z * np.exp(-1j * np.radians(degrees))
+        arms = [_stroke(u) * (np.abs(v) < ARM) for u, v in ((turned.real, turned.imag), (turned.imag, turned.real))]
+        yield _pattern("cross", np.radians(degrees), np.maximum(*arms), np.abs(z) < ARM + 0.4)
+    yield _pattern("dot", 0.0, 1 / (1 + np.exp((np.abs(z) - DOT) / 0.08)), np.abs(z) < DOT + 0.95)
+    for radius in RINGS:
+        yield _pattern("ring", 0.0, _stroke(np.abs(z) - radius), np.abs(z) < radius + 0.75)
+
+
+def _stroke(across: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.exp(-((across / STROKE) ** 2) / 2)
+
+
+def _pattern(kind: Mark, turn: float, shape: NDArray[np.float64], room: NDArray[np.bool_]) -> Pattern:
+    window = room / room.sum()
+    even = (shape - (shape * window).sum()) * window
+    square = float((even * shape).sum())
+    return Pattern(kind, turn, (even / square).astype(np.float32), window.astype(np.float32), float(np.sqrt(square)))
+
+
+def _correlations(picture: Raster, faintest: float) -> dict[Mark, tuple[NDArray[np.float32], NDArray[np.int8]]]:
+    """Of each kind the best correlation at each pixel (rows, columns), and the number of its pattern."""
+    density = picture.values
+    best: dict[Mark, tuple[NDArray[np.float32], NDArray[np.int8]]] = {}
+    window, spread = np.zeros(0), density
+    for number, pattern in enumerate(patterns()):
+        if not np.array_equal(pattern.window, window):
+            window = pattern.window
+            mean = cv2.filter2D(density, -1, window)
+            spread = np.sqrt(np.maximum(cv2.filter2D(density * density, -1, window) - mean * mean, 1e-6))
+        strength = cv2.filter2D(density, -1, pattern.kernel)
+        score = np.where(strength > faintest, strength * np.float32(pattern.norm) / spread, np.float32(-1))
+        if pattern.kind not in best:
+            best[pattern.kind] = score, np.full(score.shape, number, np.int8)
+            continue
+        highest, numbers = best[pattern.kind]
+        better = score > highest
+        highest[better] = score[better]
+        numbers[better] = number
+    return best
+
+
+def _refined(score: NDArray[np.float32], row: int, column: int) -> tuple[float, float]:
+    """By how much the summit of the correlation lies below and right of its pixel, from its neighbours."""
+    if not (0 < row < score.shape[0] - 1 and 0 < column < score.shape[1] - 1):
+        return 0.0, 0.0
+    return _summit(score[row - 1 : row + 2, column]), _summit(score[row, column - 1 : column + 2])
+
+
+def _summit(three: NDArray[np.float32]) -> float:
+    before, here, behind = (float(value) for value in three)
+    return float(np.clip((before - behind) / (2 * (before + behind - 2 * here) - 1e-9), -0.5, 0.5))
+
+
+def _ends(picture: Raster, place: complex, turn: float) -> bool:
+    """Whether one of a cross's strokes ends at both its ends, as those of two crossing construction lines do not."""
+    return any(_stroke_ends(picture, place, np.exp(1j * (turn + quarter * np.pi / 2))) for quarter in (0, 1))
+
+
+def _stroke_ends(picture: Raster, place: complex, ahead: complex) -> bool:
+    across = 1j * ahead * np.arange(-0.4, 0.45, 0.2)
+    inside, outside = (np.linspace(*span, 6)[:, None] * np.array([-1, 1])[None] for span in (ARM_INSIDE, ARM_OUTSIDE))
+    strong = picture.at(place + inside[..., None] * ahead + across).max(-1).mean()
+    behind = picture.at(place + outside[..., None] * ahead + across).max(-1).mean(0)
+    return bool((behind < ENDED * strong).all())

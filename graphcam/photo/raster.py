@@ -1,0 +1,73 @@
+"""A picture of a part of the page, and what it holds at places of the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.photo.printed import Edges, Points
+
+MOST_COLUMNS = 20_000
+"""Places that OpenCV looks up in one row; it takes no more than 32767."""
+
+
+@dataclass(frozen=True, eq=False)
+class Raster:
+    """Values (rows, columns) over a part of the page, the first row at its top.
+
+    left, top : edges of the first pixel, mm of page
+    per_mm : pixels
+
+    >>> raster = Raster(np.array([[1, 2], [3, 4]], np.float32), 10.0, 20.0, 1.0)
+    >>> raster.at(np.array([10.5 + 19.5j, 11 + 19j, 99 + 0j])).tolist()
+    [1.0, 2.5, 0.0]
+    """
+
+    values: NDArray[Any]
+    left: float
+    top: float
+    per_mm: float
+
+    @property
+    def box(self) -> Edges:
+        """Left, bottom, right and top of what it shows, mm of page."""
+        rows, columns = self.values.shape[:2]
+        return (self.left, self.top - rows / self.per_mm, self.left + columns / self.per_mm, self.top)
+
+    def pixels(self, points: Points) -> NDArray[np.float32]:
+        """Columns and rows (..., 2) of places on the page (...); whole numbers are the middles of pixels."""
+        x = (points.real - self.left) * self.per_mm - 0.5
+        y = (self.top - points.imag) * self.per_mm - 0.5
+        return np.stack([x, y], -1).astype(np.float32)
+
+    def places(self, columns: NDArray[Any], rows: NDArray[Any]) -> Points:
+        """Places on the page (...) of columns and rows (...)."""
+        return self.left + (columns + 0.5) / self.per_mm + 1j * (self.top - (rows + 0.5) / self.per_mm)
+
+    def at(self, points: Points, nearest: bool = False) -> NDArray[np.float32]:
+        """The values at places on the page (...): between the pixels, or those of the nearest; nought outside."""
+        looked_up = np.atleast_1d(self.pixels(np.asarray(points)).reshape(-1, 2))
+        how = cv2.INTER_NEAREST if nearest else cv2.INTER_LINEAR
+        pieces = [
+            cv2.remap(self.values, piece[None, :, 0], piece[None, :, 1], how, borderMode=cv2.BORDER_CONSTANT)[0]
+            for piece in np.array_split(looked_up, looked_up.shape[0] // MOST_COLUMNS + 1)
+        ]
+        return np.concatenate(pieces).reshape(np.shape(points)).astype(np.float32)
+
+    def like(self, values: NDArray[Any]) -> Raster:
+        """Other values (rows, columns) over the same part."""
+        return Raster(values, self.left, self.top, self.per_mm)
+
+    def reduced(self, per_mm: float) -> Raster:
+        """The same part with fewer pixels, each the mean of what it covers."""
+        # Filled up at its right and lower edges, so that the new pixels fit a whole number of times.
+        whole = Fraction(per_mm / self.per_mm).limit_denominator(64).denominator
+        rows, columns = (-length % whole for length in self.values.shape[:2])
+        filled = cv2.copyMakeBorder(self.values, 0, rows, 0, columns, cv2.BORDER_REPLICATE)
+        size = (round(filled.shape[1] * per_mm / self.per_mm), round(filled.shape[0] * per_mm / self.per_mm))
+        return Raster(cv2.resize(filled, size, interpolation=cv2.INTER_AREA), self.left, self.top, per_mm)

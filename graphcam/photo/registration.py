@@ -1,0 +1,201 @@
+"""Where the paper is in a picture: from the tags, by the simplest surface that they lie on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.photo.fitting import Numbers
+from graphcam.photo.halves import half, side_seen
+from graphcam.photo.laying import EXPECTED, LEAST_TAGS, Kind, Laid, Sight, Surface, laid_surfaces
+from graphcam.photo.planes import Frame
+from graphcam.photo.printed import Edges, PrintedPage
+from graphcam.photo.refusal import RefusedError
+from graphcam.photo.tags import Tags
+from graphcam.words import say
+
+Places = NDArray[np.complex128]
+WORST = 0.7
+"""Pixels by which the corners may miss on the average."""
+ELSEWHERE = 15.0
+"""Pixels by which they miss if they are another page's."""
+SURE = 2.0
+"""Standard deviations that the doubt is."""
+MOST_BLURRED = 0.7
+"""mm of paper over which an edge may be smeared: twice as wide as a pencil line."""
+MOST_DOUBT = 0.5
+"""mm by which what is read may be misplaced, as far as the tags tell."""
+GRID = 7
+"""Points of a view each way for which the doubt is looked at."""
+OUTWARD = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
+"""From the middle of a tag to its corners, in their order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Registration:
+    """Where the paper is in a picture.
+
+    kind : what shape the paper has
+    residual : by how much the tags' corners miss [px], root of the mean square
+    tags, expected : how many tags were used, and how many there are on the paper
+    doubt : by how much the worst place of the views may be misplaced [mm], as far as the tags tell
+    blur : how widely an edge is smeared [mm], None if nobody has measured
+    growth : by how much the black squares' edges lie outside of their places [mm]
+    """
+
+    surface: Surface
+    parameters: Numbers
+    kind: Kind
+    residual: float
+    tags: int
+    expected: int
+    doubt: float
+    blur: float | None
+    growth: float
+
+    def pixels(self, points: Places | complex) -> Places:
+        """Where points of the paper (...) [mm] are in the picture [px]."""
+        given = np.asarray(points, complex)
+        return self.surface.project(self.parameters, given.ravel()).reshape(given.shape)
+
+    def millimetres(self, places: Places | complex) -> Places:
+        """Where places of the picture (...) [px] are on the paper [mm]."""
+        given = np.asarray(places, complex)
+        return self.surface.unproject(self.parameters, given.ravel()).reshape(given.shape)
+
+
+def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float | None = None) -> Registration:
+    """Where a page is in a picture; of a page on two sheets, where the one is that is seen better.
+
+    size : columns and rows of the picture
+    focal : length of the lens [px], None if it is not known
+
+    Raises
+    ------
+    RefusedError : the picture does not tell where a line of the drawing is
+    """
+    if page.seam is not None:
+        page = half(page, side_seen(tags.numbers, page))
+    mine = tags.only(np.isin(tags.numbers, list(page.tags)))
+    _enough(len(mine), len(tags), len(page.tags))
+    corners = np.array([page.tags[number] for number in mine.numbers.tolist()])
+    outward = np.broadcast_to(OUTWARD, mine.corners.shape)
+    points = corners[:, None] + page.tag_side / 2 * (1 + 1j + outward)
+    sight = Sight(points, outward, mine.corners)
+    blur = _blur(mine, page)
+    laid = laid_surfaces(
+        sight, Frame.of(np.array(list(page.tags.values())) + page.tag_side * (0.5 + 0.5j), size), focal
+    )
+    if laid[0].residual > ELSEWHERE:
+        raise RefusedError(say("the marks are not where this page has them"), say("look which page it is"))
+    if laid[0].residual > WORST:
+        raise RefusedError(
+            say("the paper is bent too much: its marks miss by {miss:.1f} pixels", miss=laid[0].residual),
+            say("press the sheet flat on a table, or scan it"),
+        )
+    return _checked(laid, page, size, blur)
+
+
+def _enough(mine: int, seen: int, expected: int) -> None:
+    if not seen:
+        raise RefusedError(
+            say("none of the {expected} marks along the edges is seen", expected=expected),
+            say("take the whole sheet from above, in good light, not mirrored"),
+        )
+    if not mine:
+        raise RefusedError(say("the marks along the edges are those of another page"), say("look which page it is"))
+    if mine < LEAST_TAGS:
+        raise RefusedError(
+            say("only {seen} of {expected} marks along the edges are seen", seen=mine, expected=expected),
+            say("take in the whole sheet, and keep fingers off its marks"),
+        )
+
+
+def _blur(tags: Tags, page: PrintedPage) -> float | None:
+    """How widely edges are smeared [mm] in the worse of the two directions.
+
+    Raises
+    ------
+    RefusedError : too widely to place a line
+    """
+    if tags.widths is None:
+        return None
+    sides = np.abs(np.roll(tags.corners, -1, axis=1) - tags.corners)
+    # What smears an edge shortens or lengthens as the sides across it do.
+    smeared = tags.widths / np.roll(sides, 1, axis=1) * page.tag_side
+    blur = float(max(np.median(smeared[:, ::2]), np.median(smeared[:, 1::2])))
+    if blur > MOST_BLURRED:
+        raise RefusedError(
+            say("the picture is blurred: edges are {width:.1f} mm wide", width=blur),
+            say("hold still and give more light, or let the camera focus"),
+        )
+    return blur
+
+
+def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], blur: float | None) -> Registration:
+    best = plausible[0]
+    points = np.concatenate([_grid(room) for room in _rooms(page)])
+    doubt = max([_doubt(laid, points) for laid in plausible])
+    count, expected = len(best.sight.points), len(page.tags)
+    found = Registration(
+        best.surface,
+        best.fit.parameters[:-1],
+        best.kind,
+        best.residual,
+        count,
+        expected,
+        doubt,
+        blur,
+        float(best.fit.parameters[-1]),
+    )
+    places = found.pixels(points)
+    for other in plausible[1:]:
+        apart = other.surface.unproject(other.fit.parameters[:-1], places) - points
+        found = replace(found, doubt=max(found.doubt, float(np.abs(apart).max())))
+    if not found.doubt <= MOST_DOUBT:
+        raise RefusedError(
+            say(
+                "{seen} of {expected} marks are seen, and do not tell where a line is: it may be {doubt:.1f} mm off",
+                seen=count,
+                expected=expected,
+                doubt=found.doubt,
+            ),
+            say("lay the sheet flat, take in the marks on all its sides, and keep fingers off them"),
+        )
+    inside = _within(places, size)
+    if not inside.all():
+        raise RefusedError(say("a part of the drawing is outside of the picture"), say("take in the whole sheet"))
+    return found
+
+
+def _within(places: Places, size: tuple[int, int]) -> NDArray[np.bool_]:
+    columns, rows = size
+    across, down = np.abs(places.real - (columns - 1) / 2), np.abs(places.imag - (rows - 1) / 2)
+    return (across <= columns / 2) & (down <= rows / 2)
+
+
+def _rooms(page: PrintedPage) -> list[Edges]:
+    return [view.room for view in page.views.values()] or [(0.0, 0.0, page.width, page.height)]
+
+
+def _grid(room: Edges) -> Places:
+    left, bottom, right, top = room
+    return (np.linspace(left, right, GRID) + 1j * np.linspace(bottom, top, GRID)[:, None]).ravel()
+
+
+def _doubt(laid: Laid, points: Places) -> float:
+    """By how much points (n,) may be misplaced [mm], the worst of them: the spread that the corners' misses leave."""
+    parameters, project = laid.fit.parameters[:-1], laid.surface.project
+    count = len(parameters)
+    step = 1e-5
+    shifted = project(parameters + step * np.eye(count), points[None])
+    here = project(parameters, points)
+    slopes = (shifted - here) / step
+    covariance = laid.fit.covariance[:-1, :-1] * max(1.0, laid.residual / np.sqrt(2) / EXPECTED) ** 2
+    variance = np.einsum("mn,mk,kn->n", slopes.real, covariance, slopes.real)
+    variance += np.einsum("mn,mk,kn->n", slopes.imag, covariance, slopes.imag)
+    enlarged = np.abs(project(parameters, points + 0.5) - project(parameters, points - 0.5))
+    upward = np.abs(project(parameters, points + 0.5j) - project(parameters, points - 0.5j))
+    return SURE * float(np.max(np.sqrt(np.maximum(variance, 0)) / np.minimum(enlarged, upward)))

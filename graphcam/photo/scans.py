@@ -1,0 +1,89 @@
+"""Scans as PDF: pages made pictures, one at a time, at the scan's own resolution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from typing import Any, BinaryIO, cast
+
+import numpy as np
+from pypdfium2 import PdfDocument, PdfiumError, PdfPage, raw
+
+from graphcam.photo.images import MOST_PAGES
+from graphcam.photo.pictures import KEPT_PIXELS, WIDE, Picture, check_size
+from graphcam.photo.refusal import RefusedError
+from graphcam.words import say
+
+POINTS = 72.0
+"""An inch."""
+DPI = 300.0
+"""Of a page that is more than one picture."""
+WHOLE = 0.9
+"""The part of a page that its one picture covers at least."""
+NESTED = 8
+"""Groups within groups in which pictures are looked for."""
+
+
+def scanned_pages(file: BinaryIO, name: str) -> Iterator[Picture | RefusedError]:
+    """The pages of a PDF, or why one is none.
+
+    Raises
+    ------
+    RefusedError : there is none
+    """
+    try:
+        document = PdfDocument(file)
+    except PdfiumError as error:
+        if "password" in str(error).lower():
+            raise RefusedError(say("the PDF is locked with a password"), say("save it without one")) from None
+        raise RefusedError(say("the PDF is broken or breaks off"), say("send it again")) from None
+    with closing(document):
+        count = len(document)
+        if not count:
+            raise RefusedError(say("the PDF has no pages"), say("send it again"))
+        if count > MOST_PAGES:
+            raise RefusedError(
+                say("the PDF has more than {most} pages", most=MOST_PAGES), say("send fewer pages in a file")
+            )
+        for number in range(count):
+            page_name = name if count == 1 else f"{name}, {number + 1}"
+            try:
+                yield _picture(document, number, page_name)
+            except RefusedError as error:
+                yield error
+            except PdfiumError:
+                yield RefusedError(say("page {number} is broken", number=number + 1), say("scan it again"))
+
+
+def _picture(document: PdfDocument, number: int, name: str) -> Picture:
+    with closing(document[number]) as page:
+        width, height = page.get_size()
+        if not (width > 0 and height > 0):
+            raise RefusedError(say("page {number} is empty", number=number + 1), say("scan it again"))
+        scale: Any = min(_scale(page, width * height), float(np.sqrt(KEPT_PIXELS / (width * height))))
+        with closing(page.render(scale=scale)) as bitmap:
+            pixels = np.asarray(bitmap.to_numpy())
+            if pixels.ndim == 2 or pixels.shape[2] == 1:
+                pixels = np.repeat(pixels.reshape(*pixels.shape[:2], 1), 3, axis=2)
+            return Picture(name, np.ascontiguousarray(pixels[..., :3], np.uint8))
+
+
+def _scale(page: PdfPage, area: float) -> float:
+    """Pixels a point: those of the page's one picture, or the usual ones.
+
+    Raises
+    ------
+    RefusedError : a picture in it is too large
+    """
+    # The library's types leave out what a page's pictures are.
+    pictures = cast("list[Any]", list(page.get_objects(filter=[raw.FPDF_PAGEOBJ_IMAGE], max_depth=NESTED)))
+    sizes = [picture.get_px_size() for picture in pictures]
+    for columns, rows in sizes:
+        check_size(columns, rows, WIDE)
+    if len(pictures) == 1:
+        left, bottom, right, top = pictures[0].get_bounds()
+        covered = (right - left) * (top - bottom)
+        if covered >= WHOLE * area:
+            columns, rows = sizes[0]
+            return float(np.sqrt(columns * rows / covered))
+    return DPI / POINTS

@@ -1,0 +1,164 @@
+"""A page on two sheets of A4, taped together at a seam and photographed one after the other.
+
+Tape never holds them where they were meant to be.  So each photograph is to show the tags beyond the seam too, which
+tell how the other sheet lies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.photo.fitting import Numbers, Prior
+from graphcam.photo.halves import SIDES, Side, half
+from graphcam.photo.laying import Surface
+from graphcam.photo.printed import Edges, PrintedPage
+from graphcam.photo.rectify import PER_MM, Flat, rectify
+from graphcam.photo.refusal import RefusedError
+from graphcam.photo.registration import OUTWARD, Registration, register
+from graphcam.photo.tags import Tags
+from graphcam.words import say
+
+Places = NDArray[np.complex128]
+Picture = NDArray[np.uint8]
+LEAST_NEIGHBOURS = 2
+"""Tags beyond the seam that place the other sheet: one alone tells its turn badly."""
+MOST_MISSED = 0.5
+"""mm by which these tags may be off, root of the mean square."""
+MOST_SLIPPED = 8.0
+"""mm by which tape may hold a sheet elsewhere; if it is more, another sheet lies there."""
+NEAR = 45.0
+"""mm from the seam within which tags are near it."""
+BLENDED = 2.0
+"""mm to both sides of the seam over which one picture goes over into the other."""
+COMPARED = 10.0
+"""mm to both sides of the seam in which both pictures' light is compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tile:
+    """One sheet in a photograph of it.
+
+    tags : all that are seen in the picture, the other sheet's too
+    """
+
+    picture: Picture
+    tags: Tags
+    registration: Registration
+
+
+@dataclass(frozen=True, eq=False)
+class Moved:
+    """A surface of a sheet that lies elsewhere on the paper than it was meant to: turned, then shifted [mm]."""
+
+    surface: Surface
+    turn: complex
+    shift: complex
+
+    def project(self, parameters: Numbers, points: Places) -> Places:
+        """Where points of the paper are in the picture."""
+        return self.surface.project(parameters, (points - self.shift) / self.turn)
+
+    def unproject(self, parameters: Numbers, places: Places) -> Places:
+        """Where places of the picture are on the paper."""
+        return self.surface.unproject(parameters, places) * self.turn + self.shift
+
+    def prior(self) -> Prior:
+        """That of the surface."""
+        return self.surface.prior()
+
+
+def registered_tiles(picture: Picture, tags: Tags, page: PrintedPage, focal: float | None = None) -> dict[Side, Tile]:
+    """The sheets of a page with a seam that a picture (h, w, 3) shows whole: one, or both.
+
+    Raises
+    ------
+    RefusedError : it shows neither
+    """
+    rows, columns = picture.shape[:2]
+    found: dict[Side, Tile] = {}
+    refused: list[tuple[int, RefusedError]] = []
+    for side in SIDES:
+        sheet = half(page, side)
+        own = tags.only(np.isin(tags.numbers, list(sheet.tags)))
+        try:
+            found[side] = Tile(picture, tags, register(own, sheet, (columns, rows), focal))
+        except RefusedError as error:
+            refused.append((len(own), error))
+    if not found:
+        raise max(refused, key=lambda counted: counted[0])[1]
+    return found
+
+
+def joined(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left") -> dict[Side, Tile]:
+    """Both sheets in the millimetres of one of them, the anchor: where they lie, not where they were meant to.
+
+    Raises
+    ------
+    RefusedError : one is missing, or the pictures do not tell how they lie
+    """
+    missing = [side for side in SIDES if side not in tiles]
+    if missing:
+        raise RefusedError(
+            say("only one of the two sheets has been photographed"),
+            say("photograph both, each with the marks beyond the seam"),
+        )
+    other: Side = SIDES[1 - SIDES.index(anchor)]
+    # Tags of the other sheet as the anchor's picture shows them, and tags of the anchor as the other one's does.
+    meant, there = _neighbours(tiles[anchor], half(page, other), page.seam or 0.0)
+    back_there, back_meant = _neighbours(tiles[other], half(page, anchor), page.seam or 0.0)
+    sources, targets = np.concatenate([meant, back_meant]), np.concatenate([there, back_there])
+    if len(sources) < LEAST_NEIGHBOURS:
+        raise RefusedError(
+            say("the photographs do not show how the two sheets meet"),
+            say("let each photograph show the marks beyond the seam too"),
+        )
+    turn, shift = _rigid(sources.ravel(), targets.ravel())
+    missed = float(np.sqrt(np.mean(np.abs(sources * turn + shift - targets) ** 2)))
+    slipped = float(np.abs(sources * turn + shift - sources).max())
+    if missed > MOST_MISSED or slipped > MOST_SLIPPED:
+        raise RefusedError(
+            say("the two sheets do not lie as one page: their marks are {miss:.1f} mm off", miss=max(missed, slipped)),
+            say("tape them flat, edge to edge, before drawing"),
+        )
+    moved = replace(tiles[other].registration, surface=Moved(tiles[other].registration.surface, turn, shift))
+    return {anchor: tiles[anchor], other: replace(tiles[other], registration=moved)}
+
+
+def rectify_tiles(tiles: Mapping[Side, Tile], page: PrintedPage, box: Edges, per_mm: float = PER_MM) -> Flat:
+    """A box of a joined page [mm] out of both pictures; over a few mm about the seam one goes over into the other."""
+    seam = page.seam or 0.0
+    left, _, right, _ = box
+    if right <= seam - BLENDED:
+        return rectify(tiles["left"].picture, tiles["left"].registration, box, per_mm)
+    if left >= seam + BLENDED:
+        return rectify(tiles["right"].picture, tiles["right"].registration, box, per_mm)
+    one = rectify(tiles["left"].picture, tiles["left"].registration, box, per_mm)
+    two = rectify(tiles["right"].picture, tiles["right"].registration, box, per_mm)
+    x = one.points(np.arange(one.linear.shape[1]) + 0j).real
+    near = np.abs(x - seam) <= COMPARED
+    gain = np.median(one.linear[:, near], axis=(0, 1)) / np.maximum(np.median(two.linear[:, near], axis=(0, 1)), 1e-3)
+    share = np.clip((x - seam) / BLENDED / 2 + 0.5, 0, 1).astype(np.float32)[:, None]
+    linear = one.linear * (1 - share) + two.linear * (share * gain)
+    return Flat(np.asarray(linear, np.float32), one.box, per_mm)
+
+
+def _neighbours(tile: Tile, sheet: PrintedPage, seam: float) -> tuple[Places, Places]:
+    """Corners (n, 4) of another sheet's tags that a picture shows: where they were meant to be, and where they are."""
+    seen = tile.tags.only(np.isin(tile.tags.numbers, list(sheet.tags)))
+    corners: Places = np.array([sheet.tags[number] for number in seen.numbers.tolist()], np.complex128)
+    meant = corners[:, None] + sheet.tag_side / 2 * (1 + 1j + OUTWARD)
+    # Farther tags are the farther from what the registration knows.
+    near = np.abs(corners.real - seam) < NEAR
+    return meant[near], tile.registration.millimetres(seen.corners[near])
+
+
+def _rigid(sources: Places, targets: Places) -> tuple[complex, complex]:
+    """The turn and the shift that bring sources nearest to targets."""
+    start, end = complex(np.mean(sources)), complex(np.mean(targets))
+    along = complex(np.vdot(sources - start, targets - end))
+    turn = along / abs(along)
+    return turn, end - turn * start

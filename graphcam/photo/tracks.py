@@ -1,0 +1,147 @@
+"""A way through a grid looked at station by station: where a line is seen on it, and where exactly that lies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from graphcam.photo.curve_grid import Evidence, Grid, hidden_in
+from graphcam.photo.ink import Ink
+from graphcam.photo.printed import Points
+from graphcam.photo.raster import Raster
+from graphcam.photo.ridges import ALONG
+from graphcam.photo.runs import Flags, long_runs, runs
+from graphcam.photo.trellis import Way
+
+SURE = 6.0
+"""Standard deviations of noise that a line passes."""
+OF_STRONG = 0.35
+"""Share of the strong places of the same line that any of it passes: what an eraser leaves is fainter."""
+STRONG = 80
+"""Percentile of a line's answers that is meant by a strong place."""
+OF_RESIDUE = 2.0
+"""Times what is left of the print, that a line passes beside print."""
+FAINTEST = 0.02
+"""Density of the faintest line."""
+COHERENT = 0.6
+"""Share of the best answer in any direction that the line's own direction has: a crossing or a digit has less."""
+COHERENT_WITHIN = np.array([-0.4, -0.2, 0.0, 0.2, 0.4])
+"""mm to both sides among which the best direction is looked for."""
+SHORTEST_RUN = 5.0
+"""A line is seen over so many mm at once; shorter ones are chance, of crossings."""
+TRUE_GAP = 2.0
+"""A gap of so many mm is one, and not the crossing of a ray."""
+SMOOTH = 1.5
+"""Deviation over which the steps of the grid are smoothed [stations]."""
+ACROSS_REACH = 0.8
+"""Half the profile across a line, by which it is placed [mm]."""
+FOOT = 0.3
+"""Share of a profile's height that is its foot, and does not count for its place."""
+PLACE_SMOOTH = 1.0
+"""Deviation over which places are smoothed [stations], about a mm: rough paper is shorter, tremor longer."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A way and what is seen on it, by stations (n,).
+
+    path : places on the page, to the grid's step
+    normal : of length one, to the side of the greater states
+    answers : how much more ink lies on it than beside it;  strong : of its strong places
+    coherence : share of the best answer in any direction
+    hidden : by black print, or outside the room;  beside : light print
+    lengths : of the path, mm
+    """
+
+    states: NDArray[np.int64]
+    path: Points
+    normal: Points
+    answers: NDArray[np.float32]
+    strong: float
+    coherence: NDArray[np.float32]
+    hidden: Flags
+    beside: Flags
+    lengths: NDArray[np.float64]
+
+
+def track_of(way: Way, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
+    """What lies along a way."""
+    station = np.arange(way.states.size)
+    states = grid.places.shape[1]
+    around = np.round(COHERENT_WITHIN / grid.spacing[way.states][:, None]).astype(np.int64)
+    nearby = np.clip(way.states[:, None] + around, 0, states - 1)
+    answers = evidence.answers[station, way.states, way.slopes + grid.steepest]
+    best = evidence.best[station[:, None], nearby].max(1)
+    black = hidden_in(ink.black, grid)
+    hidden = black[station[:, None], nearby].any(1) | ~grid.inside[station, way.states]
+    smooth = gaussian_filter1d(way.states.astype(float), SMOOTH, mode="wrap" if grid.wraps else "nearest")
+    path = grid.between(smooth)
+    ahead = steps(path, grid.wraps)
+    normal = 1j * ahead / np.maximum(np.abs(ahead), 1e-9)
+    # Round an origin counter-clockwise that points inwards.
+    normal *= np.where((normal * np.conj(grid.across[:, 0])).real < 0, -1, 1)
+    open_answers = answers[~hidden]
+    return Track(
+        states=way.states,
+        path=path,
+        normal=normal,
+        answers=answers,
+        strong=float(np.percentile(open_answers, STRONG)) if open_answers.size else 0.0,
+        coherence=answers / np.maximum(best, 1e-6),
+        hidden=hidden,
+        beside=ink.beside_print(path),
+        lengths=np.abs(ahead),
+    )
+
+
+def steps(path: Points, wraps: bool) -> Points:
+    """From the middle before each station (n,) to the middle behind it.
+
+    >>> steps(np.array([0j, 1, 3]), wraps=False).tolist()
+    [(1+0j), (1.5+0j), (2+0j)]
+    """
+    return (np.roll(path, -1) - np.roll(path, 1)) / 2 if wraps else np.gradient(path)
+
+
+def seen_on(track: Track, evidence: Evidence, ink: Ink, wraps: bool) -> Flags:
+    """At which stations (n,) a line is seen; elsewhere nothing is said."""
+    least = max(SURE * evidence.noise, OF_STRONG * track.strong, FAINTEST)
+    beside_print = max(least, OF_RESIDUE * ink.residue)
+    enough = track.answers > np.where(track.beside, beside_print, least)
+    coherent = track.coherence > COHERENT
+    # Where a ray crosses nothing is seen, but the line runs on.
+    crossed = ~coherent & ~long_runs(~coherent, track.lengths, TRUE_GAP, wraps)
+    running = enough & (coherent | crossed) & ~track.hidden
+    seen = long_runs(running, track.lengths, SHORTEST_RUN, wraps) & coherent
+    return _without_ends(seen, track.lengths, wraps)
+
+
+def _without_ends(seen: Flags, lengths: NDArray[np.float64], wraps: bool) -> Flags:
+    """What is seen (n,) less that beside a true gap, where a filter still answers to the stroke that has ended."""
+    kept = seen.copy()
+    for gap in runs(~seen, wraps):
+        if lengths[gap].sum() > TRUE_GAP:
+            more = int(np.ceil(ALONG / max(float(lengths[gap].mean()), 1e-6)))
+            around = np.concatenate([gap[0] - 1 - np.arange(more), gap[-1] + 1 + np.arange(more)])
+            kept[around % seen.size if wraps else np.clip(around, 0, seen.size - 1)] = False
+    return kept
+
+
+def placed(track: Track, sharp: Raster, wraps: bool) -> Points:
+    """The places (n,) of the line: the middle of its profile across, as sharp as the photograph is."""
+    offsets = np.arange(-ACROSS_REACH, ACROSS_REACH + 0.025, 0.05)
+    profile = sharp.at(track.path[:, None] + track.normal[:, None] * offsets)
+    profile = gaussian_filter1d(profile, PLACE_SMOOTH, axis=0, mode="wrap" if wraps else "nearest")
+    weights = above_foot(profile, offsets)
+    return track.path + track.normal * (weights @ offsets) / np.maximum(weights.sum(1), 1e-9)
+
+
+def above_foot(profile: NDArray[Any], offsets: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights (n, m) of profiles (n, m) across a line: what rises above the paper at both ends and above the foot."""
+    ends = np.abs(offsets) > np.abs(offsets).max() - 0.25
+    risen = profile - np.median(profile[:, ends], axis=1, keepdims=True)
+    return np.asarray(np.maximum(risen - FOOT * risen.max(1, keepdims=True), 0), float)

@@ -1,0 +1,93 @@
+"""The best way through a grid of places: a dynamic programme whose states are a place across and a slope.
+
+The slope is part of the state, so that a line that bends costs more than one that runs on.  R. Bellman, "Dynamic
+Programming", 1957; for lines in pictures U. Montanari, "On the optimal detection of curves in noisy pictures",
+Communications of the ACM 14 (1971).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+BEND = 0.03
+"""Price of a slope that changes by one, in rewards of the best possible station."""
+FARTHEST_BEND = 2
+"""The slope changes by at most so much a station, except at a corner."""
+CORNER = 1.5
+"""Price of a corner, at which the slope changes at will: a station and a half without a line."""
+NOWHERE = np.float32(-1e6)
+
+Rewards = NDArray[np.float32]
+"""(stations, states, slopes): of leaving a state of a station with a slope, which is the change of the state up to the
+next station; slopes run from -m to m."""
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """A way through the grid: at each station (n,) its state and the slope with which it leaves."""
+
+    states: NDArray[np.int64]
+    slopes: NDArray[np.int64]
+
+
+def best_way(rewards: Rewards, wraps: bool) -> Way:
+    """The way with the greatest sum of rewards, less what its bends cost.
+
+    wraps : whether the last station is followed by the first
+
+    >>> rewards = np.zeros((6, 9, 5), np.float32)
+    >>> rewards[np.arange(6), [1, 2, 3, 4, 5, 6]] = 1
+    >>> best_way(rewards, wraps=False).states.tolist()
+    [1, 2, 3, 4, 5, 6]
+    """
+    count = rewards.shape[0]
+    if not wraps:
+        return _best(rewards, np.arange(count))
+    # Two turns, of which the middle one has forgotten where it began and does not know where it ends.
+    half = count // 2
+    turned = _best(rewards, np.arange(2 * count) % count)
+    middle = slice(half, half + count)
+    return Way(np.roll(turned.states[middle], half), np.roll(turned.slopes[middle], half))
+
+
+def _best(rewards: Rewards, stations: NDArray[np.int64]) -> Way:
+    """Of the stations in this order."""
+    _, states, slopes = rewards.shape
+    slope = np.arange(slopes)[:, None] - slopes // 2
+    before = np.arange(states) - slope
+    from_outside = (before < 0) | (before >= states)
+    arriving = np.arange(slopes)[:, None] * states + np.clip(before, 0, states - 1)
+    arrived = np.empty((stations.size, slopes, states), np.float32)
+    value = np.zeros((slopes, states), np.float32)
+    for k, station in enumerate(stations):
+        np.take(value + rewards[station].T, arriving, out=arrived[k])
+        arrived[k][from_outside] = NOWHERE
+        value = _turned(arrived[k])
+    return _traced_back(arrived, value)
+
+
+def _turned(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The best values (slopes, states) after the slope may have changed."""
+    best = np.maximum(arrived, arrived.max(0) - np.float32(CORNER))
+    for change in range(1, FARTHEST_BEND + 1):
+        price = np.float32(BEND * change)
+        np.maximum(best[change:], arrived[:-change] - price, out=best[change:])
+        np.maximum(best[:-change], arrived[change:] - price, out=best[:-change])
+    return best
+
+
+def _traced_back(arrived: NDArray[np.float32], value: NDArray[np.float32]) -> Way:
+    """From the best of the values (slopes, states) at the end, back through those (stations, slopes, states) before."""
+    count, slopes, states = arrived.shape
+    prices = np.minimum(BEND * np.arange(slopes), CORNER)
+    prices[FARTHEST_BEND + 1 :] = CORNER
+    slope, state = divmod(int(value.argmax()), states)
+    way = np.empty((2, count), np.int64)
+    for k in range(count - 1, -1, -1):
+        slope = int(np.argmax(arrived[k, :, state] - prices[np.abs(np.arange(slopes) - slope)]))
+        state = min(max(state - (slope - slopes // 2), 0), states - 1)
+        way[:, k] = state, slope - slopes // 2
+    return Way(way[0], way[1])
