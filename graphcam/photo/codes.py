@@ -11,7 +11,7 @@ import zxingcpp
 from numpy.typing import NDArray
 
 from graphcam.photo.light import LINEAR
-from graphcam.photo.tags import CELLS, Grey, Tags
+from graphcam.photo.tags import CELLS, Grey, Places, Tags
 
 Picture = NDArray[np.uint8]
 SMALLEST = 21
@@ -107,13 +107,19 @@ def _likely(upright: Upright) -> Iterator[Grey]:
     picture, cell = upright.picture, upright.cell
     size = (round(WINDOW * cell), round(WINDOW * cell))
     across, down = (cv2.Sobel(picture, cv2.CV_32F, *way) for way in ((1, 0), (0, 1)))
-    counts = np.minimum(cv2.blur(np.abs(across), size), cv2.blur(np.abs(down), size))
-    reach = round(AROUND * cell)
+    counts: NDArray[np.float32] = np.minimum(cv2.blur(np.abs(across), size), cv2.blur(np.abs(down), size))
+    for middle in upright.tags.tolist():
+        counts[_about(middle.imag, middle.real, round(CELLS * cell))] = 0
     for _ in range(LIKELY):
-        row, column = np.unravel_index(np.argmax(counts), counts.shape)
-        near = np.s_[max(0, row - reach) : row + reach, max(0, column - reach) : column + reach]
+        row, column = divmod(int(np.argmax(counts)), counts.shape[1])
+        near = _about(row, column, round(AROUND * cell))
         yield np.ascontiguousarray(picture[near])
         counts[near] = 0
+
+
+def _about(row: float, column: float, reach: int) -> tuple[slice, slice]:
+    low, left = max(0, round(row) - reach), max(0, round(column) - reach)
+    return slice(low, max(0, round(row) + reach)), slice(left, max(0, round(column) + reach))
 
 
 def _unblurred(grey: Grey, blur: float) -> Iterator[Grey]:
@@ -134,11 +140,13 @@ def _unblurred(grey: Grey, blur: float) -> Iterator[Grey]:
 class Upright:
     """A picture as if seen from straight above.
 
-    blur : standard deviation [px] in its middle;  cell : of its tags [px]
+    blur : standard deviation [px] in its middle
+    tags : (n,) their middles;  cell : of them [px]
     """
 
     picture: Grey
     blur: float
+    tags: Places
     cell: float
 
 
@@ -165,7 +173,8 @@ def _upright(grey: Grey, tags: Tags) -> Upright | None:
     widths = 0.02 * sides if tags.widths is None else tags.widths
     cell = CELL * scale
     blur = float(np.median(widths / sides)) * CELLS * cell / GAUSSIAN
-    return Upright(np.asarray(upright, np.uint8), blur, cell)
+    middles = _moved(placed @ affine @ level, tags.corners.mean(axis=1))
+    return Upright(np.asarray(upright, np.uint8), blur, middles, cell)
 
 
 def _level(grey: Grey, tags: Tags) -> NDArray[np.float64] | None:
@@ -187,6 +196,6 @@ def _level(grey: Grey, tags: Tags) -> NDArray[np.float64] | None:
     return np.array([[1, 0, 0], [0, 1, 0], horizon])
 
 
-def _moved(matrix: NDArray[np.float64], places: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _moved(matrix: NDArray[np.float64], places: Places) -> Places:
     solid = np.stack([places.real, places.imag, np.ones(places.shape)], -1) @ matrix.T
     return (solid[..., 0] + 1j * solid[..., 1]) / solid[..., 2]
