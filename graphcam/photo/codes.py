@@ -127,7 +127,8 @@ def _unblurred(grey: Grey, blur: float) -> Iterator[Grey]:
     rows, columns = (cv2.getOptimalDFTSize(length) for length in grey.shape)
     height, width = grey.shape
     # Beyond the picture it is as at its edges, which otherwise would shine into it.
-    light = LINEAR[cv2.copyMakeBorder(grey, 0, rows - height, 0, columns - width, cv2.BORDER_REPLICATE)]
+    wide = cv2.copyMakeBorder(grey, 0, rows - height, 0, columns - width, cv2.BORDER_REPLICATE)
+    light = LINEAR[np.asarray(wide, np.uint8)]
     seen = np.fft.rfft2(light)
     squared = np.fft.fftfreq(rows)[:, None] ** 2 + np.fft.rfftfreq(columns) ** 2
     for part, noise in UNBLURRED:

@@ -17,7 +17,7 @@ from graphcam.photo.curve_refusals import Measures, refusal_of
 from graphcam.photo.gaps import bridged
 from graphcam.photo.ink import Ink
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.runs import Flags, longest_run
+from graphcam.photo.runs import Flags, longest_run, runs
 from graphcam.photo.tracks import Track, placed, seen_on, track_of
 from graphcam.photo.trellis import Way, best_way
 from graphcam.photo.twins import twin_share
@@ -33,8 +33,11 @@ RIVAL_FULL, RIVAL_OF_STRONG = 8.0, 0.35
 """The same for a second curve, which may be fainter."""
 APART = 1.2
 """A second curve runs at least so far [mm] from the first; nearer ones are told by their crests."""
-AS_DARK = 0.8
-"""Share of the curve's strength at a place that a second line has there, to leave it open which is the curve."""
+AS_DARK, AS_LONG, MOSTLY = 0.6, 10.0, 0.7
+"""Share of the curve's strength that a second line has, over so many mm, and share of these on which it is seen, to
+leave it open there which of both is the curve."""
+MEETS = 3.0
+"""So near [mm] such a line comes to the curve before and behind; the lines of a hatching do not."""
 STEEPEST = 0.2
 """Cosine of the steepest slope for which this is reckoned."""
 RIVAL = 0.45
@@ -75,8 +78,7 @@ def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
     second, there = _rival(track, grid, evidence, black, ink)
     rival = float(second.lengths[there].sum() / second.lengths.sum())
     twin = twin_share(track, seen, ink, grid.wraps)
-    # Where a line elsewhere is as dark, it may be the one that is meant.
-    seen &= ~(there & (second.answers > AS_DARK * track.answers))
+    seen &= ~_by_another_way(track, second, there, grid)
     measures = _measures(track, way, seen, grid, rival, twin)
     return CurveReading(bridged(points, seen, track.lengths, grid.wraps), seen, measures)
 
@@ -117,6 +119,16 @@ def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink)
     apart = np.abs(grid.offsets[second.states] - grid.offsets[track.states]) > room
     seen = seen_on(second, evidence, ink, grid.wraps) & apart & (second.answers > RIVAL * track.strong)
     return second, seen
+
+
+def _by_another_way(track: Track, second: Track, there: Flags, grid: Grid) -> Flags:
+    """Where (n,) a second line leaves the curve and comes back to it, so that either may be meant: about a stain."""
+    dark = there & (second.answers > AS_DARK * track.answers)
+    another = np.zeros(there.shape, np.bool_)
+    for run in runs(np.abs(second.path - track.path) > MEETS, grid.wraps):
+        length = float(second.lengths[run].sum())
+        another[run] = length > AS_LONG and float(second.lengths[run][dark[run]].sum()) > MOSTLY * length
+    return another
 
 
 def _room_of(track: Track, grid: Grid) -> NDArray[np.float64]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing
-from typing import Any, BinaryIO, cast
+from ctypes import c_float, c_uint
+from typing import Any, BinaryIO
 
 import numpy as np
 from pypdfium2 import PdfDocument, PdfiumError, PdfPage, raw
@@ -75,15 +76,23 @@ def _scale(page: PdfPage, area: float) -> float:
     ------
     RefusedError : a picture in it is too large
     """
-    # The library's types leave out what a page's pictures are.
-    pictures = cast("list[Any]", list(page.get_objects(filter=[raw.FPDF_PAGEOBJ_IMAGE], max_depth=NESTED)))
-    sizes = [picture.get_px_size() for picture in pictures]
-    for columns, rows in sizes:
+    found = [_measured(picture.raw) for picture in page.get_objects([raw.FPDF_PAGEOBJ_IMAGE], max_depth=NESTED)]
+    for columns, rows, _ in found:
         check_size(columns, rows, WIDE)
-    if len(pictures) == 1:
-        left, bottom, right, top = pictures[0].get_bounds()
-        covered = (right - left) * (top - bottom)
+    if len(found) == 1:
+        columns, rows, covered = found[0]
         if covered >= WHOLE * area:
-            columns, rows = sizes[0]
             return float(np.sqrt(columns * rows / covered))
     return DPI / POINTS
+
+
+def _measured(picture: Any) -> tuple[int, int, float]:
+    """Columns and rows of a picture in a PDF, and the area of the page that it covers.
+
+    The library's own methods for it are called differently in its versions 4 and 5.
+    """
+    columns, rows = c_uint(), c_uint()
+    left, bottom, right, top = (c_float() for _ in range(4))
+    raw.FPDFImageObj_GetImagePixelSize(picture, columns, rows)
+    raw.FPDFPageObj_GetBounds(picture, left, bottom, right, top)
+    return columns.value, rows.value, (right.value - left.value) * (top.value - bottom.value)

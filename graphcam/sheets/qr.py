@@ -8,8 +8,8 @@ LEVEL = "m"
 """Of the correction of errors: what 15 % of damage leaves readable."""
 SMALLEST = 18.0
 """Of a code's side, mm, without the white about it."""
-FINEST = 0.6
-"""Of a module, mm: a photograph of a whole sheet of A3 shows it with four pixels and more."""
+FINEST, FINEST_OF_A_TILE = 0.75, 0.6
+"""Of a module, mm: in a photograph of 5 megapixels of a whole sheet of A3 still four pixels; half a sheet has more."""
 QUIET = 4
 """Modules that stay white about a code."""
 
@@ -24,10 +24,10 @@ def modules(text: str) -> NDArray[np.bool_]:
     return np.array([list(row) for row in code.matrix]) == 1
 
 
-def module_size(count: int) -> float:
+def module_size(count: int, finest: float = FINEST) -> float:
     """The side of a module in mm, of a code with so many in a row.
 
-    >>> round(module_size(21), 3), module_size(33)
-    (0.857, 0.6)
+    >>> round(module_size(21), 3), module_size(33), module_size(33, FINEST_OF_A_TILE)
+    (0.857, 0.75, 0.6)
     """
-    return max(FINEST, SMALLEST / count)
+    return max(finest, SMALLEST / count)

@@ -166,7 +166,7 @@ class _PageMaker:
 
     def column(self, placed: Sequence[PlacedView], page: int) -> TextColumn:
         """What the views leave of a page for text and code."""
-        free, side = self.paper.free, code_side(self.code(page))
+        free, side = self.paper.free, code_side(self.code(page), self.paper)
         free = Box(free.left, free.bottom, free.right - FROM_TAGS, free.top)
         if not placed:
             return TextColumn(free, side, upright=False)
@@ -207,11 +207,11 @@ class _PageMaker:
         corners = [column.code_corner]
         if paper.seam is not None:
             # Either tile is photographed alone.
-            corners.append(complex(paper.strip + BAR_ROOM, paper.height - paper.strip - code_side(code)))
+            corners.append(complex(paper.strip + BAR_ROOM, paper.height - paper.strip - code_side(code, paper)))
         groups = [
             mark_group(paper, LIGHT[self.ink]),
             Group("captions", tuple(texts)),
-            code_group(code, corners),
+            code_group(code, corners, paper),
             *([Group("text", tuple(entities))] if entities else []),
             *([Group("titles", tuple(titles))] if titles else []),
         ]

@@ -14,7 +14,7 @@ from graphcam.sheets.cells import bar, cells, square
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.marked_paper import PATCH, MarkedPaper
 from graphcam.sheets.model import Entity, Group, Stroke, Text
-from graphcam.sheets.qr import QUIET, module_size, modules
+from graphcam.sheets.qr import FINEST, FINEST_OF_A_TILE, QUIET, module_size, modules
 from graphcam.sheets.tables import Block
 from graphcam.sheets.title_block import fitted
 from graphcam.words import Tell, say
@@ -95,17 +95,21 @@ def captions(paper: MarkedPaper, title: str, whose: Sequence[str]) -> list[Text]
     return written(min(text.height for text in written(1.4 * SMALL)))
 
 
-def code_side(text: str) -> float:
+def code_side(text: str, paper: MarkedPaper) -> float:
     """The side of a code with the white about it, mm."""
     count = len(modules(text))
-    return module_size(count) * (count + 2 * QUIET)
+    return module_size(count, _finest(paper)) * (count + 2 * QUIET)
 
 
-def code_group(text: str, corners: Iterable[complex]) -> Group:
+def code_group(text: str, corners: Iterable[complex], paper: MarkedPaper) -> Group:
     """A code in each of these places, by the lower left corner of its white."""
     dark = modules(text)
-    size = module_size(len(dark))
+    size = module_size(len(dark), _finest(paper))
     return Group("code", tuple(cells(dark, corner + size * QUIET * (1 + 1j), size) for corner in corners))
+
+
+def _finest(paper: MarkedPaper) -> float:
+    return FINEST if paper.seam is None else FINEST_OF_A_TILE
 
 
 def paragraphs(texts: Sequence[str], height: float, room: float) -> Block:
