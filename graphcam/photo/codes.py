@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from graphcam.photo.light import LINEAR
 from graphcam.photo.tags import CELLS, Grey, Places, Tags
 
-Picture = NDArray[np.uint8]
+Photograph = NDArray[np.uint8]
 SMALLEST = 21
 """Pixels of a picture: no code has fewer modules."""
 COARSE = 2000
@@ -44,7 +44,7 @@ SHARPER = 2.0
 """By so much of what a blur takes away is a picture sharpened."""
 
 
-def codes_in(pixels: Picture, tags: Tags | None = None) -> list[str]:
+def codes_in(pixels: Photograph, tags: Tags | None = None) -> list[str]:
     """The texts of the QR codes in a picture (h, w, 3) or (h, w), each once; none if none is read.
 
     tags : the page's, if they have been found; they help where the paper is oblique

@@ -30,7 +30,7 @@ class Prior:
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class FittedParameters:
     """The best of several fits.
 
     parameters : (m,)
@@ -43,7 +43,7 @@ class Fit:
     covariance: Numbers
 
 
-def fitted(misses: Callable[[Numbers], Numbers], prior: Prior, starts: Numbers, rounds: int) -> Fit:
+def fitted(misses: Callable[[Numbers], Numbers], prior: Prior, starts: Numbers, rounds: int) -> FittedParameters:
     """The best fit from starts (b, m).
 
     misses : of parameters (..., m), as (..., n) in parts of what is expected
@@ -65,7 +65,7 @@ def fitted(misses: Callable[[Numbers], Numbers], prior: Prior, starts: Numbers, 
         if (settled & better | (damping > 1e6)).all():
             break
     best = int(np.argmin(loss))
-    return Fit(parameters[best], float(loss[best]), np.linalg.pinv(bend[best], hermitian=True))
+    return FittedParameters(parameters[best], float(loss[best]), np.linalg.pinv(bend[best], hermitian=True))
 
 
 def _normal(

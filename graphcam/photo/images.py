@@ -11,8 +11,8 @@ import numpy as np
 import pillow_heif
 from PIL import Image, UnidentifiedImageError
 
-from graphcam.photo.pictures import Picture, bounded, check_size, focal_length, picture_of
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.pictures import Photograph, bounded, check_size, focal_length, picture_of
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 FORMATS = ("JPEG", "PNG", "TIFF")
@@ -27,12 +27,12 @@ BROKEN = (OSError, SyntaxError, ValueError, TypeError, KeyError, IndexError, Ove
 """What Pillow raises for broken files, all of it seen in its readers."""
 
 
-def image_pictures(file: BinaryIO, name: str) -> Iterator[Picture]:
+def image_pictures(file: BinaryIO, name: str) -> Iterator[Photograph]:
     """The pictures of a file, of a TIFF's many pages one after another.
 
     Raises
     ------
-    RefusedError : it is broken, or too large
+    PhotographError : it is broken, or too large
     """
     if file.read(12)[4:12] in HEIF_BRANDS:
         file.seek(0)
@@ -56,14 +56,14 @@ def _opened(file: BinaryIO) -> Image.Image:
     try:
         return Image.open(file, formats=FORMATS)
     except Image.DecompressionBombError:
-        raise RefusedError(
+        raise PhotographError(
             say("the picture is too large"), say("send it with 12 megapixels, or scan it at 300 dpi")
         ) from None
     except (UnidentifiedImageError, *BROKEN):
         raise _broken() from None
 
 
-def _page(image: Image.Image, name: str) -> Picture:
+def _page(image: Image.Image, name: str) -> Photograph:
     try:
         return picture_of(image, name)
     except Image.DecompressionBombError:
@@ -83,7 +83,7 @@ def _turned_to(image: Image.Image, page: int) -> bool:
     return True
 
 
-def _heif(file: BinaryIO, name: str) -> Picture:
+def _heif(file: BinaryIO, name: str) -> Photograph:
     try:
         image = pillow_heif.open_heif(file, convert_hdr_to_8bit=True)
         check_size(*image.size, UNPACKED_AT_ONCE)
@@ -101,5 +101,5 @@ def _heif(file: BinaryIO, name: str) -> Picture:
     return bounded(np.ascontiguousarray(colours), name, focal_length(exif, size), max(size))
 
 
-def _broken() -> RefusedError:
-    return RefusedError(say("the file is broken or breaks off"), say("send it again"))
+def _broken() -> PhotographError:
+    return PhotographError(say("the file is broken or breaks off"), say("send it again"))

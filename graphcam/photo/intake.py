@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from graphcam.photo.images import HEIF_BRANDS, image_pictures
-from graphcam.photo.pictures import Picture
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.pictures import Photograph
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.scans import scanned_pages
 from graphcam.words import Words, say
 
@@ -29,7 +29,7 @@ ENDINGS = frozenset({".jpg", ".jpeg", ".jpe", ".png", ".heic", ".heif", ".tif", 
 FOLDERS_DEEP = 1
 """Folders within a folder that are looked into."""
 
-__all__ = ["Picture", "Unopened", "pictures_in"]
+__all__ = ["Photograph", "Unopened", "pictures_in"]
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Unopened:
     remedy: Words
 
 
-def pictures_in(paths: Sequence[Path]) -> Iterator[Picture | Unopened]:
+def pictures_in(paths: Sequence[Path]) -> Iterator[Photograph | Unopened]:
     """The pictures of files and folders, one after another; in a folder by name, and other files are passed over."""
     for path in paths:
         if path.is_dir():
@@ -54,7 +54,7 @@ def pictures_in(paths: Sequence[Path]) -> Iterator[Picture | Unopened]:
             yield from _file(path, path.name, named=True)
 
 
-def _folder(folder: Path, name: str, deeper: int) -> Iterator[Picture | Unopened]:
+def _folder(folder: Path, name: str, deeper: int) -> Iterator[Photograph | Unopened]:
     try:
         entries = sorted(os.scandir(folder), key=lambda entry: entry.name)
     except OSError as error:
@@ -71,12 +71,12 @@ def _folder(folder: Path, name: str, deeper: int) -> Iterator[Picture | Unopened
             yield from _file(Path(entry.path), within, named=False)
 
 
-def _file(path: Path, name: str, named: bool) -> Iterator[Picture | Unopened]:
+def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | Unopened]:
     """The pictures of a file; ``named`` by the user, who wants to hear of every one that is none."""
     told = named or path.suffix.lower() in ENDINGS
     try:
         file = _opened(path)
-    except RefusedError as error:
+    except PhotographError as error:
         if told:
             yield Unopened(name, error.why, error.remedy)
         return
@@ -91,7 +91,7 @@ def _file(path: Path, name: str, named: bool) -> Iterator[Picture | Unopened]:
                 yield next(pictures)
             except StopIteration:
                 return
-            except RefusedError as error:
+            except PhotographError as error:
                 yield Unopened(name, error.why, error.remedy)
                 return
 
@@ -102,12 +102,12 @@ def _opened(path: Path) -> BinaryIO:
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise RefusedError(say("it is not a file"), say("give the picture itself"))
+            raise PhotographError(say("it is not a file"), say("give the picture itself"))
         if status.st_size == 0:
-            raise RefusedError(say("the file is empty"), say("send it again"))
+            raise PhotographError(say("the file is empty"), say("send it again"))
         if status.st_size > MOST_BYTES:
             most = MOST_BYTES // 1_000_000
-            raise RefusedError(
+            raise PhotographError(
                 say("the file is larger than {most} MB", most=most), say("send a JPEG, or fewer pages in a file")
             )
     except BaseException:
@@ -116,7 +116,7 @@ def _opened(path: Path) -> BinaryIO:
     return os.fdopen(descriptor, "rb")
 
 
-def _pictures(file: BinaryIO, name: str, told: bool) -> Iterator[Picture | Unopened]:
+def _pictures(file: BinaryIO, name: str, told: bool) -> Iterator[Photograph | Unopened]:
     try:
         head = file.read(SNIFFED)
         file.seek(0)
@@ -124,15 +124,15 @@ def _pictures(file: BinaryIO, name: str, told: bool) -> Iterator[Picture | Unope
             yield from image_pictures(file, name)
         elif b"%PDF-" in head:
             for page in scanned_pages(file, name):
-                yield Unopened(name, page.why, page.remedy) if isinstance(page, RefusedError) else page
+                yield Unopened(name, page.why, page.remedy) if isinstance(page, PhotographError) else page
         elif told:
-            raise RefusedError(
+            raise PhotographError(
                 say("it is neither JPEG, PNG, HEIC, TIFF nor PDF"), say("send the photograph as the camera made it")
             )
     except MemoryError:
-        raise RefusedError(say("the picture does not fit into memory"), say("send a smaller one")) from None
+        raise PhotographError(say("the picture does not fit into memory"), say("send a smaller one")) from None
     except OSError as error:
-        raise RefusedError(*_why(error)) from None
+        raise PhotographError(*_why(error)) from None
 
 
 def _unopened(name: str, error: OSError) -> Unopened:

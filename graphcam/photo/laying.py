@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.photo.bends import Folded, Rolled, bent_sheets
-from graphcam.photo.fitting import Fit, Numbers, Prior, fitted
+from graphcam.photo.fitting import FittedParameters, Numbers, Prior, fitted
 from graphcam.photo.planes import Frame, Plane
 
 Places = NDArray[np.complex128]
@@ -79,7 +79,7 @@ class Laid:
 
     kind: Kind
     surface: Surface
-    fit: Fit
+    fit: FittedParameters
     sight: Sight
     residual: float
     loss: float
@@ -120,7 +120,7 @@ def laid_through(sight: Sight, kind: Kind, surface: Surface, starts: Numbers) ->
     return Laid(kind, surface, fit, sight, residual, loss)
 
 
-def _fit(sight: Sight, surface: Surface, starts: Numbers) -> Fit:
+def _fit(sight: Sight, surface: Surface, starts: Numbers) -> FittedParameters:
     known = surface.prior()
     prior = Prior(np.append(known.values, 0.0), np.append(known.spread, GROWTH))
 

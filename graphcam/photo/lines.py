@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from graphcam.photo.ink import Ink
 from graphcam.photo.printed import Points, PrintedView
 from graphcam.photo.raster import Raster
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.ridges import DIRECTIONS, PER_MM, ridges, spread
 from graphcam.photo.tracks import above_foot
 from graphcam.words import say
@@ -101,7 +101,7 @@ def crossing(one: Segment, other: Segment) -> complex:
 
     Raises
     ------
-    RefusedError : they cross at less than ``LEAST_ANGLE``, or one of them is drawn in pieces
+    PhotographError : they cross at less than ``LEAST_ANGLE``, or one of them is drawn in pieces
 
     >>> crossing(Segment(-2 + 0j, 2 + 0j, 1.0), Segment(1 - 1j, 1 + 1j, 1.0))
     (1+0j)
@@ -111,11 +111,11 @@ def crossing(one: Segment, other: Segment) -> complex:
     angle = min(angle, 180 - angle)
     if angle < LEAST_ANGLE:
         why = say("the lines cross at {angle:.0f}°, and {least:.0f}° are needed", angle=angle, least=LEAST_ANGLE)
-        raise RefusedError(why, say("enter it in the review page"))
+        raise PhotographError(why, say("enter it in the review page"))
     cover = min(one.cover, other.cover)
     if cover < COVER_TO_CROSS:
         why = say("{share:.0f} % of a line can be seen", share=100 * cover)
-        raise RefusedError(why, say("draw over the line and take the photograph again"))
+        raise PhotographError(why, say("draw over the line and take the photograph again"))
     along = ((other.start - one.start) * across.conjugate()).imag / (ahead * across.conjugate()).imag
     return one.start + along * ahead
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 Pixels = NDArray[np.uint8]
@@ -40,7 +40,7 @@ FOCALS = (0.4, 4.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class Photograph:
     """A picture.
 
     name : of its file, with the page's number if that has several
@@ -58,23 +58,23 @@ def check_size(width: int, height: int, bytes_a_pixel: int = 1) -> None:
 
     Raises
     ------
-    RefusedError : it is too large, or has no size
+    PhotographError : it is too large, or has no size
     """
     if min(width, height) < 1:
-        raise RefusedError(say("the picture is empty"), say("send it again"))
+        raise PhotographError(say("the picture is empty"), say("send it again"))
     if width * height > MOST_PIXELS or width * height * bytes_a_pixel > UNPACKED:
-        raise RefusedError(
+        raise PhotographError(
             say("the picture is too large, {width} x {height} pixels", width=width, height=height),
             say("send it with 12 megapixels, or scan it at 300 dpi"),
         )
 
 
-def picture_of(image: Image.Image, name: str) -> Picture:
+def picture_of(image: Image.Image, name: str) -> Photograph:
     """A picture that has been opened but not unpacked yet.
 
     Raises
     ------
-    RefusedError : it is too large, or its colours are none that are known
+    PhotographError : it is too large, or its colours are none that are known
     OSError, SyntaxError, ValueError : its file is broken
     """
     size = image.size
@@ -87,10 +87,10 @@ def picture_of(image: Image.Image, name: str) -> Picture:
     image.load()
     exif = image.getexif()
     picture = bounded(_colours(image), name, focal_length(exif, size), max(size))
-    return Picture(name, turned(picture.pixels, orientation(exif)), picture.focal)
+    return Photograph(name, turned(picture.pixels, orientation(exif)), picture.focal)
 
 
-def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Picture:
+def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Photograph:
     """A picture of grey pixels (h, w), or red, green, blue (h, w, 3); the average over areas if they are too many.
 
     focal : the lens's in pixels, where the picture's longer side was ``longer`` of them
@@ -102,7 +102,7 @@ def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Pict
         pixels = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), np.uint8)
     way = cv2.COLOR_GRAY2BGR if pixels.ndim == 2 else cv2.COLOR_RGB2BGR
     reduced = np.asarray(cv2.cvtColor(pixels, way), np.uint8)
-    return Picture(name, reduced, None if focal is None else focal * max(reduced.shape[:2]) / longer)
+    return Photograph(name, reduced, None if focal is None else focal * max(reduced.shape[:2]) / longer)
 
 
 def _colours(image: Image.Image) -> Pixels:
@@ -119,7 +119,7 @@ def _colours(image: Image.Image) -> Pixels:
         white.paste(seen, mask=seen.getchannel("A"))
         return _copied(white, "RGB")
     if image.mode == "F":
-        raise RefusedError(say("the picture's colours are none that are known"), say("send a JPEG"))
+        raise PhotographError(say("the picture's colours are none that are known"), say("send a JPEG"))
     return _copied(image, "RGB")
 
 

@@ -14,7 +14,7 @@ from graphcam.photo.printed import Edges
 from graphcam.photo.registration import Registration
 
 Places = NDArray[np.complex128]
-Picture = NDArray[np.uint8]
+Photograph = NDArray[np.uint8]
 Light = NDArray[np.float32]
 PER_MM = 8.0
 """Pixels a mm: a pencil line is three or four wide."""
@@ -54,7 +54,7 @@ class Flat:
         return sampled(self.linear, self.pixels(points))
 
 
-def rectify(picture: Picture, registration: Registration, box: Edges, per_mm: float = PER_MM) -> Flat:
+def rectify(picture: Photograph, registration: Registration, box: Edges, per_mm: float = PER_MM) -> Flat:
     """A box of the paper [mm] out of a picture (h, w, 3), blue, green, red as OpenCV has it.
 
     What lies outside of the picture looks like its edge.

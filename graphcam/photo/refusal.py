@@ -6,13 +6,13 @@ from graphcam.errors import GraphcamError
 from graphcam.words import Words
 
 
-class RefusedError(GraphcamError):
+class PhotographError(GraphcamError):
     """A photograph, or what is drawn on it, that is not read; nothing of it is marked.
 
     why : a sentence without its full stop ("only 2 of 8 marks are seen")
     remedy : what to do about it ("take in the whole sheet")
 
-    >>> print(RefusedError("the picture is blurred", "hold still"))
+    >>> print(PhotographError("the picture is blurred", "hold still"))
     the picture is blurred; hold still
     """
 

@@ -12,7 +12,7 @@ from graphcam.photo.halves import half, side_seen
 from graphcam.photo.laying import EXPECTED, LEAST_TAGS, Kind, Laid, Sight, Surface, laid_surfaces
 from graphcam.photo.planes import Frame
 from graphcam.photo.printed import Edges, PrintedPage
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.tags import Tags
 from graphcam.words import say
 
@@ -74,7 +74,7 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
 
     Raises
     ------
-    RefusedError : the picture does not tell where a line of the drawing is
+    PhotographError : the picture does not tell where a line of the drawing is
     """
     if page.seam is not None:
         page = half(page, side_seen(tags.numbers, page))
@@ -89,9 +89,9 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
         sight, Frame.of(np.array(list(page.tags.values())) + page.tag_side * (0.5 + 0.5j), size), focal
     )
     if laid[0].residual > ELSEWHERE:
-        raise RefusedError(say("the marks are not where this page has them"), say("look which page it is"))
+        raise PhotographError(say("the marks are not where this page has them"), say("look which page it is"))
     if laid[0].residual > WORST:
-        raise RefusedError(
+        raise PhotographError(
             say("the paper is bent too much: its marks miss by {miss:.1f} pixels", miss=laid[0].residual),
             say("press the sheet flat on a table, or scan it"),
         )
@@ -100,14 +100,14 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
 
 def _enough(mine: int, seen: int, expected: int) -> None:
     if not seen:
-        raise RefusedError(
+        raise PhotographError(
             say("none of the {expected} marks along the edges is seen", expected=expected),
             say("take the whole sheet from above, in good light, not mirrored"),
         )
     if not mine:
-        raise RefusedError(say("the marks along the edges are those of another page"), say("look which page it is"))
+        raise PhotographError(say("the marks along the edges are those of another page"), say("look which page it is"))
     if mine < LEAST_TAGS:
-        raise RefusedError(
+        raise PhotographError(
             say("only {seen} of {expected} marks along the edges are seen", seen=mine, expected=expected),
             say("take in the whole sheet, and keep fingers off its marks"),
         )
@@ -118,7 +118,7 @@ def _blur(tags: Tags, page: PrintedPage) -> float | None:
 
     Raises
     ------
-    RefusedError : too widely to place a line
+    PhotographError : too widely to place a line
     """
     if tags.widths is None:
         return None
@@ -127,7 +127,7 @@ def _blur(tags: Tags, page: PrintedPage) -> float | None:
     smeared = tags.widths / np.roll(sides, 1, axis=1) * page.tag_side
     blur = float(max(np.median(smeared[:, ::2]), np.median(smeared[:, 1::2])))
     if blur > MOST_BLURRED:
-        raise RefusedError(
+        raise PhotographError(
             say("the picture is blurred: edges are {width:.1f} mm wide", width=blur),
             say("hold still and give more light, or let the camera focus"),
         )
@@ -155,7 +155,7 @@ def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], bl
         apart = other.surface.unproject(other.fit.parameters[:-1], places) - points
         found = replace(found, doubt=max(found.doubt, float(np.abs(apart).max())))
     if not found.doubt <= MOST_DOUBT:
-        raise RefusedError(
+        raise PhotographError(
             say(
                 "{seen} of {expected} marks are seen, and do not tell where a line is: it may be {doubt:.1f} mm off",
                 seen=count,
@@ -166,7 +166,7 @@ def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], bl
         )
     inside = _within(places, size)
     if not inside.all():
-        raise RefusedError(say("a part of the drawing is outside of the picture"), say("take in the whole sheet"))
+        raise PhotographError(say("a part of the drawing is outside of the picture"), say("take in the whole sheet"))
     return found
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from pypdfium2 import PdfDocument, PdfiumError, PdfPage, raw
 
 from graphcam.photo.images import MOST_PAGES
-from graphcam.photo.pictures import KEPT_PIXELS, WIDE, Picture, check_size
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.pictures import KEPT_PIXELS, WIDE, Photograph, check_size
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 POINTS = 72.0
@@ -25,48 +25,48 @@ NESTED = 8
 """Groups within groups in which pictures are looked for."""
 
 
-def scanned_pages(file: BinaryIO, name: str) -> Iterator[Picture | RefusedError]:
+def scanned_pages(file: BinaryIO, name: str) -> Iterator[Photograph | PhotographError]:
     """The pages of a PDF, or why one is none.
 
     Raises
     ------
-    RefusedError : there is none
+    PhotographError : there is none
     """
     try:
         document = PdfDocument(file)
     except PdfiumError as error:
         if "password" in str(error).lower():
-            raise RefusedError(say("the PDF is locked with a password"), say("save it without one")) from None
-        raise RefusedError(say("the PDF is broken or breaks off"), say("send it again")) from None
+            raise PhotographError(say("the PDF is locked with a password"), say("save it without one")) from None
+        raise PhotographError(say("the PDF is broken or breaks off"), say("send it again")) from None
     with closing(document):
         count = len(document)
         if not count:
-            raise RefusedError(say("the PDF has no pages"), say("send it again"))
+            raise PhotographError(say("the PDF has no pages"), say("send it again"))
         if count > MOST_PAGES:
-            raise RefusedError(
+            raise PhotographError(
                 say("the PDF has more than {most} pages", most=MOST_PAGES), say("send fewer pages in a file")
             )
         for number in range(count):
             page_name = name if count == 1 else f"{name}, {number + 1}"
             try:
                 yield _picture(document, number, page_name)
-            except RefusedError as error:
+            except PhotographError as error:
                 yield error
             except PdfiumError:
-                yield RefusedError(say("page {number} is broken", number=number + 1), say("scan it again"))
+                yield PhotographError(say("page {number} is broken", number=number + 1), say("scan it again"))
 
 
-def _picture(document: PdfDocument, number: int, name: str) -> Picture:
+def _picture(document: PdfDocument, number: int, name: str) -> Photograph:
     with closing(document[number]) as page:
         width, height = page.get_size()
         if not (width > 0 and height > 0):
-            raise RefusedError(say("page {number} is empty", number=number + 1), say("scan it again"))
+            raise PhotographError(say("page {number} is empty", number=number + 1), say("scan it again"))
         scale: Any = min(_scale(page, width * height), float(np.sqrt(KEPT_PIXELS / (width * height))))
         with closing(page.render(scale=scale)) as bitmap:
             pixels = np.asarray(bitmap.to_numpy())
             if pixels.ndim == 2 or pixels.shape[2] == 1:
                 pixels = np.repeat(pixels.reshape(*pixels.shape[:2], 1), 3, axis=2)
-            return Picture(name, np.ascontiguousarray(pixels[..., :3], np.uint8))
+            return Photograph(name, np.ascontiguousarray(pixels[..., :3], np.uint8))
 
 
 def _scale(page: PdfPage, area: float) -> float:
@@ -74,7 +74,7 @@ def _scale(page: PdfPage, area: float) -> float:
 
     Raises
     ------
-    RefusedError : a picture in it is too large
+    PhotographError : a picture in it is too large
     """
     found = [_measured(picture.raw) for picture in page.get_objects([raw.FPDF_PAGEOBJ_IMAGE], max_depth=NESTED)]
     for columns, rows, _ in found:

@@ -17,13 +17,13 @@ from graphcam.photo.halves import SIDES, Side, half
 from graphcam.photo.laying import Surface
 from graphcam.photo.printed import Edges, PrintedPage
 from graphcam.photo.rectify import PER_MM, Flat, rectify
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import OUTWARD, Registration, register
 from graphcam.photo.tags import Tags
 from graphcam.words import say
 
 Places = NDArray[np.complex128]
-Picture = NDArray[np.uint8]
+Photograph = NDArray[np.uint8]
 LEAST_NEIGHBOURS = 2
 """Tags beyond the seam that place the other sheet: one alone tells its turn badly."""
 MOST_MISSED = 0.5
@@ -45,7 +45,7 @@ class Tile:
     tags : all that are seen in the picture, the other sheet's too
     """
 
-    picture: Picture
+    picture: Photograph
     tags: Tags
     registration: Registration
 
@@ -71,22 +71,24 @@ class Moved:
         return self.surface.prior()
 
 
-def registered_tiles(picture: Picture, tags: Tags, page: PrintedPage, focal: float | None = None) -> dict[Side, Tile]:
+def registered_tiles(
+    picture: Photograph, tags: Tags, page: PrintedPage, focal: float | None = None
+) -> dict[Side, Tile]:
     """The sheets of a page with a seam that a picture (h, w, 3) shows whole: one, or both.
 
     Raises
     ------
-    RefusedError : it shows neither
+    PhotographError : it shows neither
     """
     rows, columns = picture.shape[:2]
     found: dict[Side, Tile] = {}
-    refused: list[tuple[int, RefusedError]] = []
+    refused: list[tuple[int, PhotographError]] = []
     for side in SIDES:
         sheet = half(page, side)
         own = tags.only(np.isin(tags.numbers, list(sheet.tags)))
         try:
             found[side] = Tile(picture, tags, register(own, sheet, (columns, rows), focal))
-        except RefusedError as error:
+        except PhotographError as error:
             refused.append((len(own), error))
     if not found:
         raise max(refused, key=lambda counted: counted[0])[1]
@@ -98,11 +100,11 @@ def joined(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left")
 
     Raises
     ------
-    RefusedError : one is missing, or the pictures do not tell how they lie
+    PhotographError : one is missing, or the pictures do not tell how they lie
     """
     missing = [side for side in SIDES if side not in tiles]
     if missing:
-        raise RefusedError(
+        raise PhotographError(
             say("only one of the two sheets has been photographed"),
             say("photograph both, each with the marks beyond the seam"),
         )
@@ -112,7 +114,7 @@ def joined(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left")
     back_there, back_meant = _neighbours(tiles[other], half(page, anchor), page.seam or 0.0)
     sources, targets = np.concatenate([meant, back_meant]), np.concatenate([there, back_there])
     if len(sources) < LEAST_NEIGHBOURS:
-        raise RefusedError(
+        raise PhotographError(
             say("the photographs do not show how the two sheets meet"),
             say("let each photograph show the marks beyond the seam too"),
         )
@@ -120,7 +122,7 @@ def joined(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left")
     missed = float(np.sqrt(np.mean(np.abs(sources * turn + shift - targets) ** 2)))
     slipped = float(np.abs(sources * turn + shift - sources).max())
     if missed > MOST_MISSED or slipped > MOST_SLIPPED:
-        raise RefusedError(
+        raise PhotographError(
             say("the two sheets do not lie as one page: their marks are {miss:.1f} mm off", miss=max(missed, slipped)),
             say("tape them flat, edge to edge, before drawing"),
         )

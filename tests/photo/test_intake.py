@@ -11,15 +11,15 @@ import pytest
 from hostile_pictures import fill, heic, png, sample
 from PIL import Image
 
-from graphcam.photo.intake import Picture, Unopened, pictures_in
+from graphcam.photo.intake import Photograph, Unopened, pictures_in
 from graphcam.photo.pictures import KEPT_PIXELS
 
 RED, BLUE, WHITE = (10, 10, 250), (250, 10, 10), (240, 240, 240)
 
 
-def one(path) -> Picture:
+def one(path) -> Photograph:
     (picture,) = pictures_in([path])
-    assert isinstance(picture, Picture), picture
+    assert isinstance(picture, Photograph), picture
     assert picture.pixels.dtype == np.uint8
     assert picture.pixels.flags.c_contiguous
     return picture
@@ -206,7 +206,7 @@ TOLD = {
 def test_hostile_files_cost_a_sentence_each(tmp_path):
     fill(tmp_path)
     found = {picture.name.partition("/")[2]: picture for picture in pictures_in([tmp_path])}
-    assert {name for name, picture in found.items() if isinstance(picture, Picture)} == {"a good.jpg", "z good.png"}
+    assert {name for name, picture in found.items() if isinstance(picture, Photograph)} == {"a good.jpg", "z good.png"}
     assert found.keys() - TOLD.keys() == {"a good.jpg", "z good.png"}
     for name, words in TOLD.items():
         assert words in str(found[name].why), name
@@ -215,7 +215,7 @@ def test_hostile_files_cost_a_sentence_each(tmp_path):
 MEASURED = """
 import resource, sys
 from pathlib import Path
-from graphcam.photo.intake import Picture, pictures_in
+from graphcam.photo.intake import Photograph, pictures_in
 
 def said(name):
     lines = Path("/proc/self/status").read_text().splitlines()
@@ -225,7 +225,7 @@ if len(sys.argv) > 2:
     limit = said("VmSize") + int(sys.argv[2])
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 for picture in pictures_in([Path(sys.argv[1])]):
-    print(picture.name if isinstance(picture, Picture) else picture.why)
+    print(picture.name if isinstance(picture, Photograph) else picture.why)
     del picture
 print(said("VmHWM") // 1_000_000)
 """

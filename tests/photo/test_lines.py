@@ -6,7 +6,7 @@ from photo.drawn_flats import circle, profile_sheet
 
 from graphcam.photo.ink import ink_of
 from graphcam.photo.lines import Segment, crossing, read_lines
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 
 PLACE = 0.1
 """mm, of a ruled line."""
@@ -67,12 +67,12 @@ def test_a_dashed_line_makes_no_crossing() -> None:
     lines = read_lines(ink_of(sheet.flat(), sheet.page()), sheet.view)
     dashed = [line for line in lines if abs(line.start.imag - 15) < 1 and abs(line.end.imag - 15) < 1]
     for line in dashed:
-        with pytest.raises(RefusedError, match="% of a line"):
+        with pytest.raises(PhotographError, match="% of a line"):
             crossing(line, Segment(0j, 30j, 1.0))
 
 
 def test_lines_that_are_nearly_parallel_make_no_crossing() -> None:
-    with pytest.raises(RefusedError, match="cross at 11°"):
+    with pytest.raises(PhotographError, match="cross at 11°"):
         crossing(Segment(0j, 10 + 0j, 1.0), Segment(0j, 10 + 2j, 1.0))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from photographed import Camera, folded, page_of, photograph, rolled
 
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags, find_tags
 
@@ -76,7 +76,7 @@ def test_a_fold_is_registered_or_refused(page, slope, degrees):
         camera = Camera(page, TILTS[0], size_of(page, 12), bend=folded(place, slope, degrees))
         try:
             found = registered(camera)
-        except RefusedError:
+        except PhotographError:
             refused += 1
             continue
         misses = camera.misses(found)
@@ -144,7 +144,7 @@ def test_a_printer_that_scales_or_spreads_its_ink_misplaces_nothing():
 
 
 def refusal(*arguments) -> str:
-    with pytest.raises(RefusedError) as caught:
+    with pytest.raises(PhotographError) as caught:
         register(*arguments)
     assert str(caught.value.remedy)
     return str(caught.value)

@@ -9,7 +9,7 @@ import pytest
 from photographed import CORNERS, Camera, page_of
 
 from graphcam.photo.halves import half, side_seen
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags
 from graphcam.photo.tiles import joined, rectify_tiles, registered_tiles
@@ -110,7 +110,7 @@ def test_the_right_sheet_may_be_the_one_that_counts():
 
 
 def refusal(function, *arguments) -> str:
-    with pytest.raises(RefusedError) as caught:
+    with pytest.raises(PhotographError) as caught:
         function(*arguments)
     return str(caught.value)
 

@@ -10,7 +10,7 @@ import numpy as np
 from camera import NDFloat32
 from numpy.typing import NDArray
 
-Picture = NDArray[np.uint8]
+Photograph = NDArray[np.uint8]
 LEVELS = 4096
 """Of linear light that the sensor tells apart."""
 CELLS = ((0, 0, 2), (0, 1, 1), (1, 0, 1), (1, 1, 0))
@@ -43,7 +43,7 @@ class Sensor:
     quality: int = 85
 
 
-def developed(light: NDFloat32, sensor: Sensor, rng: np.random.Generator) -> Picture:
+def developed(light: NDFloat32, sensor: Sensor, rng: np.random.Generator) -> Photograph:
     """The picture (rows, columns, 3) that a telephone makes of linear light (rows, columns, 3), which is used up."""
     light = _smeared(light, sensor)
     light *= WHITE / max(float(np.percentile(light[::16, ::16, 1], 95)), 1e-3)
@@ -58,7 +58,7 @@ def developed(light: NDFloat32, sensor: Sensor, rng: np.random.Generator) -> Pic
     return _finished(coded, sensor)
 
 
-def scanned(light: NDFloat32, rng: np.random.Generator, *, grey: bool, blur: float, noise: float) -> Picture:
+def scanned(light: NDFloat32, rng: np.random.Generator, *, grey: bool, blur: float, noise: float) -> Photograph:
     """The picture that a scanner makes: three lines of cells, and every cell a little wrong all the way down."""
     light = cv2.GaussianBlur(light, (0, 0), blur)
     if grey:
@@ -70,7 +70,7 @@ def scanned(light: NDFloat32, rng: np.random.Generator, *, grey: bool, blur: flo
     return _codes()[np.clip(light * LEVELS, 0, LEVELS).astype(np.uint16)]
 
 
-def as_jpeg(picture: Picture, quality: int) -> bytes:
+def as_jpeg(picture: Photograph, quality: int) -> bytes:
     """The file, its colours at half the size as telephones keep them."""
     good, data = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, quality])
     assert good
@@ -110,7 +110,7 @@ def _noisy(raw: NDFloat32, sensor: Sensor, rng: np.random.Generator) -> NDArray[
 
 
 @cache
-def _codes() -> Picture:
+def _codes() -> Photograph:
     """sRGB of linear light (LEVELS + 1,), its brightest part rolled off as telephones do."""
     linear = np.arange(LEVELS + 1) / LEVELS
     rolled = np.where(linear < 0.75, linear, 0.75 + 0.25 * np.tanh((linear - 0.75) / 0.25))
@@ -118,7 +118,7 @@ def _codes() -> Picture:
     return np.clip(np.round(255 * coded), 0, 255).astype(np.uint8)
 
 
-def _finished(coded: Picture, sensor: Sensor) -> Picture:
+def _finished(coded: Photograph, sensor: Sensor) -> Photograph:
     parts = cv2.cvtColor(coded, cv2.COLOR_BGR2YCrCb)
     bright, *hues = cv2.split(parts)
     if sensor.sharpened:

@@ -28,11 +28,11 @@ from graphcam.exercises.photographs.photo_reader import read_photograph
 from graphcam.exercises.photographs.settling import settled
 from graphcam.photo.curves import read_curve
 from graphcam.photo.ink import Ink, ink_of
-from graphcam.photo.intake import Picture, Unopened, pictures_in
+from graphcam.photo.intake import Photograph, Unopened, pictures_in
 from graphcam.photo.lines import Segment, crossing, read_lines
 from graphcam.photo.points import read_points
 from graphcam.photo.rectify import rectify
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import Registration, register
 from graphcam.photo.tags import find_tags
 
@@ -77,7 +77,7 @@ def _megabytes(status: Path, name: str) -> float:
     return int(found[1]) / 1024 if found else float("nan")
 
 
-def picture_of(jpeg: bytes, path: Path) -> Picture:
+def picture_of(jpeg: bytes, path: Path) -> Photograph:
     """The picture in a file that is written there, read as any file is, and removed."""
     path.write_bytes(jpeg)
     (picture,) = pictures_in([path])
@@ -140,7 +140,7 @@ def _bare(why: object) -> str:
     return re.sub(r"[\d.,]+", "#", str(why))[:120]
 
 
-def _registered(scene: Scene, picture: Picture, bars: tuple[float, float]) -> dict[str, Any]:
+def _registered(scene: Scene, picture: Photograph, bars: tuple[float, float]) -> dict[str, Any]:
     """How far the registration is off within the view's room, and the scale by the measured bars."""
     registration = _registration(scene, picture)
     left, low, right, high = scene.view.room
@@ -154,7 +154,7 @@ def _registered(scene: Scene, picture: Picture, bars: tuple[float, float]) -> di
     return {"off": _quantiles(off), "most off": round(float(off.max()), 4), "scale": _quantiles(scaled)}
 
 
-def _registration(scene: Scene, picture: Picture) -> Registration:
+def _registration(scene: Scene, picture: Photograph) -> Registration:
     tags = find_tags(cv2.cvtColor(picture.pixels, cv2.COLOR_BGR2GRAY))
     return register(tags, scene.page, picture.pixels.shape[1::-1], picture.focal)
 
@@ -236,7 +236,7 @@ def _read_alone(scene: Scene, folder: Path) -> dict[str, Any]:
         picture = picture_of(scene.jpeg, folder / f"{scene.number}.jpg")
         try:
             registration = _registration(scene, picture)
-        except RefusedError as error:
+        except PhotographError as error:
             return {"refused": "photo", "why": _bare(error.why)}
         ink = _ink(scene, picture, registration)
         found = _diagram_read(scene, ink) if scene.kind == "diagram" else _marks_read(scene, ink)
@@ -269,7 +269,7 @@ def _marks_read(scene: Scene, ink: Ink) -> dict[str, Any]:
     return found | _crossings(rays, matched)
 
 
-def _ink(scene: Scene, picture: Picture, registration: Registration) -> Ink:
+def _ink(scene: Scene, picture: Photograph, registration: Registration) -> Ink:
     left, low, right, high = scene.view.room
     places = [complex(left, low), complex(right, high)]
     places += [corner + side * (1 + 1j) for corner in scene.page.patches for side in (0.0, scene.page.patch_side)]
@@ -309,7 +309,7 @@ def _crossings(rays: list[tuple[complex, complex]], matched: list[Segment | None
         if abs(place) < 0.5 * abs(ahead):
             try:
                 errors.append(round(abs(crossing(seen, also) - place), 3))
-            except RefusedError:
+            except PhotographError:
                 continue
     return {"crossings": errors}
 

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from bent_paper import Bend, Points
 from camera import Eye, NDFloat32, Scanner, SeenPlaces, Upright, seen_places
-from exposure import Picture, Sensor, as_jpeg, developed, scanned
+from exposure import Photograph, Sensor, as_jpeg, developed, scanned
 from light import lit, table, with_fingers
 from pencil import FULL, Light
 from PIL import Image
@@ -70,7 +70,7 @@ def photographed(light: Light, page: tuple[float, float], per_mm: float, shot: S
     return _with_exif(as_jpeg(picture, shot.sensor.quality), shot)
 
 
-def _taken(light: Light, page: tuple[float, float], per_mm: float, shot: Shot, rng: Rng) -> Picture:
+def _taken(light: Light, page: tuple[float, float], per_mm: float, shot: Shot, rng: Rng) -> Photograph:
     seen = seen_places(shot.eye, page)
     found = _reflected(light, seen, page, per_mm, shot, rng)
     if shot.scan:

@@ -14,7 +14,7 @@ from graphcam.photo.ink import ink_of
 from graphcam.photo.intake import Unopened, pictures_in
 from graphcam.photo.printed import Points, PrintedPage
 from graphcam.photo.rectify import rectify
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
 
@@ -51,7 +51,7 @@ def curve_in(path: Path, page: PrintedPage, name: str) -> Points | None:
     tags = find_tags(np.asarray(cv2.cvtColor(picture.pixels, cv2.COLOR_BGR2GRAY), np.uint8))
     try:
         registration = register(tags, page, picture.pixels.shape[1::-1], picture.focal)
-    except RefusedError:
+    except PhotographError:
         return None
     view = page.views[name]
     reading = read_curve(

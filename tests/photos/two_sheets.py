@@ -18,7 +18,7 @@ from printer import PER_MM
 
 from graphcam.constructions.views import PROFILE
 from graphcam.photo.halves import SIDES, Side
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.tags import find_tags
 from graphcam.photo.tiles import Tile, joined, registered_tiles
 
@@ -53,7 +53,7 @@ def tiles_measured(number: int, seed: int, scratch: Path) -> dict[str, Any]:
             tags = find_tags(np.asarray(cv2.cvtColor(picture.pixels, cv2.COLOR_BGR2GRAY), np.uint8))
             tiles[side] = registered_tiles(picture.pixels, tags, page, picture.focal)[side]
         tiles = dict(joined(tiles, page))
-    except (RefusedError, KeyError) as error:
+    except (PhotographError, KeyError) as error:
         return found | {"refused": "photo", "why": repr(error)[:120]}
     found["slip"] = round(abs(shift), 2)
     heights = np.arange(30.0, page.height - 30, 5.0)

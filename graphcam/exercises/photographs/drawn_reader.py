@@ -16,7 +16,7 @@ from graphcam.photo.ink import Ink
 from graphcam.photo.lines import Segment, crossing, read_lines
 from graphcam.photo.points import PointReading, read_points
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import Tell, Words, say
 
 MET = 1.0
@@ -48,7 +48,7 @@ def _answer(asked: Asked, place: str, ink: Ink, view: PrintedView, tell: Tell) -
         if asked.drawn_as == "crossing":
             return _points(place, _crossings(read_lines(ink, view)), 1.0, tell)
         return _marks(asked, place, read_points(ink, view), tell)
-    except RefusedError as error:
+    except PhotographError as error:
         return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), (error.why, error.remedy), tell)
 
 
@@ -93,7 +93,7 @@ def _crossings(lines: Sequence[Segment]) -> Points:
     for one, other in combinations(lines, 2):
         try:
             place = crossing(one, other)
-        except RefusedError:
+        except PhotographError:
             continue
         if _reaches(one, place) and _reaches(other, place) and all(abs(place - z) > ONE_CROSSING for z in found):
             found.append(place)

@@ -32,7 +32,7 @@ RING, DOT = 1.6, 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Layer:
+class OverlaidDrawing:
     """One answer to be drawn over a photograph.
 
     own : its points (n,), mm of paper from the view's origin; closed : whether they run back to the first
@@ -45,7 +45,7 @@ class Layer:
     right: Expected | None = None
 
 
-def overlay(picture: bytes, box: Edges, layers: Iterable[Layer]) -> bytes:
+def overlay(picture: bytes, box: Edges, layers: Iterable[OverlaidDrawing]) -> bytes:
     """A picture of a view as JPEG, with answers drawn over it, as JPEG.
 
     box : what the picture shows, mm of paper from the view's origin
@@ -64,11 +64,11 @@ def overlay(picture: bytes, box: Edges, layers: Iterable[Layer]) -> bytes:
     return jpeg(board.canvas)
 
 
-def _round(layer: Layer) -> Points:
+def _round(layer: OverlaidDrawing) -> Points:
     return np.append(layer.own, layer.own[:1]) if layer.closed else layer.own
 
 
-def _draw_right(board: _Board, layer: Layer, right: Expected) -> None:
+def _draw_right(board: _Board, layer: OverlaidDrawing, right: Expected) -> None:
     places = np.atleast_1d(np.asarray(right.value, dtype=np.complex128))
     if layer.kind == "curve":
         line = key_line(right)

@@ -23,8 +23,8 @@ from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.files import OutputError
 from graphcam.photo.halves import SIDES, Side
 from graphcam.photo.intake import ENDINGS, FOLDERS_DEEP, MOST_BYTES, Unopened, pictures_in
-from graphcam.photo.pictures import Picture
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.pictures import Photograph
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 CHUNK = 1 << 20
@@ -116,7 +116,7 @@ def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
     """Read a page off photographs of its two sheets and keep what was read; it does not raise, as :func:`read_file`."""
     try:
         cv2.setNumThreads(1)
-        photographs: dict[Side, Picture] = {"left": _picture(*halves.left), "right": _picture(*halves.right)}
+        photographs: dict[Side, Photograph] = {"left": _picture(*halves.left), "right": _picture(*halves.right)}
         digest = f"{halves.digest}-0"
         photo, shown = read_halves(job.sheets, job.exercise, photographs, digest, "0-")
         job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
@@ -127,10 +127,10 @@ def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
     return []
 
 
-def _picture(path: Path, number: int) -> Picture:
+def _picture(path: Path, number: int) -> Photograph:
     found = next(islice(pictures_in([path]), number, None))
     if isinstance(found, Unopened):
-        raise RefusedError(found.why, found.remedy)
+        raise PhotographError(found.why, found.remedy)
     return found
 
 

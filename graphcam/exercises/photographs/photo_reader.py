@@ -17,14 +17,14 @@ from graphcam.exercises.definition.drawn_answers import board_chain, views_of
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.photographs.drawn_reader import answers_on
-from graphcam.exercises.photographs.read_photo import Picture, ReadPhoto
+from graphcam.exercises.photographs.read_photo import KeptPicture, ReadPhoto
 from graphcam.exercises.photographs.seen_page import SeenPage
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.photo.codes import codes_in
 from graphcam.photo.halves import SIDES, Side
-from graphcam.photo.pictures import Picture as Photograph
+from graphcam.photo.pictures import Photograph
 from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import Registration, register
 from graphcam.photo.tags import Tags, find_tags
 from graphcam.photo.tiles import Tile, joined, registered_tiles
@@ -64,7 +64,7 @@ def read_photograph(
             side, tile = next(iter(tiles.items()))
             return replace(_registered(known, tile.registration), half=side), {}
         return _of_tiles(sheets, exercise, known, found, tiles, prefix)
-    except RefusedError as error:
+    except PhotographError as error:
         return _refused(known, error, exercise), {}
 
 
@@ -82,13 +82,13 @@ def read_halves(
             return known, {}
         try:
             both = registered_tiles(photograph.pixels, found.tags, found.page, photograph.focal)
-        except RefusedError as error:
+        except PhotographError as error:
             return _refused(known, error, exercise), {}
         tiles |= {side: both[side]} if side in both else {}
     assert found is not None
     try:
         return _of_tiles(sheets, exercise, known, found, tiles, prefix)
-    except RefusedError as error:
+    except PhotographError as error:
         return _refused(known, error, exercise), {}
 
 
@@ -102,14 +102,14 @@ def _looked_at(
     known = replace(known, tags=len(tags.numbers))
     try:
         code, page = sheets.page(codes_in(grey, tags), tags=len(tags.numbers) > 0)
-    except RefusedError as error:
+    except PhotographError as error:
         return _refused(known, error, exercise), None
     across, up = (abs(end - start) for start, end in page.bars[:2])
     known = replace(known, student=code.student, page=code.page, expected=len(page.tags), bars=(across, up))
     return known, _Found(photograph, tags, code, page)
 
 
-def _refused(known: ReadPhoto, error: RefusedError, exercise: Exercise) -> ReadPhoto:
+def _refused(known: ReadPhoto, error: PhotographError, exercise: Exercise) -> ReadPhoto:
     return replace(known, why=exercise.tell(error.why), remedy=exercise.tell(error.remedy))
 
 
@@ -129,7 +129,7 @@ def _of_tiles(
 
     Raises
     ------
-    RefusedError : one is missing, or it is not seen how they lie
+    PhotographError : one is missing, or it is not seen how they lie
     """
     together = joined(tiles, found.page)
     worse = max((tile.registration for tile in together.values()), key=lambda one: one.residual)
@@ -145,7 +145,7 @@ def _read(
     asked = _asked_on(exercise, seen.page, code, sheets.secret)
     answers = answers_on(seen, asked, exercise.tell)
     shown = dict(seen.shown())
-    pictures = {name: Picture(f"{prefix}{k}.jpg", box) for k, (name, (_, box)) in enumerate(shown.items())}
+    pictures = {name: KeptPicture(f"{prefix}{k}.jpg", box) for k, (name, (_, box)) in enumerate(shown.items())}
     files = {pictures[name].file: data for name, (data, _) in shown.items()}
     return replace(known, answers=answers, pictures=pictures), files
 

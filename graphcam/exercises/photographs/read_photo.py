@@ -43,7 +43,7 @@ class ReadAnswer:
 
 
 @dataclass(frozen=True)
-class Picture:
+class KeptPicture:
     """A flat picture of a part of the page.
 
     file : its name beside the readings
@@ -78,7 +78,7 @@ class ReadPhoto:
     residual: float = 0.0
     kind: str = ""
     answers: Mapping[str, ReadAnswer] = field(default_factory=dict[str, ReadAnswer])
-    pictures: Mapping[str, Picture] = field(default_factory=dict[str, Picture])
+    pictures: Mapping[str, KeptPicture] = field(default_factory=dict[str, KeptPicture])
     bars: tuple[float, float] = (0.0, 0.0)
     half: str = ""
     why: str = ""
@@ -124,9 +124,9 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
 
 def _photo(said: dict[str, Any]) -> ReadPhoto:
     answers = {name: _answer(each) for name, each in said["answers"].items()}
-    pictures: dict[str, Picture] = {}
+    pictures: dict[str, KeptPicture] = {}
     for name, (file, (left, bottom, right, top)) in said["pictures"].items():
-        pictures[name] = Picture(file, (left, bottom, right, top))
+        pictures[name] = KeptPicture(file, (left, bottom, right, top))
     across, up = said["bars"]
     plain = {name: value for name, value in said.items() if name not in ("answers", "pictures", "bars")}
     return replace(ReadPhoto(**plain), answers=answers, pictures=pictures, bars=(across, up))

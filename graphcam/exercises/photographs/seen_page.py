@@ -14,7 +14,7 @@ from graphcam.exercises.photographs.jpegs import jpeg
 from graphcam.exercises.photographs.picture_names import BARS, TABLE
 from graphcam.photo.halves import Side
 from graphcam.photo.ink import Ink, ink_of
-from graphcam.photo.pictures import Picture
+from graphcam.photo.pictures import Photograph
 from graphcam.photo.printed import Edges, PrintedPage, PrintedView
 from graphcam.photo.rectify import PER_MM, Flat, rectify
 from graphcam.photo.registration import Registration
@@ -47,7 +47,7 @@ class SeenPage:
     registered: Callable[[complex], Registration]
 
     @staticmethod
-    def whole(photograph: Picture, page: PrintedPage, registration: Registration) -> SeenPage:
+    def whole(photograph: Photograph, page: PrintedPage, registration: Registration) -> SeenPage:
         """A page in one photograph."""
         return SeenPage(page, partial(rectify, photograph.pixels, registration), lambda place: registration)
 

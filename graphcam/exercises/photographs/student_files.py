@@ -82,7 +82,7 @@ def _overlays(
     student: SettledStudent, page: int, photo: ReadPhoto, answer_key: AnswerKey | None, kept: KeptPhotographs
 ) -> tuple[bytes, bytes] | None:
     """Pictures of the first view of a page in which is drawn, with what is right and without; None if there is none."""
-    from graphcam.exercises.photographs.overlays import Layer, overlay
+    from graphcam.exercises.photographs.overlays import OverlaidDrawing, overlay
 
     drawn = [one for one in student.answers if one.page == page and one.read is not None and one.points is not None]
     if not drawn or drawn[0].read is None:
@@ -93,14 +93,14 @@ def _overlays(
         return None
     stretch = student.stretches.get(page, UNSCALED)
     box = photo.pictures[place].box
-    layers: tuple[list[Layer], list[Layer]] = ([], [])
+    layers: tuple[list[OverlaidDrawing], list[OverlaidDrawing]] = ([], [])
     for one in drawn:
         if one.read is not None and one.read.place == place and one.points is not None:
             right = right_in_photo(one, answer_key, stretch)
-            layers[0].append(Layer(one.asked.kind, one.points, one.read.closed, right))
+            layers[0].append(OverlaidDrawing(one.asked.kind, one.points, one.read.closed, right))
             # A student sees what is marked, not what a scribble was taken for.
             if one.given is not None:
-                layers[1].append(Layer(one.asked.kind, one.points, one.read.closed))
+                layers[1].append(OverlaidDrawing(one.asked.kind, one.points, one.read.closed))
     return overlay(picture, box, layers[0]), overlay(picture, box, layers[1])
 
 

@@ -11,7 +11,7 @@ from graphcam.exercises.course.course_folder import PRINTED
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.sheet_code import SheetCode
 from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 TAKE_IN_THE_CODE = say("take in the whole sheet, its QR code too, and keep the picture sharp")
@@ -39,7 +39,7 @@ class PrintedSheets:
 
         Raises
         ------
-        RefusedError : there is none, or there are two, or it is not of this course; each has its own reason
+        PhotographError : there is none, or there are two, or it is not of this course; each has its own reason
         """
         codes: set[SheetCode] = set()
         errors: list[TaskError] = []
@@ -49,7 +49,9 @@ class PrintedSheets:
             except TaskError as error:
                 errors.append(error)
         if len(codes) > 1:
-            raise RefusedError(say("it shows {count} sheets", count=len(codes)), say("photograph each sheet by itself"))
+            raise PhotographError(
+                say("it shows {count} sheets", count=len(codes)), say("photograph each sheet by itself")
+            )
         if not codes:
             raise _nobodys(errors, tags=tags)
         code = codes.pop()
@@ -58,7 +60,7 @@ class PrintedSheets:
     def _printed(self, code: SheetCode) -> PrintedPage:
         """What must be known of a page to read it."""
         if code.version != self.version:
-            raise RefusedError(
+            raise PhotographError(
                 say("it is of version {found} of the exercise, not {wanted}", found=code.version, wanted=self.version),
                 say("read it with the course that it was printed for"),
             )
@@ -68,20 +70,20 @@ class PrintedSheets:
         except OSError:
             page = None
         except TaskError as error:
-            raise RefusedError(str(error), say("make the course again")) from None
+            raise PhotographError(str(error), say("make the course again")) from None
         # The parameters of a student change if the course is made anew after others were added before.
         if page is None or page.code != code.text(self.secret):
-            raise RefusedError(
+            raise PhotographError(
                 say("it is not as the sheets of this course were printed"),
                 say("read it with the course that it was printed for"),
             )
         return page
 
 
-def _nobodys(errors: Sequence[TaskError], *, tags: bool) -> RefusedError:
+def _nobodys(errors: Sequence[TaskError], *, tags: bool) -> PhotographError:
     if errors:
         error = errors[0]
-        return RefusedError(f"{error.field} is {error.value}, but must be {error.expected}", error.remedy)
+        return PhotographError(f"{error.field} is {error.value}, but must be {error.expected}", error.remedy)
     if tags:
-        return RefusedError(say("the QR code is not seen"), TAKE_IN_THE_CODE)
-    return RefusedError(say("it shows no worksheet: neither its QR code nor its marks are seen"), TAKE_IN_THE_CODE)
+        return PhotographError(say("the QR code is not seen"), TAKE_IN_THE_CODE)
+    return PhotographError(say("it shows no worksheet: neither its QR code nor its marks are seen"), TAKE_IN_THE_CODE)

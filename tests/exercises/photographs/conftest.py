@@ -19,7 +19,7 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs.course_photographs import READINGS, ReadCourse, ReadingOrder, read_course
 from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
 from graphcam.exercises.photographs.picture_names import BARS, TABLE
-from graphcam.exercises.photographs.read_photo import Picture, ReadAnswer, ReadPhoto
+from graphcam.exercises.photographs.read_photo import KeptPicture, ReadAnswer, ReadPhoto
 
 # A process that is forked from one in which OpenCV has threads hangs.
 cv2.setNumThreads(1)
@@ -59,9 +59,9 @@ class Photographed:
         """As if a photograph of a student's second page had been read."""
         digest = f"{name or student!r}".encode().hex().ljust(32, "0")[:32]
         pictures = {
-            "profile": Picture("0.jpg", BOX),
-            TABLE: Picture("1.jpg", (0.0, 0.0, 120.0, 60.0)),
-            **{bar: Picture("2.jpg", (0.0, 0.0, 30.0, 16.0)) for bar in BARS},
+            "profile": KeptPicture("0.jpg", BOX),
+            TABLE: KeptPicture("1.jpg", (0.0, 0.0, 120.0, 60.0)),
+            **{bar: KeptPicture("2.jpg", (0.0, 0.0, 30.0, 16.0)) for bar in BARS},
         }
         photo = ReadPhoto(
             name or f"{student}.jpg", f"{digest}-0", student, 2, 8, 8, 0.31, "plane",

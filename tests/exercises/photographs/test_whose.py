@@ -8,7 +8,7 @@ from graphcam.exercises.course.course_folder import PRINTED, TEACHER
 from graphcam.exercises.course.sheet_code import SheetCode
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import RefusedError
+from graphcam.photo.refusal import PhotographError
 
 SECRET = b"the secret of the photographs"
 
@@ -40,7 +40,7 @@ def code(course, **changes: object) -> SheetCode:
 
 @pytest.mark.parametrize(("tags", "why"), [(True, "the QR code is not seen"), (False, "it shows no worksheet")])
 def test_without_a_code_nobodys_page_is_guessed(sheets, tags, why):
-    with pytest.raises(RefusedError, match=why):
+    with pytest.raises(PhotographError, match=why):
         sheets.page([], tags=tags)
 
 
@@ -56,24 +56,24 @@ def test_without_a_code_nobodys_page_is_guessed(sheets, tags, why):
     ],
 )
 def test_a_code_of_another_sheet_is_refused_with_its_own_reason(course, sheets, changes, secret, why):
-    with pytest.raises(RefusedError, match=why):
+    with pytest.raises(PhotographError, match=why):
         sheets.page([code(course, **changes).text(secret)], tags=True)
 
 
 @pytest.mark.parametrize("text", ["https://elsewhere.example", "GC1/a", "", "GC1/" + "x/" * 5000])
 def test_any_other_code_is_none_of_ours(sheets, text):
-    with pytest.raises(RefusedError, match="none of graphcam's"):
+    with pytest.raises(PhotographError, match="none of graphcam's"):
         sheets.page([text], tags=True)
 
 
 def test_two_sheets_in_one_picture_are_told_apart_by_nobody(course, sheets):
     texts = [printed(course, student, 2).code for student in ("Anna", "Boris")]
-    with pytest.raises(RefusedError, match="it shows 2 sheets"):
+    with pytest.raises(PhotographError, match="it shows 2 sheets"):
         sheets.page(texts, tags=True)
 
 
 def test_a_page_that_is_kept_no_more_is_refused(course, sheets):
     text = printed(course, "Anna", 2).code
     (course.place / TEACHER / PRINTED / "Anna-2.json").write_text("{")
-    with pytest.raises(RefusedError, match="make the course again"):
+    with pytest.raises(PhotographError, match="make the course again"):
         sheets.page([text], tags=True)
