@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.ink import Ink
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
 from graphcam.photo.raster import Raster
 from graphcam.photo.ridges import DIRECTIONS, PER_MM, ridges, spread

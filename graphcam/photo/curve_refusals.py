@@ -5,7 +5,7 @@ The limits lie between 66 right and 110 other drawings of experiments, on which 
 
 from dataclasses import dataclass
 
-from graphcam.photo.gaps import LONGEST_GAP
+from graphcam.photo.bridged_gaps import LONGEST_GAP
 from graphcam.words import Words, say
 
 LEAST_SHARE = 0.90

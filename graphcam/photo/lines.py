@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.ink import Ink
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
 from graphcam.photo.raster import Raster
 from graphcam.photo.refusal import PhotographError

@@ -11,10 +11,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.ink import Ink
+from graphcam.photo.flag_runs import runs
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
 from graphcam.photo.raster import Raster
-from graphcam.photo.runs import runs
 
 Mark = Literal["cross", "dot", "ring"]
 PER_MM = 6.0

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from graphcam.photo.curve_grid import Evidence, Grid, hidden_in
-from graphcam.photo.ink import Ink
+from graphcam.photo.flag_runs import Flags, long_runs, runs
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points
 from graphcam.photo.raster import Raster
 from graphcam.photo.ridges import ALONG
-from graphcam.photo.runs import Flags, long_runs, runs
-from graphcam.photo.trellis import Way
+from graphcam.photo.trellis import BestWay
 
 SURE = 6.0
 """Standard deviations of noise that a line passes."""
@@ -68,7 +68,7 @@ class Track:
     lengths: NDArray[np.float64]
 
 
-def track_of(way: Way, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
+def track_of(way: BestWay, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
     """What lies along a way."""
     station = np.arange(way.states.size)
     states = grid.places.shape[1]

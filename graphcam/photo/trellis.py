@@ -26,14 +26,14 @@ next station; slopes run from -m to m."""
 
 
 @dataclass(frozen=True, eq=False)
-class Way:
+class BestWay:
     """A way through the grid: at each station (n,) its state and the slope with which it leaves."""
 
     states: NDArray[np.int64]
     slopes: NDArray[np.int64]
 
 
-def best_way(rewards: Rewards, wraps: bool) -> Way:
+def best_way(rewards: Rewards, wraps: bool) -> BestWay:
     """The way with the greatest sum of rewards, less what its bends cost.
 
     wraps : whether the last station is followed by the first
@@ -50,10 +50,10 @@ def best_way(rewards: Rewards, wraps: bool) -> Way:
     half = count // 2
     turned = _best(rewards, np.arange(2 * count) % count)
     middle = slice(half, half + count)
-    return Way(np.roll(turned.states[middle], half), np.roll(turned.slopes[middle], half))
+    return BestWay(np.roll(turned.states[middle], half), np.roll(turned.slopes[middle], half))
 
 
-def _best(rewards: Rewards, stations: NDArray[np.int64]) -> Way:
+def _best(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
     """Of the stations in this order."""
     _, states, slopes = rewards.shape
     slope = np.arange(slopes)[:, None] - slopes // 2
@@ -79,7 +79,7 @@ def _turned(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
     return best
 
 
-def _traced_back(arrived: NDArray[np.float32], value: NDArray[np.float32]) -> Way:
+def _traced_back(arrived: NDArray[np.float32], value: NDArray[np.float32]) -> BestWay:
     """From the best of the values (slopes, states) at the end, back through those (stations, slopes, states) before."""
     count, slopes, states = arrived.shape
     prices = np.minimum(BEND * np.arange(slopes), CORNER)
@@ -90,4 +90,4 @@ def _traced_back(arrived: NDArray[np.float32], value: NDArray[np.float32]) -> Wa
         slope = int(np.argmax(arrived[k, :, state] - prices[np.abs(np.arange(slopes) - slope)]))
         state = min(max(state - (slope - slopes // 2), 0), states - 1)
         way[:, k] = state, slope - slopes // 2
-    return Way(way[0], way[1])
+    return BestWay(way[0], way[1])

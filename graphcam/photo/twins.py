@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from graphcam.photo.ink import Ink
-from graphcam.photo.runs import Flags, long_runs
+from graphcam.photo.flag_runs import Flags, long_runs
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.tracks import SHORTEST_RUN, Track
 
 REACH = 2.2

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from photo.drawn_flats import Camera, Sheet, cam, circle, diagram_sheet, profile_sheet
 from scipy.spatial import cKDTree
 
-from graphcam.photo.curves import CurveReading, read_curve
-from graphcam.photo.gaps import bridged
-from graphcam.photo.ink import ink_of
+from graphcam.photo.bridged_gaps import bridged
+from graphcam.photo.drawn_curves import CurveReading, read_curve
+from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.trellis import BEND, CORNER, FARTHEST_BEND, best_way
 
 Points = NDArray[np.complex128]

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from photo.drawn_flats import Camera, Sheet, cam, circle, profile_sheet
 
-from graphcam.photo.ink import Ink, ink_of
+from graphcam.photo.pencil_ink import Ink, ink_of
 
 HALF_A_PIXEL = 0.06
 """mm."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from photo.drawn_flats import circle, profile_sheet
 
-from graphcam.photo.ink import ink_of
 from graphcam.photo.lines import Segment, crossing, read_lines
+from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.refusal import PhotographError
 
 PLACE = 0.1

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from photo.drawn_flats import Camera, Sheet, cam, circle, profile_sheet
 
-from graphcam.photo.ink import ink_of
+from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.points import Mark, PointReading, read_points
 
 NEAR = 0.25

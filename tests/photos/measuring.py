@@ -26,10 +26,10 @@ from graphcam.exercises.marking.record import Record
 from graphcam.exercises.photographs.corrections import StudentCorrections
 from graphcam.exercises.photographs.photo_reader import read_photograph
 from graphcam.exercises.photographs.settling import settled
-from graphcam.photo.curves import read_curve
-from graphcam.photo.ink import Ink, ink_of
+from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.intake import Photograph, Unopened, pictures_in
 from graphcam.photo.lines import Segment, crossing, read_lines
+from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.points import read_points
 from graphcam.photo.rectify import rectify
 from graphcam.photo.refusal import PhotographError

@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from graphcam.photo.curves import read_curve
-from graphcam.photo.ink import ink_of
+from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.intake import Unopened, pictures_in
+from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.printed import Points, PrintedPage
 from graphcam.photo.rectify import rectify
 from graphcam.photo.refusal import PhotographError

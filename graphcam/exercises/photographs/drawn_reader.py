@@ -11,9 +11,9 @@ import numpy as np
 from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.photographs.read_photo import ReadAnswer
 from graphcam.exercises.photographs.seen_page import SeenPage
-from graphcam.photo.curves import read_curve
-from graphcam.photo.ink import Ink
+from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.lines import Segment, crossing, read_lines
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.points import PointReading, read_points
 from graphcam.photo.printed import Points, PrintedView
 from graphcam.photo.refusal import PhotographError

@@ -13,7 +13,7 @@ from graphcam.exercises.course.page_parts import FIELD
 from graphcam.exercises.photographs.jpegs import jpeg
 from graphcam.exercises.photographs.picture_names import BARS, TABLE
 from graphcam.photo.halves import Side
-from graphcam.photo.ink import Ink, ink_of
+from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.pictures import Photograph
 from graphcam.photo.printed import Edges, PrintedPage, PrintedView
 from graphcam.photo.rectify import PER_MM, Flat, rectify

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.photo.flag_runs import Flags, runs
 from graphcam.photo.printed import Points
-from graphcam.photo.runs import Flags, runs
 
 LONGEST_GAP = 12.0
 """Of a curve that is seen [mm]: right ones of an experiment had 4, others 16 and more."""

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
+from graphcam.photo.bridged_gaps import bridged
 from graphcam.photo.curve_grid import LOST, Evidence, Grid, evidence_of, grid_of, hidden_in
 from graphcam.photo.curve_refusals import Measures, refusal_of
-from graphcam.photo.gaps import bridged
-from graphcam.photo.ink import Ink
+from graphcam.photo.flag_runs import Flags, longest_run, runs
+from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.runs import Flags, longest_run, runs
 from graphcam.photo.tracks import Track, placed, seen_on, track_of
-from graphcam.photo.trellis import Way, best_way
+from graphcam.photo.trellis import BestWay, best_way
 from graphcam.photo.twins import twin_share
 from graphcam.words import Words
 
@@ -90,7 +90,7 @@ def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float3
     return rewards
 
 
-def _measures(track: Track, way: Way, seen: Flags, grid: Grid, rival: float, twin: float) -> Measures:
+def _measures(track: Track, way: BestWay, seen: Flags, grid: Grid, rival: float, twin: float) -> Measures:
     there = ~track.hidden
     length = float(track.lengths[there].sum())
     # Against the circle or the axis.
