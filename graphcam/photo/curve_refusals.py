@@ -1,6 +1,6 @@
 """When a curve that was read cannot be used: measures of how well it is seen, and sentences for a teacher.
 
-The limits lie between 66 right and 110 other drawings of experiments, on which they decided 3 of 176 wrongly.
+How often these limits decide wrongly is measured by the trial of simulated photographs (tests/photos/trial.py).
 """
 
 from dataclasses import dataclass
@@ -9,13 +9,13 @@ from graphcam.photo.bridged_gaps import LONGEST_GAP
 from graphcam.words import Words, say
 
 LEAST_SHARE = 0.90
-"""Share of its length on which a curve is seen: right ones had .978 and more, halves and scribbles .77 and less."""
+"""Share of its length on which a curve is seen: a half has far less, a faint but whole one more."""
 LEAST_COHERENCE = 0.80
 """Median share of the best direction's answer that the curve's own direction has: through a scribble the way jumps."""
 MOST_RIVAL = 0.30
 """Share of its length over which a second curve is seen."""
 MOST_BEND = 3.5
-"""Degrees by which the direction changes from station to station, on average: right ones had 2, scribbles 3 to 5."""
+"""Degrees by which the direction changes from station to station, on average: a smooth curve turns little, the way through a scribble much."""
 MOST_TWIN = 0.04
 """Share of its length along which a second crest runs beside the first."""
 MOST_HIDDEN = 0.10

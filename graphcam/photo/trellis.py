@@ -19,6 +19,8 @@ FARTHEST_BEND = 2
 CORNER = 1.5
 """Price of a corner, at which the slope changes at will: a station and a half without a line."""
 NOWHERE = np.float32(-1e6)
+BLOCK = 32
+"""Stations whose values are kept at a time: those of the others are reckoned again on the way back, to save memory."""
 
 Rewards = NDArray[np.float32]
 """(stations, states, slopes): of leaving a state of a station with a slope, which is the change of the state up to the
@@ -56,17 +58,40 @@ def best_way(rewards: Rewards, wraps: bool) -> BestWay:
 def _best(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
     """Of the stations in this order."""
     _, states, slopes = rewards.shape
+    value = np.zeros((slopes, states), np.float32)
+    blocks = np.split(stations, np.arange(BLOCK, stations.size, BLOCK))
+    before: list[NDArray[np.float32]] = []
+    for block in blocks:
+        before.append(value)
+        _, value = _arrived(rewards, block, value)
+    slope, state = divmod(int(value.argmax()), states)
+    ways: list[NDArray[np.int64]] = []
+    for block, start in zip(reversed(blocks), reversed(before), strict=True):
+        way = _traced_back(_arrived(rewards, block, start)[0], slope, state)
+        slope, state = int(way[1, 0]), int(way[0, 0])
+        ways.append(way)
+    whole = np.concatenate(ways[::-1], axis=1)
+    return BestWay(whole[0], whole[1] - slopes // 2)
+
+
+def _arrived(
+    rewards: Rewards, stations: NDArray[np.int64], value: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Values (stations, slopes, states) of arriving behind each station, and those (slopes, states) behind the last.
+
+    value : (slopes, states) before the first, with which slope it is left
+    """
+    _, states, slopes = rewards.shape
     slope = np.arange(slopes)[:, None] - slopes // 2
     before = np.arange(states) - slope
     from_outside = (before < 0) | (before >= states)
     arriving = np.arange(slopes)[:, None] * states + np.clip(before, 0, states - 1)
     arrived = np.empty((stations.size, slopes, states), np.float32)
-    value = np.zeros((slopes, states), np.float32)
     for k, station in enumerate(stations):
         np.take(value + rewards[station].T, arriving, out=arrived[k])
         arrived[k][from_outside] = NOWHERE
         value = _turned(arrived[k])
-    return _traced_back(arrived, value)
+    return arrived, value
 
 
 def _turned(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -79,15 +104,17 @@ def _turned(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
     return best
 
 
-def _traced_back(arrived: NDArray[np.float32], value: NDArray[np.float32]) -> BestWay:
-    """From the best of the values (slopes, states) at the end, back through those (stations, slopes, states) before."""
+def _traced_back(arrived: NDArray[np.float32], slope: int, state: int) -> NDArray[np.int64]:
+    """States and slopes (2, stations) on the way to a state that is left with a slope, both counted from 0.
+
+    arrived : (stations, slopes, states)
+    """
     count, slopes, states = arrived.shape
     prices = np.minimum(BEND * np.arange(slopes), CORNER)
     prices[FARTHEST_BEND + 1 :] = CORNER
-    slope, state = divmod(int(value.argmax()), states)
     way = np.empty((2, count), np.int64)
     for k in range(count - 1, -1, -1):
         slope = int(np.argmax(arrived[k, :, state] - prices[np.abs(np.arange(slopes) - slope)]))
         state = min(max(state - (slope - slopes // 2), 0), states - 1)
-        way[:, k] = state, slope - slopes // 2
-    return BestWay(way[0], way[1])
+        way[:, k] = state, slope
+    return way
