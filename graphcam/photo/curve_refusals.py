@@ -15,7 +15,7 @@ LEAST_COHERENCE = 0.80
 MOST_RIVAL = 0.30
 """Share of its length over which a second curve is seen."""
 MOST_BEND = 3.5
-"""Degrees by which the direction changes from station to station, on average: a smooth curve turns little, the way through a scribble much."""
+"""Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
 MOST_TWIN = 0.04
 """Share of its length along which a second crest runs beside the first."""
 MOST_HIDDEN = 0.10
