@@ -125,6 +125,7 @@ def _fit(sight: Sight, surface: Surface, starts: Numbers) -> FittedParameters:
     prior = Prior(np.append(known.values, 0.0), np.append(known.spread, GROWTH))
 
     def misses(parameters: Numbers) -> Numbers:
+        """By how much the corners miss, in units of what is expected: columns, then rows."""
         places = _misplaced(sight, surface, parameters) / EXPECTED
         flat = places.reshape(*places.shape[:-2], -1)
         return np.concatenate([flat.real, flat.imag], -1)

@@ -95,6 +95,7 @@ class _Board:
 
     @property
     def per_mm(self) -> float:
+        """Pixels of the canvas to a mm of paper."""
         return self.canvas.shape[1] / (self.box[2] - self.box[0])
 
     def pixels(self, points: NDArray[np.complexfloating[Any, Any]]) -> NDArray[np.int32]:
