@@ -69,29 +69,17 @@ def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
     evidence = evidence_of(ink, grid)
     black = hidden_in(ink.black, grid)
     full = max(FULL * evidence.noise, FULL_AT_FIRST)
-    strong = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink).strong
-    # What an eraser has left of a whole curve outweighs a part of a dark one, until its own strength is known.
-    for _ in range(SCALES):
-        full = max(FULL * evidence.noise, OF_STRONG * strong)
-        way = best_way(_rewards(evidence, black, full), grid.wraps)
-        track = track_of(way, grid, evidence, ink)
-        second, there = _rival(track, grid, evidence, black, ink)
-        darkest = np.where(there, np.maximum(track.answers, second.answers), track.answers)
-        dark = long_runs(darkest > DARKER * track.strong, track.lengths, AS_LONG, grid.wraps)
-        darker = float(track.lengths[dark].sum() / track.lengths.sum())
-        if darker <= MOST_DARKER:
-            break
-        strong = float(np.percentile(darkest[dark], STRONG))
+    first = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
+    full = max(FULL * evidence.noise, OF_STRONG * first.strong)
+    way = best_way(_rewards(evidence, black, full), grid.wraps)
+    track = track_of(way, grid, evidence, ink)
     seen = seen_on(track, evidence, ink, grid.wraps)
     points = placed(track, ink.sharp, grid.wraps) - view.origin
+    second, there = _rival(track, grid, evidence, black, ink)
     rival = float(second.lengths[there].sum() / second.lengths.sum())
-    measures = replace(
-        _measures(track, way, seen & ~_by_another_way(track, second, there, grid), grid),
-        rival=rival,
-        twin=twin_share(track, seen, ink, grid.wraps),
-        darker=darker,
-    )
+    twin = twin_share(track, seen, ink, grid.wraps)
     seen &= ~_by_another_way(track, second, there, grid)
+    measures = _measures(track, way, seen, grid, rival, twin)
     return CurveReading(bridged(points, seen, track.lengths, grid.wraps), seen, measures)
 
 
