@@ -18,6 +18,8 @@ MOST_BEND = 3.5
 """Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
 MOST_TWIN = 0.04
 """Share of its length along which a second crest runs beside the first."""
+MOST_DARKER = 0.10
+"""Share of its length along which a line far darker than the curve runs, on it or elsewhere."""
 MOST_HIDDEN = 0.10
 """Share of its length that lies under black print, where nothing is seen."""
 EMPTY = 0.25
@@ -37,6 +39,7 @@ class Measures:
     hidden : share of its length under black print
     contrast : density of its strong places against their surroundings
     length : mm
+    darker : share of its length along which a far darker line runs, on it or elsewhere
     """
 
     share: float
@@ -48,13 +51,14 @@ class Measures:
     hidden: float
     contrast: float
     length: float
+    darker: float
 
 
 def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
     """Why a curve cannot be used, and the remedy; None if it can.
 
     >>> from dataclasses import replace
-    >>> good = Measures(.98, 3, .95, .05, 1.5, 0, 0, .3, 300)
+    >>> good = Measures(.98, 3, .95, .05, 1.5, 0, 0, .3, 300, 0)
     >>> refusal_of(good) is None
     True
     >>> str(refusal_of(replace(good, share=.6, gap=40))[0])
@@ -69,6 +73,11 @@ def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
     over = say("draw over the faint pieces, also along printed lines, and take the photograph again in even light")
     cases = [
         (measures.rival > MOST_RIVAL, _rival(measures), say("erase the one that is not meant")),
+        (
+            measures.darker > MOST_DARKER,
+            _darker(measures),
+            say("draw over the whole curve, or erase what is not meant"),
+        ),
         (measures.share < EMPTY, say("no curve can be seen"), say("look whether this is the right page, and in focus")),
         (measures.twin > MOST_TWIN, _twin(measures), say("erase the one that is not meant")),
         (measures.coherence < LEAST_COHERENCE or measures.bend > MOST_BEND, say("the lines make no one curve"), again),
@@ -85,6 +94,10 @@ def _rival(measures: Measures) -> Words:
 
 def _twin(measures: Measures) -> Words:
     return say("two lines run beside each other along {share:.0f} % of the curve", share=100 * measures.twin)
+
+
+def _darker(measures: Measures) -> Words:
+    return say("a line far darker than the curve is drawn along {share:.0f} % of it", share=100 * measures.darker)
 
 
 def _hidden(measures: Measures) -> Words:

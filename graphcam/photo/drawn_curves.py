@@ -14,11 +14,11 @@ from scipy.ndimage import maximum_filter1d
 
 from graphcam.photo.bridged_gaps import bridged
 from graphcam.photo.curve_grid import LOST, Evidence, Grid, evidence_of, grid_of, hidden_in
-from graphcam.photo.curve_refusals import Measures, refusal_of
-from graphcam.photo.flag_runs import Flags, longest_run, runs
+from graphcam.photo.curve_refusals import MOST_DARKER, Measures, refusal_of
+from graphcam.photo.flag_runs import Flags, long_runs, longest_run, runs
 from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.tracks import Track, placed, seen_on, track_of
+from graphcam.photo.tracks import STRONG, TRUE_GAP, Track, is_stroke, placed, seen_on, track_of
 from graphcam.photo.trellis import BestWay, best_way
 from graphcam.photo.twins import twin_share
 from graphcam.words import Words
@@ -38,6 +38,9 @@ AS_DARK, AS_LONG, MOSTLY = 0.6, 10.0, 0.7
 leave it open there which of both is the curve."""
 MEETS = 3.0
 """So near [mm] such a line comes to the curve before and behind; the lines of a hatching do not."""
+DARKER = 1.8
+"""Times as dark as the strong places of a curve no long piece of it, nor any other line, may be: a hand presses evenly,
+and what is so much lighter an eraser has left."""
 STEEPEST = 0.2
 """Cosine of the steepest slope for which this is reckoned."""
 RIVAL = 0.45
@@ -68,19 +71,59 @@ def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
     grid = grid_of(view)
     evidence = evidence_of(ink, grid)
     black = hidden_in(ink.black, grid)
-    full = max(FULL * evidence.noise, FULL_AT_FIRST)
-    first = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
-    full = max(FULL * evidence.noise, OF_STRONG * first.strong)
-    way = best_way(_rewards(evidence, black, full), grid.wraps)
-    track = track_of(way, grid, evidence, ink)
-    seen = seen_on(track, evidence, ink, grid.wraps)
+    way, track, darker = _found(grid, evidence, black, ink)
+    clear = seen_on(track, evidence, ink, grid.wraps)
+    rival = _rival(track, grid, evidence, black, ink)
+    seen = clear & ~_by_another_way(track, rival, grid)
+    twin = twin_share(track, clear, ink, grid.wraps)
+    measures = _measures(way, track, seen, grid, rival.share, twin, darker)
     points = placed(track, ink.sharp, grid.wraps) - view.origin
-    second, there = _rival(track, grid, evidence, black, ink)
-    rival = float(second.lengths[there].sum() / second.lengths.sum())
-    twin = twin_share(track, seen, ink, grid.wraps)
-    seen &= ~_by_another_way(track, second, there, grid)
-    measures = _measures(track, way, seen, grid, rival, twin)
     return CurveReading(bridged(points, seen, track.lengths, grid.wraps), seen, measures)
+
+
+@dataclass(frozen=True, eq=False)
+class RivalLine:
+    """A second curve, at least ``APART`` from the first, and at which stations (n,) it is seen."""
+
+    track: Track
+    seen: Flags
+
+    @property
+    def share(self) -> float:
+        """Of its length, on which it is seen."""
+        return float(self.track.lengths[self.seen].sum() / self.track.lengths.sum())
+
+
+def _found(grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
+    """The curve, and the share of its length along which a far darker line runs."""
+    full = max(FULL * evidence.noise, FULL_AT_FIRST)
+    strong = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink).strong
+    way, track = _at_strength(strong, grid, evidence, black, ink)
+    darker, strength = _darker(track, grid, evidence, black, ink)
+    if darker > MOST_DARKER:
+        # What an eraser left of a whole curve outweighs a part of a dark one, until it is known how dark that is.
+        way, track = _at_strength(strength, grid, evidence, black, ink)
+        darker, _ = _darker(track, grid, evidence, black, ink)
+    return way, track, darker
+
+
+def _at_strength(strong: float, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track]:
+    """The curve, if its strong places are so dark."""
+    way = best_way(_rewards(evidence, black, max(FULL * evidence.noise, OF_STRONG * strong)), grid.wraps)
+    return way, track_of(way, grid, evidence, ink)
+
+
+def _darker(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[float, float]:
+    """Share of the length along which the darkest line is ``DARKER`` than the curve, and how dark it is there."""
+    full = max(FULL * evidence.noise, 2 * DARKER * track.strong)
+    line = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
+    # Of a line so dark its flanks are reward enough, so the way need not run on its crest.
+    dark = (line.best > DARKER * track.strong) & ~line.hidden
+    other = long_runs(~(dark & is_stroke(line, ink.pencil)), line.lengths, TRUE_GAP, grid.wraps)
+    # Where a ray crosses it is no stroke, but runs on.
+    dark = long_runs(dark & ~other, line.lengths, AS_LONG, grid.wraps)
+    strength = float(np.percentile(line.best[dark], STRONG)) if dark.any() else 0.0
+    return float(line.lengths[dark].sum() / line.lengths.sum()), strength
 
 
 def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float32]:
@@ -90,7 +133,9 @@ def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float3
     return rewards
 
 
-def _measures(track: Track, way: BestWay, seen: Flags, grid: Grid, rival: float, twin: float) -> Measures:
+def _measures(
+    way: BestWay, track: Track, seen: Flags, grid: Grid, rival: float, twin: float, darker: float
+) -> Measures:
     there = ~track.hidden
     length = float(track.lengths[there].sum())
     # Against the circle or the axis.
@@ -106,11 +151,11 @@ def _measures(track: Track, way: BestWay, seen: Flags, grid: Grid, rival: float,
         hidden=float(track.lengths[track.hidden].sum() / track.lengths.sum()),
         contrast=track.strong,
         length=float(track.lengths.sum()),
+        darker=darker,
     )
 
 
-def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[Track, Flags]:
-    """A second curve, at least ``APART`` from the first, and where it is seen."""
+def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> RivalLine:
     full = max(RIVAL_FULL * evidence.noise, RIVAL_OF_STRONG * track.strong)
     rewards = _rewards(evidence, black, full)
     room = _room_of(track, grid)
@@ -118,13 +163,14 @@ def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink)
     second = track_of(best_way(rewards, grid.wraps), grid, evidence, ink)
     apart = np.abs(grid.offsets[second.states] - grid.offsets[track.states]) > room
     seen = seen_on(second, evidence, ink, grid.wraps) & apart & (second.answers > RIVAL * track.strong)
-    return second, seen
+    return RivalLine(second, seen)
 
 
-def _by_another_way(track: Track, second: Track, there: Flags, grid: Grid) -> Flags:
+def _by_another_way(track: Track, rival: RivalLine, grid: Grid) -> Flags:
     """Where (n,) a second line leaves the curve and comes back to it, so that either may be meant: about a stain."""
-    dark = there & (second.answers > AS_DARK * track.answers)
-    another = np.zeros(there.shape, np.bool_)
+    second = rival.track
+    dark = rival.seen & (second.answers > AS_DARK * track.answers)
+    another = np.zeros(dark.shape, np.bool_)
     for run in runs(np.abs(second.path - track.path) > MEETS, grid.wraps):
         length = float(second.lengths[run].sum())
         another[run] = length > AS_LONG and float(second.lengths[run][dark[run]].sum()) > MOSTLY * length

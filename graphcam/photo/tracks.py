@@ -39,6 +39,10 @@ SMOOTH = 1.5
 """Deviation over which the steps of the grid are smoothed [stations]."""
 ACROSS_REACH = 0.8
 """Half the profile across a line, by which it is placed [mm]."""
+BESIDE_STROKE = 1.4
+"""mm from the crest of a stroke, where the paper is bare on both sides."""
+LIGHTER = 0.3
+"""Share of a stroke's density that the paper beside it has at most; within a finger or a table's edge it has half."""
 FOOT = 0.3
 """Share of a profile's height that is its foot, and does not count for its place."""
 PLACE_SMOOTH = 1.0
@@ -52,7 +56,7 @@ class Track:
     path : places on the page, to the grid's step
     normal : of length one, to the side of the greater states
     answers : how much more ink lies on it than beside it;  strong : of its strong places
-    coherence : share of the best answer in any direction
+    best : how much more ink lies on a line in any direction near by;  coherence : share of it that the answers are
     hidden : by black print, or outside the room;  beside : light print
     lengths : of the path, mm
     """
@@ -62,6 +66,7 @@ class Track:
     normal: Points
     answers: NDArray[np.float32]
     strong: float
+    best: NDArray[np.float32]
     coherence: NDArray[np.float32]
     hidden: Flags
     beside: Flags
@@ -91,6 +96,7 @@ def track_of(way: BestWay, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
         normal=normal,
         answers=answers,
         strong=float(np.percentile(open_answers, STRONG)) if open_answers.size else 0.0,
+        best=best,
         coherence=answers / np.maximum(best, 1e-6),
         hidden=hidden,
         beside=ink.beside_print(path),
@@ -138,6 +144,15 @@ def placed(track: Track, sharp: Raster, wraps: bool) -> Points:
     profile = gaussian_filter1d(profile, PLACE_SMOOTH, axis=0, mode="wrap" if wraps else "nearest")
     weights = above_foot(profile, offsets)
     return track.path + track.normal * (weights @ offsets) / np.maximum(weights.sum(1), 1e-9)
+
+
+def is_stroke(track: Track, pencil: Raster) -> Flags:
+    """Whether the paper is lighter on both sides (n,): beside the edge of a finger or of a table it is not."""
+    offsets = np.arange(-ACROSS_REACH, ACROSS_REACH + 0.05, 0.1)
+    profile = pencil.at(track.path[:, None] + track.normal[:, None] * offsets)
+    crest = track.path + track.normal * offsets[profile.argmax(1)]
+    sides = np.stack([pencil.at(crest + side * BESIDE_STROKE * track.normal) for side in (-1, 1)])
+    return sides.max(0) < LIGHTER * profile.max(1)
 
 
 def above_foot(profile: NDArray[Any], offsets: NDArray[np.float64]) -> NDArray[np.float64]:

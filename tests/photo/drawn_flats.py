@@ -95,6 +95,10 @@ class Sheet:
         corners = np.array([complex(left, bottom), complex(right, bottom), complex(right, top), complex(left, top)])
         self._lay(self._covered(corners, 0.0), (0.05, 0.05, 0.05))
 
+    def fill(self, outline: Points, through: tuple[float, float, float]) -> None:
+        """Something that lies on the sheet, from the origin."""
+        self._lay(self._covered(outline, 0.0), through)
+
     def stroke(self, points: Points, pen: str = "HB", strength: float = 1.0) -> None:
         """A line, from the origin, as uneven as graphite on paper."""
         width, through = PENS[pen]

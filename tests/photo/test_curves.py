@@ -85,6 +85,33 @@ def test_what_an_eraser_left_and_hatching_do_not_derail_it() -> None:
     assert_read(read(sheet), np.append(drawn, drawn[:1]))
 
 
+@pytest.mark.parametrize("part", [0.15, 0.4, 0.7])
+def test_what_an_eraser_left_of_a_whole_curve_is_not_read_beside_a_part_of_a_dark_one(part: float) -> None:
+    sheet = profile_sheet()
+    curve = cam()
+    sheet.stroke(np.append(curve, curve[:1]) * 0.8, strength=0.12)
+    sheet.stroke(curve[: int(part * curve.size)], "blue biro")
+    reading = read(sheet)
+    assert reading.refusal() is not None
+    assert reading.measures.share < 0.9 or reading.measures.darker > 0.1
+
+
+def test_what_an_eraser_left_is_not_read_beside_a_whole_dark_curve() -> None:
+    sheet = profile_sheet()
+    curve = cam()
+    sheet.stroke(np.append(curve, curve[:1]) * 0.8, strength=0.12)
+    drawn = sheet.by_hand(curve, "blue biro")
+    assert_read(read(sheet), np.append(drawn, drawn[:1]))
+
+
+def test_the_edge_of_a_finger_is_no_darker_line() -> None:
+    sheet = profile_sheet()
+    drawn = sheet.by_hand(cam(), "2H")
+    finger = np.array([-60 + 45j, 60 + 48j, 60 + 60j, -60 + 60j])
+    sheet.fill(finger, (0.5, 0.3, 0.2))
+    assert_read(read(sheet), np.append(drawn, drawn[:1]))
+
+
 def test_a_foreign_curve_is_read_as_it_is() -> None:
     sheet = profile_sheet()
     foreign = circle(24)[:-1] + 9 + 5j
