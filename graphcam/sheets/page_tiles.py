@@ -19,6 +19,7 @@ def in_tiles(drawing: Drawing, seam: float) -> Drawing:
 
 def _tile(page: Page, part: Box) -> Page:
     def seen(entity: Entity) -> bool:
+        """Whether any of it lies on the part."""
         box = box_of([entity])
         return box is not None and box.grown(LINE).meets(part)
 
