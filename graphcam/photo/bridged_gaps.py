@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from graphcam.photo.flag_runs import Flags, runs
 from graphcam.photo.printed import Points
 
-LONGEST_GAP = 12.0
-"""Of a curve that is seen [mm]: about the distance of two stations, over which a curve cannot turn unseen."""
+LONGEST_GAP = 9.0
+"""Of a curve that is seen [mm]: less than the distance of two stations, so that it cannot turn unseen."""
 NEIGHBOURS = 5
 """Stations on either side whose run is prolonged, about 5 mm: less is the hand's tremor."""
 NOWHERE = complex(np.nan, np.nan)

@@ -16,7 +16,7 @@ MOST_RIVAL = 0.30
 """Share of its length over which a second curve is seen."""
 MOST_BEND = 3.5
 """Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
-MOST_TWIN = 0.04
+MOST_TWIN = 0.06
 """Share of its length along which a second crest runs beside the first."""
 MOST_DARKER = 0.10
 """Share of its length along which a line far darker than the curve runs, on it or elsewhere."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -19,8 +19,9 @@ from graphcam.photo.raster import Raster
 Mark = Literal["cross", "dot", "ring"]
 PER_MM = 6.0
 """Pixels of the picture in which marks are looked for."""
-LEAST_SCORES: dict[Mark, float] = {"cross": 0.73, "dot": 0.70, "ring": 0.68}
-"""Correlation with a mark's shape, also on a ray: little else is as round as a ring, but much is like a cross."""
+LEAST_SCORES: Mapping[Mark, float] = {"cross": 0.73, "dot": 0.78, "ring": 0.68}
+"""Correlation with a mark's shape, also on a ray: little else is as round as a ring, but much is like a cross, and a
+printed arrowhead is like a dot."""
 FAINTEST = 0.06
 """Density of the faintest mark."""
 OF_RESIDUE = 3.0
@@ -80,6 +81,11 @@ class PointReading:
     kinds: tuple[Mark, ...]
     scores: NDArray[np.float64]
 
+    @property
+    def sure(self) -> NDArray[np.bool_]:
+        """Which (n,) are marks wherever they are drawn; of the others somebody knows that a mark may be there."""
+        return self.scores > np.array([LEAST_SCORES[kind] for kind in self.kinds])
+
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
@@ -95,10 +101,15 @@ class Pattern:
     norm: float
 
 
-def read_points(ink: Ink, view: PrintedView) -> PointReading:
-    """The points in a view's room."""
+def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
+    """The points in a view's room.
+
+    less : by so much less than ``LEAST_SCORES`` a point may be like its shape
+    """
     picture = ink.sharp.reduced(PER_MM)
-    marks = [mark for mark in _summits(picture, max(FAINTEST, SURE * ink.noise), view) if _is_mark(ink, picture, mark)]
+    least = {kind: score - less for kind, score in LEAST_SCORES.items()}
+    found = _summits(picture, max(FAINTEST, SURE * ink.noise), view, least)
+    marks = [mark for mark in found if _is_mark(ink, picture, mark)]
     marks.sort(key=lambda mark: -mark.score)
     apart: list[Found] = []
     for mark in marks:
@@ -120,12 +131,15 @@ class Found:
     pattern: Pattern
 
 
-def _summits(picture: Raster, faintest: float, view: PrintedView) -> Iterator[Found]:
-    """The places in the room that look more like a mark than those about, for each kind of mark."""
+def _summits(picture: Raster, faintest: float, view: PrintedView, least: Mapping[Mark, float]) -> Iterator[Found]:
+    """The places in the room that look more like a mark than those about, for each kind of mark.
+
+    least : score of each kind
+    """
     wide = np.ones((2 * round(APART * PER_MM) + 1,) * 2, np.uint8)
     left, bottom, right, top = view.room
     for kind, (score, number) in _correlations(picture, faintest).items():
-        rows, columns = np.nonzero((score > LEAST_SCORES[kind]) & (score >= cv2.dilate(score, wide)))
+        rows, columns = np.nonzero((score > least[kind]) & (score >= cv2.dilate(score, wide)))
         for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
             down, across = _refined(score, row, column)
             place = complex(picture.places(np.array(column + across), np.array(row + down)))

@@ -182,7 +182,7 @@ def test_scribbles_are_refused(seed: int) -> None:
 
 
 def test_a_short_gap_is_bridged_by_the_run_of_its_neighbours_and_a_long_one_is_not() -> None:
-    for gap, short in ((8.0, True), (20.0, False)):
+    for gap, short in ((5.0, True), (20.0, False)):
         sheet = profile_sheet()
         curve = cam()
         kept = np.cumsum(np.abs(np.gradient(curve))) > gap
@@ -200,11 +200,11 @@ def test_under_black_print_nothing_is_seen() -> None:
     sheet = profile_sheet()
     sheet.by_hand(cam())
     place = cam()[400]
-    sheet.print_black((place.real - 2, place.imag - 2, place.real + 2, place.imag + 2))
+    sheet.print_black((place.real - 1, place.imag - 1, place.real + 1, place.imag + 1))
     reading = read(sheet)
     assert 0.01 < reading.measures.hidden < 0.1
     assert reading.measures.share > SHARE
-    under = np.abs(reading.points - place) < 2
+    under = np.abs(reading.points - place) < 1
     assert under.any()
     assert not reading.seen[under].any()
 

@@ -10,6 +10,7 @@ import hashlib
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
@@ -77,19 +78,18 @@ class Placing:
         return np.asarray(way.real / self.stretched[0] + 1j * way.imag / self.stretched[1])
 
 
-def by_poppler(pdf: Path, page: int, scratch: Path) -> NDArray[np.uint8]:
+def by_poppler(pdf: Path, page: int) -> NDArray[np.uint8]:
     """Page (counted from 0) of a PDF as poppler draws it: (rows, columns, 3), blue, green, red."""
-    to = scratch / f"{pdf.stem}-{page}"
-    said = ["-f", str(page + 1), "-l", str(page + 1), "-singlefile", "-r", str(PRINTED_DPI), "-png", str(pdf), str(to)]
-    subprocess.run(["pdftoppm", *said], check=True, capture_output=True)
-    drawn = to.with_suffix(".png")
-    picture = cv2.imread(str(drawn), cv2.IMREAD_COLOR)
-    drawn.unlink()
+    said = ["-f", str(page + 1), "-l", str(page + 1), "-singlefile", "-r", str(PRINTED_DPI), "-png", str(pdf)]
+    # Worksheets have one name, and several are printed at a time.
+    with TemporaryDirectory() as folder:
+        subprocess.run(["pdftoppm", *said, f"{folder}/page"], check=True, capture_output=True)
+        picture = cv2.imread(f"{folder}/page.png", cv2.IMREAD_COLOR)
     assert picture is not None
     return picture
 
 
-def by_pdfium(pdf: Path, page: int, scratch: Path) -> NDArray[np.uint8]:
+def by_pdfium(pdf: Path, page: int) -> NDArray[np.uint8]:
     """Page of a PDF as PDFium draws it, which is what Chromium prints PDF files by."""
     document = pypdfium2.PdfDocument(pdf)
     drawn = document[page].render(scale=PRINTED_DPI / 72).to_numpy()
@@ -107,7 +107,7 @@ def printed(pdf: Path, page: int, printer: Printer, renderer: str, scratch: Path
     kept = scratch / f"{digest}-{page}-{printer.name}-{renderer}.npy"
     if not kept.is_file():
         scratch.mkdir(parents=True, exist_ok=True)
-        found = screened(RENDERERS[renderer](pdf, page, scratch), printer)
+        found = screened(RENDERERS[renderer](pdf, page), printer)
         draft = kept.with_suffix(f".{np.random.default_rng().integers(1 << 40)}.npy")
         np.save(draft, found)
         draft.replace(kept)

@@ -158,7 +158,7 @@ def test_both_renderers_draw_the_same(tmp_path_factory: pytest.TempPathFactory) 
     axes.add_patch(Rectangle((20, 10), 40, 25, color="black", linewidth=0))
     figure.savefig(folder / "page.pdf")
     for renderer in RENDERERS.values():
-        dark = np.argwhere(renderer(folder / "page.pdf", 0, folder)[..., 1] < 128)
+        dark = np.argwhere(renderer(folder / "page.pdf", 0)[..., 1] < 128)
         (top, left), (bottom, right) = dark.min(axis=0), dark.max(axis=0)
         per_mm = 600 / 25.4
         found = [left / per_mm, 50 - (bottom + 1) / per_mm, (right + 1) / per_mm, 50 - top / per_mm]

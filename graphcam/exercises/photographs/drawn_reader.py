@@ -23,6 +23,8 @@ MET = 1.0
 """mm by which two lines may miss each other that cross all the same."""
 ONE_CROSSING = 0.5
 """Crossings nearer than so many mm are one: three lines through a point make three."""
+FAINTER = 0.18
+"""By so much less than sure ones are plotted points like their shapes that are taken where one should be."""
 KINDS: Mapping[str, tuple[str, ...]] = {"cross": ("cross", "dot"), "circle": ("ring",), "length": ("cross", "dot")}
 """How the reader calls the marks of an answer; a small cross may be seen as a dot."""
 
@@ -46,8 +48,8 @@ def _answer(asked: Asked, place: str, ink: Ink, view: PrintedView, tell: Tell) -
         if asked.drawn_as == "curve":
             return _curve(place, ink, view, tell)
         if asked.drawn_as == "crossing":
-            return _points(place, _crossings(read_lines(ink, view)), 1.0, tell)
-        return _marks(asked, place, read_points(ink, view), tell)
+            return _points(ReadAnswer(place, _crossings(read_lines(ink, view))), tell)
+        return _marks(asked, place, read_points(ink, view, less=FAINTER), tell)
     except PhotographError as error:
         return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), (error.why, error.remedy), tell)
 
@@ -75,16 +77,17 @@ def _refused(answer: ReadAnswer, refusal: tuple[Words, Words], tell: Tell) -> Re
 
 
 def _marks(asked: Asked, place: str, reading: PointReading, tell: Tell) -> ReadAnswer:
-    wanted = [kind in KINDS[asked.drawn_as] for kind in reading.kinds]
-    surest = float(reading.scores[wanted].min()) if any(wanted) else 0.0
-    return _points(place, reading.points[wanted], surest, tell)
+    wanted = np.array([kind in KINDS[asked.drawn_as] for kind in reading.kinds], np.bool_)
+    sure = wanted & reading.sure
+    least = float(reading.scores[sure].min(initial=1.0))
+    return _points(ReadAnswer(place, reading.points[sure], reading.points[wanted & ~sure], confidence=least), tell)
 
 
-def _points(place: str, points: Points, confidence: float, tell: Tell) -> ReadAnswer:
-    if points.size:
-        return ReadAnswer(place, points, confidence=confidence)
+def _points(answer: ReadAnswer, tell: Tell) -> ReadAnswer:
+    if answer.points is not None and answer.points.size:
+        return answer
     refusal = say("no points are seen"), say("mark them more clearly, and photograph the page again")
-    return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), refusal, tell)
+    return _refused(replace(answer, points=None, share=0.0, confidence=0.0), refusal, tell)
 
 
 def _crossings(lines: Sequence[Segment]) -> Points:

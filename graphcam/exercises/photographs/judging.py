@@ -21,6 +21,10 @@ SEARCH_BAND = 6.0
 or is no drawing of this exercise; slips of a hand are less."""
 MOST_OF_IT = 95
 """Percent of the expected places that must lie within the band: one bad place is a slip, and is marked as one."""
+FAINT_BAND = 2.5
+"""mm about a place in which a faint point is taken for the one that is missing there."""
+MOST_FAINT = 0.4
+"""Share of the places whose points may be faint: of a foreign drawing most are without."""
 LOOK = say("a teacher looks at it on the review page")
 """What becomes of what is not taken."""
 
@@ -43,12 +47,14 @@ def given_by(asked: Asked, points: Points, key: Key | None) -> Given | None:
     return float(points[0].real if asked.component == "x" else points[0].imag)
 
 
-def chosen(asked: Asked, seen: Points, answer_key: AnswerKey, place: int) -> tuple[Points, Caption | None]:
+def chosen(
+    asked: Asked, seen: Points, faint: Points, answer_key: AnswerKey, place: int
+) -> tuple[Points, Caption | None]:
     """Of all points that are seen (n,) those that were plotted for the answer, and why these are not marked.
 
     More is seen on a drawing than is asked: the centre, numbers, other constructions.  What lies outside the band about
     the places of a drawing, the right one or one with a usual mistake, is not meant for it.  Two points near one place
-    are not chosen from, and a place without a point is not filled.
+    are not chosen from.  A place without a point is not filled; a faint one (m,) that is seen there is taken, of a few.
 
     place : of the answer in the exercise
     """
@@ -58,6 +64,7 @@ def chosen(asked: Asked, seen: Points, answer_key: AnswerKey, place: int) -> tup
     for expected in _known(answer_key.keys[asked.name], answer_key, place):
         places = np.atleast_1d(np.asarray(expected.value))
         near = seen[(np.abs(seen[:, None] - places) <= SEARCH_BAND).any(axis=1)]
+        near = np.append(near, _faint_at(places, near, faint))
         if near.size == places.size and np.abs(paired(near, places) - places).max() <= SEARCH_BAND:
             return near, None
         if not wanted or near.size > most:
@@ -65,6 +72,15 @@ def chosen(asked: Asked, seen: Points, answer_key: AnswerKey, place: int) -> tup
     if most > wanted:
         return seen, say("{found} points are seen near {wanted} places", found=most, wanted=wanted)
     return seen, say("{found} of {wanted} points are seen", found=most, wanted=wanted)
+
+
+def _faint_at(places: Points, near: Points, faint: Points) -> Points:
+    """Faint points (m,), each the only one at a place that has no sure one, unless too many of the places need them."""
+    lone = places[(np.abs(places[:, None] - near) > FAINT_BAND).all(axis=1)]
+    at = np.abs(lone[:, None] - faint) <= FAINT_BAND
+    if lone.size > MOST_FAINT * places.size:
+        return faint[:0]
+    return faint[at[at.sum(axis=1) == 1].any(axis=0)]
 
 
 def not_taken(exercise: Exercise, asked: Asked, value: Given, answer_key: AnswerKey) -> Caption | None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from graphcam.errors import TaskError
 from graphcam.photo.printed import Edges, Points
 
-FORMAT = 1
+FORMAT = 2
 DECIMALS = 3
 """Of a place in mm: a thousandth is far below what a photograph shows."""
 REMEDY = "delete the folder that holds it, and read the photographs again"
@@ -26,6 +26,7 @@ class ReadAnswer:
     place : name of the view
     points : (n,) mm of paper from the view's origin: a curve in its order, plotted points, a crossing, the two ends of
         a length; None where there are none
+    faint : (m,) places that are a little like plotted points, of which only the key can tell that one may be there
     share : part of what must be seen that is seen
     confidence : from 0, a guess, to 1
     measures : by name, what the reader measured besides
@@ -34,6 +35,7 @@ class ReadAnswer:
 
     place: str
     points: Points | None
+    faint: Points = field(default_factory=lambda: np.zeros(0, np.complex128))
     closed: bool = False
     share: float = 1.0
     confidence: float = 1.0
@@ -133,12 +135,17 @@ def _photo(said: dict[str, Any]) -> ReadPhoto:
 
 
 def _answer_said(answer: ReadAnswer) -> dict[str, Any]:
-    return {**vars(answer), "points": None if answer.points is None else pairs(answer.points)}
+    points = None if answer.points is None else pairs(answer.points)
+    return {**vars(answer), "points": points, "faint": pairs(answer.faint)}
 
 
 def _answer(said: dict[str, Any]) -> ReadAnswer:
-    points = None if said["points"] is None else np.array(said["points"], dtype=np.float64).reshape(-1, 2)
-    return replace(ReadAnswer(**said), points=None if points is None else points.view(np.complex128)[:, 0])
+    points = None if said["points"] is None else _points(said["points"])
+    return replace(ReadAnswer(**said), points=points, faint=_points(said["faint"]))
+
+
+def _points(said: list[list[float]]) -> Points:
+    return np.array(said, dtype=np.float64).reshape(-1, 2).view(np.complex128)[:, 0]
 
 
 def pairs(points: NDArray[np.complexfloating[Any, Any]]) -> list[list[float]]:

@@ -207,7 +207,7 @@ class _Judge:
             return points, (read.why or say("nothing is read"), read.remedy or LOOK)
         if self.answer_key is None:
             return points, (say("the student has no answer key"), LOOK)
-        points, why = chosen(self.asked, points, self.answer_key, self.exercise.answers.index(self.asked))
+        points, why = chosen(self.asked, points, read.faint, self.answer_key, self.exercise.answers.index(self.asked))
         if why is None:
             # As long as the bars measure: a page that was printed small is not foreign for that.
             given = self.given(points, self.stretch)
