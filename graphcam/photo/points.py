@@ -107,7 +107,7 @@ def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
     less : by so much less than ``LEAST_SCORES`` a point may be like its shape
     """
     picture = ink.sharp.reduced(PER_MM)
-    least = {kind: score - less for kind, score in LEAST_SCORES.items()}
+    least: dict[Mark, float] = {kind: score - less for kind, score in LEAST_SCORES.items()}
     found = _summits(picture, max(FAINTEST, SURE * ink.noise), view, least)
     marks = [mark for mark in found if _is_mark(ink, picture, mark)]
     marks.sort(key=lambda mark: -mark.score)

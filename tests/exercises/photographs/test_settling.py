@@ -122,7 +122,7 @@ def test_points_are_chosen_by_their_band_and_never_made_up(plotted):
     assert np.asarray(found.given).size == right.size
     missing = last(one(plotted, "Anna", right[1:]))
     assert (missing.status, str(missing.why)) == ("refused", f"{right.size - 1} of {right.size} points are seen")
-    # A place that has no sure point takes a faint one that is seen there, if it is the only one, and no other place does.
+    # A place without a sure point takes a faint one that is seen there, if it is the only one; no other place does.
     faint = last(one(plotted, "Anna", right[1:], faint=np.array([right[0] + 0.4, right[0] + 40, right[5] + 1])))
     assert faint.status == "read"
     assert set(np.asarray(faint.given)) == {right[0] + 0.4, *right[1:]}
