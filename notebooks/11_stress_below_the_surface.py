@@ -12,7 +12,7 @@
 # ---
 
 # %% [markdown]
-# # 12. Stress below the surface: Hertz and finite elements
+# # 11. Stress below the surface: Hertz and finite elements
 #
 # **Aim.** At the end you can say where the material under a roller is stressed most, and judge whether a stress that a finite element program prints can be right.
 #
