@@ -13,7 +13,7 @@ LEAST_SHARE = 0.90
 LEAST_COHERENCE = 0.80
 """Median share of the best direction's answer that the curve's own direction has: through a scribble the way jumps."""
 MOST_RIVAL = 0.25
-"""Share of its length over which a second curve is seen: of 648 right curves beside rays and digits 0.20 at most."""
+"""Share of its length over which a second curve is seen; rays and digits beside a lone curve make less."""
 MOST_BEND = 3.5
 """Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
 MOST_TWIN = 0.06

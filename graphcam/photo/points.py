@@ -71,7 +71,7 @@ DIRECTIONS = np.exp(2j * np.pi * np.arange(48) / 48)
 
 @dataclass(frozen=True, eq=False)
 class PointReading:
-    """Points that were found, the surest first.
+    """Points that were found: those that are sure, then the others, each by their scores.
 
     points : (n,) mm of paper from the view's origin
     kinds : (n,) their shapes;  scores : (n,) correlations with these
@@ -110,7 +110,8 @@ def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
     least: dict[Mark, float] = {kind: score - less for kind, score in LEAST_SCORES.items()}
     found = _summits(picture, max(FAINTEST, SURE * ink.noise), view, least)
     marks = [mark for mark in found if _is_mark(ink, picture, mark)]
-    marks.sort(key=lambda mark: -mark.score)
+    # What is sure first, so that what is less like its own shape takes no place from it.
+    marks.sort(key=lambda mark: (mark.score <= LEAST_SCORES[mark.pattern.kind], -mark.score))
     apart: list[Found] = []
     for mark in marks:
         if all(abs(mark.place - other.place) > APART for other in apart):

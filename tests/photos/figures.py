@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from measuring import is_bad, is_right
+from scenes import RIGHT
 
 Photo = dict[str, Any]
 POINT = 0.5
@@ -148,11 +149,20 @@ def _refusing(records: Sequence[Photo]) -> list[dict[str, Any]]:
         row("plotted points refused", "none", _part(_refused(rollers), len(rollers)), len(rollers)),
         row("photographs that nobody can read refused", "none", _part(_refused(poor), len(poor)), len(poor)),
         _at_least("code and marks read among accepted", 1.0, _part(whose, len(seen)), len(seen)),
+        row("a second curve along right ones that are read: greatest share", "none", *_rival(records)),
     ]
     for kind in dict.fromkeys(photo["kind"] for photo in bad):
         of_kind = [photo for photo in bad if photo["kind"] == kind]
         rows.append(row(f"  {kind}: refused", "none", _part(_refused(of_kind), len(of_kind)), len(of_kind)))
     return rows
+
+
+def _rival(records: Sequence[Photo]) -> tuple[float | None, int]:
+    """What stands beside curves that are drawn alone: rays, digits, what an eraser left."""
+    kinds = (*RIGHT, "mistake", "diagram")
+    read = [photo["measures"] for photo in records if photo["kind"] in kinds and "refused" not in photo]
+    shares = [measures["rival"] for measures in read if measures]
+    return max(shares, default=None), len(shares)
 
 
 def _costs(records: Sequence[Photo]) -> list[dict[str, Any]]:

@@ -80,7 +80,8 @@ def _marks(asked: Asked, place: str, reading: PointReading, tell: Tell) -> ReadA
     wanted = np.array([kind in KINDS[asked.drawn_as] for kind in reading.kinds], np.bool_)
     sure = wanted & reading.sure
     least = float(reading.scores[sure].min(initial=1.0))
-    return _points(ReadAnswer(place, reading.points[sure], reading.points[wanted & ~sure], confidence=least), tell)
+    faint = reading.points[wanted & ~sure]
+    return _points(ReadAnswer(place, reading.points[sure], faint=faint, confidence=least), tell)
 
 
 def _points(answer: ReadAnswer, tell: Tell) -> ReadAnswer:
