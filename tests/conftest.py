@@ -1,4 +1,4 @@
-"""What holds for every test: the memory of one file is given back before the next, and a process that dies ends the run."""
+"""What holds for every test: each file gives its memory back, and a process that dies ends the run."""
 
 from __future__ import annotations
 
