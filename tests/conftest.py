@@ -1,12 +1,17 @@
-"""What holds for every test: each file gives its memory back, and a process that dies ends the run."""
+"""What holds for every test: memory is given back, and a process that dies ends the run."""
 
 from __future__ import annotations
 
 import ctypes
 import gc
 import sys
+from pathlib import Path
 
 import pytest
+
+PAGE = 4096
+MUCH = 200 << 20
+"""Bytes that may gather before they are given back."""
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -19,10 +24,25 @@ def pytest_configure(config: pytest.Config) -> None:
         config.option.maxworkerrestart = "0"
 
 
-@pytest.fixture(autouse=True, scope="module")
-def memory_given_back():
-    """Return to the system what a file's tests have freed: the C library keeps hundreds of MB of it in pieces."""
-    yield
-    gc.collect()
-    if sys.platform == "linux":
+kept = sys.maxsize
+"""The least that this process held since it last gave memory back [bytes]."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol():
+    """Return to the system what the tests have freed: the C library keeps hundreds of MB of it in pieces."""
+    global kept
+    if sys.platform != "linux":
+        return (yield)
+    kept = min(kept, held())
+    done = yield
+    if held() > kept + MUCH:
+        gc.collect()
         ctypes.CDLL(None).malloc_trim(0)
+        kept = held()
+    return done
+
+
+def held() -> int:
+    """The memory of this process [bytes]."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE
