@@ -143,10 +143,12 @@ class VibratingFollower(Shown):
     >>> train = gc.FollowerTrain(mass=0.5, stiffness=2000, damping=0.05, spring=20, preload=200)
     >>> follower = gc.VibratingFollower(motion, train, speed_rpm=600)
     >>> least = follower.least_force()
-    >>> round(least.value, 2), round(degrees(least.phi), 2)
-    (1, 2)
+    >>> round(least.value, 2), round(degrees(least.phi), 2), round(follower.least_preload(), 2)
+    (-106.76, 189.46, 306.76)
+    >>> [[round(degrees(phi), 2) for phi in interval] for interval in follower.lost()]
+    [[187.94, 191.02], [199.9, 201.57]]
     >>> follower([0.0, 0.7]).x.round(4).tolist()
-    [1, 2]
+    [0.001, 14.8542]
     """
 
     _drawn_in = "response_curves"

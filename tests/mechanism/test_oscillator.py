@@ -1,8 +1,9 @@
-"""The oscillator: closed forms at 40 digits for any damping and stiffness, scipy's steps, and the theorems of energy."""
+"""The oscillator: closed forms at 40 digits for any damping and stiffness, scipy's steps, the theorems of energy."""
 
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ def under_a_sine(nu: float, zeta: float, t: float) -> mpf:
 
 @pytest.mark.parametrize("zeta", DAMPINGS)
 def test_soft_or_stiff_and_with_any_damping_every_digit_is_right(zeta):
-    """The error is rounding, 40 eps of the greatest value, from a billionth of a natural period to a billion of them."""
+    """Rounding alone, 40 eps of the greatest value, from a billionth of a natural period to a billion of them."""
     with mp.workdps(40):
         for periods in PERIODS:
             nu = math.tau * periods
@@ -50,7 +51,9 @@ def test_many_oscillators_at_once_are_the_same_one_by_one():
     together = driven(Oscillator(nu, 0.1), SINE)
     for k in range(3):
         alone = driven(Oscillator(nu[k : k + 1], 0.1), SINE)
-        np.testing.assert_allclose(np.array(together.at(TIMES))[:, k], np.array(alone.at(TIMES))[:, 0], rtol=1e-12, atol=1e-14)
+        np.testing.assert_allclose(
+            np.array(together.at(TIMES))[:, k], np.array(alone.at(TIMES))[:, 0], rtol=1e-12, atol=1e-14
+        )
 
 
 def test_errors_do_not_grow_over_hundreds_of_stretches():
@@ -71,7 +74,7 @@ def test_steps_of_scipy_come_to_the_same(name, zeta, periods):
     edges = [0.0, *law.edges, 1.0]
     solved = driven(Oscillator(np.array([nu]), zeta), Drive(np.array(edges), lambda u: -law(u)[2]))
     state = np.zeros(2)
-    for start, end in zip(edges[:-1], edges[1:], strict=True):
+    for start, end in pairwise(edges):
 
         def slope(u, z, start=start, end=end):
             inside = np.clip(u, np.nextafter(start, 1), np.nextafter(end, 0))

@@ -1,4 +1,4 @@
-"""Shock spectra: zeros and amplitudes in closed form, Fourier integrals at 40 digits, the asymptotes, and any motion."""
+"""Shock spectra: zeros and amplitudes in closed form, Fourier integrals at 40 digits, asymptotes, and any motion."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_a_law_whose_second_half_turns_the_first_leaves_nothing_at_even_ratios(n
 
 
 def test_values_at_the_resonances():
-    """Limits of the closed forms: 2 pi^2 of the cycloidal law at n = 1, pi^3/4 of the cosine law at 1/2, 16 at odd n."""
+    """Limits of the closed forms: cycloidal 2 pi^2 at n = 1, cosine pi^3/4 at 1/2; rectangular 16 at odd n."""
     assert gc.shock_spectrum("cycloidal", 1.0).residual.item() == pytest.approx(2 * math.pi**2, rel=1e-14)
     assert gc.shock_spectrum("cosine", 0.5).residual.item() == pytest.approx(math.pi**3 / 4, rel=1e-14)
     assert gc.shock_spectrum("rectangular", [1, 3, 7]).residual == pytest.approx([16, 16, 16], rel=1e-13)
@@ -86,7 +86,7 @@ def test_values_at_the_resonances():
 
 @pytest.mark.parametrize("name", gc.LAWS)
 def test_the_vibration_falls_with_the_order_of_the_first_jump(name):
-    """What is left, times Omega^(k - 2), reaches the same height at all n where the k-th derivative is the first to jump.
+    """What is left, times n^(k - 2), reaches the same height at all n; the k-th derivative is the first to jump.
 
     The fitted order of the envelope over two windows of eight ratios.
     """
@@ -208,7 +208,9 @@ def test_a_law_through_samples_comes_to_the_law_itself():
 
 
 def test_the_rise_of_a_motion_is_that_of_its_law():
-    motion = gc.Motion([gc.Rise(30, 1.3, "modified-sine"), gc.Dwell(1), gc.Return(30, 0.9, "2-3"), gc.Dwell(math.tau - 3.2)])
+    motion = gc.Motion(
+        [gc.Rise(30, 1.3, "modified-sine"), gc.Dwell(1), gc.Return(30, 0.9, "2-3"), gc.Dwell(math.tau - 3.2)]
+    )
     n = np.array([0.6, 2.2, 5.1])
     of_motion, of_law = gc.shock_spectrum(motion, n), gc.shock_spectrum("modified-sine", n)
     for name in ("primary", "residual", "amplitude"):
@@ -258,7 +260,10 @@ def test_a_measured_motion_has_a_spectrum():
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        ({"n": 0.0}, "n is 0.0, but must be greater than 0 and at most 1000; n is the rise time over the natural period"),
+        (
+            {"n": 0.0},
+            "n is 0.0, but must be greater than 0 and at most 1000; n is the rise time over the natural period",
+        ),
         ({"n": -1.5}, "n is -1.5"),
         ({"n": math.nan}, "n is nan"),
         ({"n": 1e4}, "n is 10000.0, .*; so stiff a follower follows the cam"),
