@@ -166,7 +166,7 @@ for name, (colour, line) in styles.items():
 axes.plot([], [], ":", color="black", linewidth=1.0, label="the same laws, rigid")
 axes.set_ylim(0, 900)
 axes.legend(fontsize=8)
-picture_of(figure, "The preload needed over the speed from 150 to 900 rpm. Up to 520 rpm the cycloidal law needs less than 100 newtons, the cosine law up to 285, the rectangular law up to 435. Above 830 rpm the "
+picture_of(figure, "The preload needed over the speed from 150 to 900 rpm. Up to 520 rpm the cycloidal law needs less than 100 newtons, the cosine law up to 285, the rectangular law up to 435. Above 780 rpm the "
            "cycloidal law needs more than the rectangular one. The dotted curves of rigid followers lie far below all of them.",
            "What a vibrating follower needs (rigid: dotted): up to 520 rpm less than 100 N on the cycloidal cam")
 

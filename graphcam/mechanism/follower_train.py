@@ -11,8 +11,8 @@ N presses the follower on the cam; where it would be negative the follower leave
 not hold.  The train cannot hold the spring by itself: of the lift the part c_s/(k + c_s) is lost at rest.  As k grows
 x comes to s and N to the contact function of a rigid follower, m s'' + F0 + c_s s (:mod:`~graphcam.mechanism.contact`).
 
-Sources: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), part on dynamics of cam systems: the model of one
-mass with a return spring, jump of the follower; H. A. Rothbart (ed.), *Cam Design Handbook* (2004), chapter 12.
+Sources: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), on dynamics of cam systems: the model of one mass
+with a return spring, follower jump; H. A. Rothbart (ed.), *Cam Design Handbook* (2004), on modelling them.
 """
 
 from __future__ import annotations

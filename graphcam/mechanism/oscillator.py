@@ -16,7 +16,7 @@ is handed on and magnified: a stiff oscillator costs what a soft one costs, with
 critical one.
 
 Sources: L. N. Trefethen, *Approximation Theory and Approximation Practice* (2013), chapters 2 to 8; the free vibration:
-S. S. Rao, *Mechanical Vibrations* (2011), section 2.6.
+S. S. Rao, *Mechanical Vibrations* (2011), chapter 2.
 """
 
 from __future__ import annotations

@@ -155,7 +155,7 @@ def test_polynomials_are_followed_by_one_series():
 
 @pytest.mark.parametrize("zeta", [0.0, 0.03, 1.0, 4.0])
 def test_the_steady_motion_under_a_sine_is_the_known_one(zeta):
-    """Amplitude and phase of the forced vibration: S. S. Rao, Mechanical Vibrations, section 3.4."""
+    """Amplitude and phase of the forced vibration: S. S. Rao, Mechanical Vibrations, chapter 3."""
     nu = 3.5
     y, y1 = steady(Oscillator(np.array([nu]), zeta), SINE).at(TIMES)
     wave = -math.tau / (nu**2 - math.tau**2 + 2j * zeta * nu * math.tau) * np.exp(1j * math.tau * TIMES)
