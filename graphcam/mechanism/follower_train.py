@@ -99,7 +99,14 @@ class FollowerTrain:
         return 2 * self.damping * self.angular_frequency * self.mass / MM_PER_M
 
     def rise_ratio(self, angle: float, speed_rpm: float) -> float:
-        """n, the time of a rise over an angle [rad] at a speed [rpm] over the natural period."""
+        """n, the time of a rise over an angle [rad] at a speed [rpm] over the natural period.
+
+        Raises
+        ------
+        DesignError : angle or speed is not positive
+        """
+        if not 0 < angle < math.inf:
+            raise DesignError("angle", angle, "a finite number greater than 0 rad")
         return angle / omega_of(_turning(speed_rpm)) * self.natural_frequency
 
 

@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
+from graphcam.given.pieces import CHUNK
 
 NODES = 20
 """Places in a cell through which the forcing's series goes."""
@@ -224,17 +225,28 @@ class Driven:
         return y, y1
 
     def values(self, who: Which, cell: NDArray[np.intp], tau: Floats) -> tuple[Floats, Floats, Floats]:
-        """y, y' and g at places tau from -1 to 1 of cells, (P,): (N, P) of all oscillators, or (P,) one of each.
+        """y, y' and g at places tau from -1 to 1 of cells, (P,): (N, P) of all oscillators, or (P,) of one at each.
 
         who : all, as a slice, or (P,) the number of the oscillator at each place
         """
+        count = self.oscillator.frequency.size if isinstance(who, slice) else 1
+        out = np.empty((3, count, tau.size))
+        size = max(CHUNK // count, 1)
+        for here in (slice(k, k + size) for k in range(0, tau.size, size)):
+            out[..., here] = self._values(who if isinstance(who, slice) else who[here], cell[here], tau[here])
+        y, y1, g = out if isinstance(who, slice) else out[:, 0]
+        return y, y1, g
+
+    def _values(self, who: Which, cell: NDArray[np.intp], tau: Floats) -> Floats:
         basis = chebyshev.chebvander(tau, _WIDTH - 1)
-        t = (tau + 1) * self.halves[cell]
         y, y1 = self.loose[:, who, cell]
+        t = (tau + 1) * self.halves[cell]
         y, y1 = self.oscillator.free(t[None] if isinstance(who, slice) else t, y, y1, who)
         y += np.einsum("...w,...w->...", self.position[who, cell], basis)
         y1 += np.einsum("...w,...w->...", self.rate[who, cell], basis)
-        return y, y1, np.einsum("...w,...w->...", self.forcing[cell], basis[..., :NODES])
+        g = np.einsum("...w,...w->...", self.forcing[cell], basis[..., :NODES])
+        found = np.stack([y, y1, np.broadcast_to(g, y.shape)])
+        return found if isinstance(who, slice) else found[:, None]
 
     def times(self, cell: NDArray[np.intp], tau: Floats) -> Floats:
         """The times of places of cells."""

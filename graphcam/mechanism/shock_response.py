@@ -40,8 +40,8 @@ from graphcam.showing import Shown, in_lines
 
 MOST = 1000.0
 """Natural periods in a rise; a follower still stiffer follows the cam."""
-TOGETHER = 32
-"""Oscillators solved at a time, which bounds the memory."""
+TOGETHER = 2048
+"""Cells of all oscillators that are solved at a time, which bounds the memory."""
 NEAR = 0.9
 """An extreme cannot be the greatest where the values beside it stay below this part of the greatest one."""
 PREPARED = np.linspace(0.1, 10.0, 397)
@@ -53,7 +53,7 @@ AnyMotion = Motion | ArcMotion
 class Event:
     """The cam's motion from one dwell to the next, in lifts and rise times: of a law, or of a motion.
 
-    name : what it is called;  drive : minus the acceleration, from 0 to the end of the event
+    name : of the law, or the phases;  drive : minus the acceleration, from 0 to the end of the event
     lift : s, v, a at times from 0 to the end;  level : s in the dwell after it
     peak : the greatest |a|, a law's C_a
     """
@@ -112,13 +112,16 @@ def _of_motion(motion: AnyMotion) -> Event:
         s, v, a, _ = motion(start + angle * u)
         return (s - below) / height, v * angle / height, a * angle**2 / height
 
+    name = " and ".join(kind for kind, *_ in turned[:count])
     if isinstance(motion, Motion):
+        if count == 1:
+            name = motion.phases[first].normalised.name
         met = (motion.phases[(first + k) % len(phases)] for k in range(count))
         peak = max(p.normalised.peak_acceleration * p.lift / p.angle**2 for p in met if not isinstance(p, Dwell))
     else:
         peak = motion.max_acceleration()[0]
     drive = Drive((edges - start) / angle, lambda u: -lift(u)[2])
-    return Event("motion", drive, lift, (level - below) / height, peak * angle**2 / height)
+    return Event(name, drive, lift, (level - below) / height, peak * angle**2 / height)
 
 
 def turn_edges(motion: AnyMotion) -> Floats:
@@ -189,7 +192,7 @@ class FollowerResponse(Shown):
             f"greatest acceleration {self.primary:.6g} during it, {self.residual:.6g} after it (lifts/rise time²)",
             f"amplitude after it {self.amplitude:.6g} lifts",
         )
-        first = f"FollowerResponse to a rise, {self.event.name}, of {self.n:g} natural periods"
+        first = f"FollowerResponse, {self.event.name}, n = {self.n:g} natural periods in the rise"
         return in_lines(first, sizes, "response(u) gives x, x' and x'' at u in rise times; .plot() draws them")
 
 
@@ -239,7 +242,7 @@ def _check_ratios(n: Floats) -> None:
 class ShockSpectrum(Shown):
     """The greatest accelerations of elastic followers under one law, over n; made by :func:`shock_spectrum`.
 
-    law : its name;  damping : ratio to the critical one
+    law : its name, or the phases from one dwell of a motion to the next;  damping : ratio to the critical one
     n : (k,) rise time over natural period
     primary, residual : (k,) the greatest |x''| during the rise, and in the dwell after it [lifts/rise time^2]
     amplitude : (k,) how far the mass swings off its place in the dwell at most [lifts]
@@ -269,11 +272,11 @@ class ShockSpectrum(Shown):
     def __repr__(self) -> str:
         top = int(np.argmax(self.factor))
         sizes = (
-            f"{self.n.size} ratios n from {self.n.min():g} to {self.n.max():g}, damping ratio {self.damping:g}",
+            f"n from {self.n.min():g} to {self.n.max():g}, {self.n.size} in all; damping ratio {self.damping:g}",
             f"greatest dynamic factor {self.factor[top]:.4g} at n = {self.n[top]:g}, of C_a = {self.peak:.6g}",
         )
         last = "primary, residual, amplitude, factor: of each n; .plot() draws them"
-        return in_lines(f"ShockSpectrum of a rise, {self.law}", sizes, last)
+        return in_lines(f"ShockSpectrum, {self.law}", sizes, last)
 
 
 def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, damping: float = 0.0) -> ShockSpectrum:
@@ -305,8 +308,9 @@ def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, dampi
     _, group = np.unique(counts, axis=0, return_inverse=True)
     for number in range(int(group.max()) + 1):
         members = np.flatnonzero(group.ravel() == number)
-        for first in range(0, members.size, TOGETHER):
-            some = members[first : first + TOGETHER]
+        size = max(TOGETHER // int(np.abs(counts[members[0]]).sum()), 1)
+        for first in range(0, members.size, size):
+            some = members[first : first + size]
             solved = driven(Oscillator(FULL_TURN * ratios[some], float(damping)), event.drive)
             primary[some] = _primary(solved)
             residual[some], amplitude[some] = _residual(solved)

@@ -66,7 +66,7 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
     upper.set_ylabel("lift, $h$")
     lower.set(ylabel="acceleration, $h/T^2$", xlabel="time, times of the rise $T$")
     damped = f"damping ratio {response.damping:g}" if response.damping else "without damping"
-    title = f"A rise, {response.event.name}, of {response.n:g} natural periods, {damped}"
+    title = f"{response.event.name}, {response.n:g} natural periods in the rise, {damped}"
     upper.set_title(title, fontsize="medium")
 
 

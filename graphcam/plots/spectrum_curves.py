@@ -44,7 +44,7 @@ def plot(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> Axes:
     elif n.size > 1:
         axes.set_xlim(n[0], n[-1])
     damped = f"damping ratio {spectrum.damping:g}" if spectrum.damping else "without damping"
-    axes.set_title(f"Shock spectrum of a rise, {spectrum.law}, {damped}", fontsize="medium")
+    axes.set_title(f"Shock spectrum, {spectrum.law}, {damped}", fontsize="medium")
     axes.grid(visible=True, color="#dddddd", linewidth=0.5)
     axes.spines[["top", "right"]].set_visible(False)
     # Below the diagram: inside, some law's curve would run through it.

@@ -206,6 +206,8 @@ def test_the_ratio_of_a_rise_is_its_time_over_the_natural_period():
     period = math.tau * math.sqrt(0.5 / (2020 * 1000))
     assert TRAIN.rise_ratio(80 * DEG, 1200) == pytest.approx(80 / 360 / 20 / period, rel=1e-14)
     assert TRAIN.natural_frequency == pytest.approx(1 / period, rel=1e-14)
+    with pytest.raises(gc.DesignError, match="angle is 0, but must be a finite number greater than 0 rad"):
+        TRAIN.rise_ratio(0, 1200)
     # The logarithmic decrement of what is left in the long dwell is that of the given damping ratio.
     follower = gc.VibratingFollower(motion_of("rectangular"), TRAIN, 600)
     turning = FULL_TURN / follower.vibrations / math.sqrt(1 - 0.05**2)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 from itertools import pairwise
 
 import numpy as np
@@ -57,12 +58,12 @@ def test_many_oscillators_at_once_are_the_same_one_by_one():
 
 
 def test_errors_do_not_grow_over_hundreds_of_stretches():
-    """Undamped, over 300 turns of the forcing: what is off at last is the phase, eps times all that it has turned."""
-    turns = 300
+    """Undamped, over 100 turns of the forcing: what is off at last is the phase, eps times all that it has turned."""
+    turns = 100
     drive = Drive(np.arange(2.0 * turns + 1) / 2, SINE.forcing)
     nu = math.tau * 1.37
     with mp.workdps(40):
-        for t in (1.0, 10.3, 100.3, 299.3):
+        for t in (1.0, 10.3, 99.3):
             (y,), _ = driven(Oscillator(np.array([nu]), 0.0), drive).at(np.array([t]))
             assert abs(float(y[0]) - float(under_a_sine(nu, 0.0, t))) <= 4 * EPS * (1 + nu * t)
 
@@ -161,6 +162,15 @@ def test_the_steady_motion_under_a_sine_is_the_known_one(zeta):
     wave = -math.tau / (nu**2 - math.tau**2 + 2j * zeta * nu * math.tau) * np.exp(1j * math.tau * TIMES)
     np.testing.assert_allclose(y[0], wave.imag, rtol=0, atol=1e-14)
     np.testing.assert_allclose(y1[0], (1j * math.tau * wave).imag, rtol=0, atol=1e-13)
+
+
+def test_the_heaviest_damping_takes_bounded_memory():
+    """Between short and long the cells are 400 times as many as without damping; few oscillators are solved at once."""
+    tracemalloc.start()
+    gc.shock_spectrum("modified-trapezoidal", np.linspace(40, 42, 9), damping=10.0)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 100e6
 
 
 def test_in_resonance_there_is_no_steady_motion():

@@ -224,6 +224,7 @@ def test_a_rise_and_a_return_without_a_dwell_are_one_event_wherever_the_turn_beg
     motion = gc.Motion(phases)
     event = event_of(motion)
     assert event.end == pytest.approx(2)
+    assert event.name == "rise and return"
     assert event.level == pytest.approx(0, abs=1e-12)
     n = np.array([0.8, 1.4, 2.75])
     alone = gc.shock_spectrum("cycloidal", n).residual
@@ -251,7 +252,7 @@ def test_a_measured_motion_has_a_spectrum():
     motion = gc.builtin_task("measured").motion()
     found = gc.shock_spectrum(motion, [0.5, 2, 8])
     assert np.all(found.greatest > 0)
-    assert found.law == "motion"
+    assert found.law == "measured"
 
 
 # --- what cannot be --------------------------------------------------------------------------------------------------
@@ -290,8 +291,8 @@ def test_a_spectrum_of_no_ratio_and_a_motion_without_a_dwell_are_refused():
 
 def test_few_lines_tell_what_was_found():
     assert repr(gc.shock_spectrum("cycloidal", [1, 2.0])).splitlines() == [
-        "ShockSpectrum of a rise, cycloidal",
-        "  2 ratios n from 1 to 2, damping ratio 0",
+        "ShockSpectrum, cycloidal",
+        "  n from 1 to 2, 2 in all; damping ratio 0",
         "  greatest dynamic factor 3.142 at n = 1, of C_a = 6.28319",
         "primary, residual, amplitude, factor: of each n; .plot() draws them",
     ]

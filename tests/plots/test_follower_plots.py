@@ -31,7 +31,7 @@ def test_the_curves_of_a_spectrum_are_its_values():
         n, height = line.get_xydata().T
         assert n.tolist() == [0.5, 1.0, 2.0, 3.5]
         assert height.tolist() == values[order].tolist()
-    assert axes.get_title() == "Shock spectrum of a rise, cycloidal, without damping"
+    assert axes.get_title() == "Shock spectrum, cycloidal, without damping"
     assert axes.get_ylim()[1] > spectrum.greatest.max()
     assert axes.get_xscale() == "linear"
 
