@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, law as law_of
-from graphcam.given.motion import FULL_TURN, Dwell, Motion
+from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.motion_law import Law
 from graphcam.given.roots import roots
 from graphcam.mechanism.arc_motion import ArcMotion
@@ -114,10 +114,10 @@ def _of_motion(motion: AnyMotion) -> Event:
 
     name = " and ".join(kind for kind, *_ in turned[:count])
     if isinstance(motion, Motion):
-        if count == 1:
-            name = motion.phases[first].normalised.name
-        met = (motion.phases[(first + k) % len(phases)] for k in range(count))
-        peak = max(p.normalised.peak_acceleration * p.lift / p.angle**2 for p in met if not isinstance(p, Dwell))
+        met = [motion.phases[(first + k) % len(phases)] for k in range(count)]
+        moving = [phase for phase in met if isinstance(phase, Moving)]
+        name = moving[0].normalised.name if count == 1 else name
+        peak = max(phase.normalised.peak_acceleration * phase.lift / phase.angle**2 for phase in moving)
     else:
         peak = motion.max_acceleration()[0]
     drive = Drive((edges - start) / angle, lambda u: -lift(u)[2])
@@ -131,7 +131,7 @@ def turn_edges(motion: AnyMotion) -> Floats:
     inner = [
         start + phase.angle * edge
         for start, phase in zip(motion.starts.tolist(), motion.phases, strict=True)
-        if not isinstance(phase, Dwell)
+        if isinstance(phase, Moving)
         for edge in phase.normalised.edges
     ]
     return np.unique([*motion.starts.tolist(), *inner])
