@@ -133,10 +133,14 @@ def test_at_low_speed_the_force_is_the_spring_s_alone():
 # --- contact ---------------------------------------------------------------------------------------------------------
 
 
+HEAVY = {"spring": 700.0, "damping": 0.4}
+"""A return spring and a damper so strong that they pass the cam's velocity on."""
+
+
 @pytest.mark.parametrize("law", ["rectangular", "cosine", "cycloidal", "modified-sine"])
-@pytest.mark.parametrize("rpm", [240, 611, 1403])
-def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_negative(law, rpm):
-    follower = gc.VibratingFollower(motion_of(law), changed(preload=120.0), rpm)
+@pytest.mark.parametrize(("rpm", "sizes"), [(240, {}), (611, {}), (1403, {}), (1403, HEAVY)])
+def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_negative(law, rpm, sizes):
+    follower = gc.VibratingFollower(motion_of(law), changed(preload=120.0, **sizes), rpm)
     least, greatest, lost = follower.least_force(), follower.greatest_force(), follower.lost()
     phi = np.linspace(0, FULL_TURN, 20_001)
     force = follower(phi).force
@@ -145,8 +149,10 @@ def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_n
     assert greatest.value >= force.max() - 1e-12 * size
     assert least.value == pytest.approx(force.min(), abs=1e-3 * size)
     assert greatest.value == pytest.approx(force.max(), abs=1e-3 * size)
-    for found in (least, greatest):
+    for found, sign in ((least, 1), (greatest, -1)):
         assert float(follower(found.phi).force) == pytest.approx(found.value, abs=1e-10 * size)
+        near = follower(found.phi + np.array([-1, 1]) * np.geomspace(1e-6, 1e-2, 40)[:, None]).force
+        assert np.all(sign * (near - found.value) >= -1e-11 * size)
     inside = np.any([(a < p) & (p < b) for a, b in lost for p in (phi, phi + FULL_TURN)] or [phi < 0], axis=0)
     assert np.array_equal(inside, force < 0)
     for end in np.ravel(lost):

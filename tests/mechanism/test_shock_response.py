@@ -190,11 +190,13 @@ def test_a_law_of_ones_own_is_taken_piece_by_piece():
     np.testing.assert_allclose(
         gc.shock_spectrum(own, n).residual, gc.shock_spectrum("rectangular", n).residual, rtol=1e-12, atol=1e-13
     )
-    unequal = gc.law("rectangular", ratio=3.0)
+    unequal = gc.law("rectangular", ratio=2.7)
+    middle = 1 / 3.7
     for n in (0.8, 3.3):
         omega = math.tau * n
-        # Jumps of 8, -8 - 8/3 and 8/3 at 0, 1/4 and 1.
-        exact = abs(8 - (8 + 8 / 3) * np.exp(1j * omega / 4) + 8 / 3 * np.exp(1j * omega))
+        # f'' is 2/middle up to the middle and -2/(1 - middle) from there on: three jumps.
+        up, down = 2 / middle, 2 / (1 - middle)
+        exact = abs(up - (up + down) * np.exp(1j * omega * middle) + down * np.exp(1j * omega))
         assert gc.shock_spectrum(unequal, n).residual.item() == pytest.approx(exact, rel=1e-12)
 
 
