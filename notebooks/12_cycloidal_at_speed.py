@@ -156,7 +156,7 @@ print(f"natural frequency {train.natural_frequency:.1f} Hz; at 500 rpm n = {trai
       f"{train.rise_ratio(radians(60), 500):.2f} in the return")
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-speeds, needs = np.linspace(150, 900, 151), {}
+speeds, needs = np.linspace(150, 900, 76), {}
 figure, axes = chart("speed, rpm", "least preload, N", 3.0)
 for name, (colour, line) in styles.items():
     needed = needs[name] = [max(gc.VibratingFollower(motion(name), train, speed).least_preload(), 0) for speed in speeds]
