@@ -20,6 +20,11 @@ from .mechanism.arcs import ThreeArcCam as ThreeArcCam, three_arc_cam as three_a
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
 from .mechanism.contact import Contact as Contact, SpringPreload as SpringPreload, spring_preload as spring_preload
 from .mechanism.flat_faced import FaceWidth as FaceWidth, face_width as face_width
+from .mechanism.follower_train import (
+    FollowerTrain as FollowerTrain,
+    TrainMotion as TrainMotion,
+    VibratingFollower as VibratingFollower,
+)
 from .mechanism.forces import CamForces as CamForces
 from .mechanism.hertz import (
     ContactStress as ContactStress,
@@ -33,6 +38,12 @@ from .mechanism.least_radius import (
     minimum_radius as minimum_radius,
 )
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
+from .mechanism.shock_response import (
+    FollowerResponse as FollowerResponse,
+    ShockSpectrum as ShockSpectrum,
+    follower_response as follower_response,
+    shock_spectrum as shock_spectrum,
+)
 from .mechanism.sizing import SizedCam as SizedCam, size_cam as size_cam
 from .mechanism.spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline
 from .mechanism.three_points import circumradius as circumradius

@@ -1,0 +1,100 @@
+"""An elastic follower: its response to one rise, and its steady motion over a turn."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.mechanism.follower_train import VibratingFollower
+from graphcam.mechanism.shock_response import FollowerResponse
+from graphcam.plots.figures import axes_on
+from graphcam.plots.motion_curves import GAP
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+
+SIZE = 7.0, 5.0
+"""Of a new figure [inches]."""
+PER_PERIOD, FEWEST = 24, 400
+"""Points of a curve in a natural period, and in all."""
+AFTER = 0.6, 3.0
+"""So many times of the rise are shown after it, or so many natural periods, whichever is longer."""
+BEFORE = -0.11
+"""Where the names of the axes stand, as a part of the diagrams' width."""
+
+
+def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None = None) -> Axes:
+    """Draw two diagrams inside of axes, one above the other; returns the axes, whose ``child_axes`` they are."""
+    axes = axes_on(on, *SIZE)
+    axes.set_axis_off()
+    height = (1 + GAP) / 2
+    upper, lower = (axes.inset_axes((0.0, low, 1.0, height - GAP)) for low in (height, 0.0))
+    if isinstance(shown, FollowerResponse):
+        _response(shown, upper, lower)
+    else:
+        _turn(shown, upper, lower)
+    for diagram in (upper, lower):
+        diagram.axhline(0.0, color=BLACK, linewidth=0.6)
+        diagram.spines[["top", "right"]].set_visible(False)
+        diagram.yaxis.set_label_coords(BEFORE, 0.5)
+        diagram.legend(frameon=False, fontsize="small")
+    upper.tick_params(labelbottom=False)
+    return axes
+
+
+def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
+    """Over the time: where the cam is and where the mass is, and their accelerations."""
+    end = response.event.end
+    until = end + max(AFTER[0], AFTER[1] / response.n)
+    u = np.linspace(0, until, FEWEST + round(PER_PERIOD * response.n * until))
+    # Twice where the cam's acceleration may jump, seen from either side.
+    edges = response.event.drive.edges
+    u = np.sort(np.concatenate([u, np.nextafter(edges, -1), np.nextafter(edges, until)]))
+    s, a = np.full(u.size, response.event.level), np.zeros(u.size)
+    moving = (u > 0) & (u < end)
+    s[moving], _, a[moving] = response.event.lift(u[moving])
+    s[u <= 0] = 0.0
+    x, _, x2 = response(u)
+    upper.plot(u, s, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
+    upper.plot(u, x, color=CURRENT, linewidth=1.5, label="mass")
+    lower.plot(u, a, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
+    lower.plot(u, x2, color=ACCENT, linewidth=1.5, label="mass")
+    for diagram in (upper, lower):
+        diagram.axvline(end, color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
+        diagram.set_xlim(0, until)
+    upper.set_ylabel("lift, $h$")
+    lower.set(ylabel="acceleration, $h/T^2$", xlabel="time, times of the rise $T$")
+    damped = f"damping ratio {response.damping:g}" if response.damping else "without damping"
+    title = f"{response.event.name}, {response.n:g} natural periods in the rise, {damped}"
+    upper.set_title(title, fontsize="medium")
+
+
+def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
+    """Over the turn: the cam's and the mass's acceleration, and the force on the cam."""
+    phi = _dense(follower)
+    found = follower(phi)
+    degrees = np.degrees(phi)
+    upper.plot(degrees, follower.motion(phi)[2], color=GREY, linewidth=1.2, linestyle=(0, (6, 3)), label="cam")
+    upper.plot(degrees, found.a, color=CURRENT, linewidth=1.5, label="mass")
+    lower.plot(degrees, found.force, color=BLACK, linewidth=1.5, label="force on the cam")
+    for number, (start, end) in enumerate(follower.lost()):
+        for turned in (0.0, FULL_TURN):  # an end beyond the turn is shown at its beginning
+            span = np.degrees([start - turned, end - turned])
+            label = "contact is lost" if number == 0 and turned == 0 else None
+            lower.axvspan(*span, color=ACCENT, alpha=0.3, linewidth=0, label=label)
+    for diagram in (upper, lower):
+        diagram.set(xlim=(0, 360), xticks=range(0, 361, 30))
+        for _, start, _ in follower.motion.timing:
+            diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
+    upper.set_ylabel("acceleration, mm/rad²")
+    lower.set(ylabel="force, N", xlabel="cam angle φ, degrees")
+    upper.set_title(f"Elastic follower at {follower.speed_rpm:g} rpm", fontsize="medium")
+
+
+def _dense(follower: VibratingFollower) -> Floats:
+    """Cam angles [rad] over the turn, on both sides of every break, so dense that vibrations are seen."""
+    breaks = follower.motion.breaks
+    phi = np.linspace(0, FULL_TURN, FEWEST + round(PER_PERIOD * follower.vibrations))
+    before = np.nextafter(breaks[breaks > 0], 0)
+    return np.sort(np.concatenate([phi[:-1], breaks, before, [np.nextafter(FULL_TURN, 0)]]))
