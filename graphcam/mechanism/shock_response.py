@@ -16,8 +16,8 @@ A law whose k-th derivative is the first that jumps leaves a vibration that fall
 Sources: H. A. Rothbart (ed.), *Cam Design Handbook* (2004), section 13.2: the dynamic response spectrum, peak
 acceleration over the ratio of the pulse's duration to the natural period, T1/TN in its figures 13.4 and 13.5; F. Y.
 Chen, *Mechanics and Design of Cam Mechanisms* (1982), on dynamics: primary and residual spectra of a system of one
-degree of freedom.  Both print curves, no tables: definition and axes are theirs, the numbers are held by the closed
-forms above.
+degree of freedom.  The definition and the axes are theirs; no number of theirs was at hand, so the numbers are held by
+the closed forms above.
 """
 
 from __future__ import annotations
