@@ -93,7 +93,8 @@ def force_plan(
     direction = integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction
     read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
     s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
-    force = reckoned(partial(_force, load, direction), s, v, a)
+    phi = float(integrated.givens.stations.phi[k])
+    force = reckoned(partial(_force, load, direction, phi), s, v, a)
     mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
 
     origin = hand.given("origin")
@@ -123,9 +124,9 @@ def force_plan(
     return hand.finished(givens, _draw, {**points, **directions})
 
 
-def _force(load: SpringLoad, direction: int, s: Floats, v: Floats, a: Floats) -> Floats:
-    """The load [N], from the displacement and its derivatives."""
-    return load.force((s, v, a, np.zeros_like(s)), direction)
+def _force(load: SpringLoad, direction: int, phi: Floats | float, s: Floats, v: Floats, a: Floats) -> Floats:
+    """The load [N] at a cam angle, from the displacement and its derivatives."""
+    return load.force((s, v, a, np.zeros_like(s)), direction, phi)
 
 
 def _incline(guide: Guide, direction: int, s: Floats) -> Floats:
@@ -140,7 +141,7 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     """
     integrated = measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
-    force = np.where(moving_up(measured), _force(load, 1, s, v, a), 0.0)
+    force = np.where(moving_up(measured), _force(load, 1, integrated.givens.stations.phi, s, v, a), 0.0)
     k = shown_station(measured)
     return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
 
@@ -192,14 +193,16 @@ def _direction(plan: Construction[ForcePlanGivens]) -> int:
 def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
     """What the load consists of, term by term [N]."""
     load, values = plan.givens.load, [np.array(value) for value in _values(plan, "s", "v", "a")]
-    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0)
+    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0, load=0.0)
     alone = (
         (say("inertia {force:.1f} N"), replace(none, mass=load.mass)),
         (say("preload {force:.1f} N"), replace(none, preload=load.preload)),
         (say("spring {force:.1f} N"), replace(none, stiffness=load.stiffness)),
         (say("friction {force:.1f} N"), replace(none, friction=load.friction)),
+        (say("load P {force:.1f} N"), replace(none, load=load.load)),
     )
-    return [(said, float(_force(part, _direction(plan), *values))) for said, part in alone]
+    phi = float(plan.givens.measured.givens.integrated.givens.stations.phi[plan.givens.station])
+    return [(said, float(_force(part, _direction(plan), phi, *values))) for said, part in alone]
 
 
 def _load(plan: Construction[ForcePlanGivens], view: View) -> Step:
