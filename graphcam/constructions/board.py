@@ -90,7 +90,7 @@ class DrawnFollower(ABC):
         return curvature(drawn["inversion"], pencil)
 
     def force_plan(
-        self, drawn: Mapping[str, Construction], load: FollowerLoads, friction: float, pencil: Pencil
+        self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
     ) -> Construction | None:
         """The force plan under a spring's load with friction at the cam, where one is drawn of it."""
         return None

@@ -9,6 +9,7 @@ import numpy as np
 from graphcam.constructions.axes import turning
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_given
 from graphcam.constructions.force_plan import force_plan
+from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
@@ -62,11 +63,12 @@ class DrawnTranslating(DrawnFollower):
         return inversion(integrated, rotation, r0, place, mu_l, pencil)
 
     def force_plan(
-        self, drawn: Mapping[str, Construction], load: FollowerLoads, friction: float, pencil: Pencil
-    ) -> Construction | None:
+        self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
+    ) -> Construction:
         """At the station of the velocity plan."""
         assert isinstance(load, SpringLoad)
-        return None if friction else force_plan(drawn["pressure_angle"], load, pencil)
+        measured = drawn["pressure_angle"]
+        return friction_plan(measured, load, pencil, friction) if friction else force_plan(measured, load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """All offsets at which the line of motion cuts the prime circle: a larger radius keeps the limits at each."""

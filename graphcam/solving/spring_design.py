@@ -99,7 +99,7 @@ class SpringDesign:
     @cached_property
     def force_plan(self) -> Construction | None:
         """The force plan at the station of the velocity plan, if that is loaded."""
-        return self.chain.board.follower.force_plan(self.chain, self.load, self.friction, self.chain.pencil)
+        return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil, self.friction)
 
     def check(self) -> None:
         """That there is such a design.
