@@ -36,6 +36,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,7 +47,7 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
 from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
 from graphcam.showing import by_parts
 
@@ -80,11 +81,24 @@ def transmission(cam: Cam, values: Values, friction: float = 0.0) -> tuple[Float
     values : (s, v, a, j)
     returns : of an arm divided by its length, cos alpha - sigma mu (sin alpha - r/l)
     """
-    kin = cam.kinematics
-    cosine, sine, turning = _angle(cam, values)
+    return transmitted(cam.kinematics, values, friction, cam.roller_radius)
+
+
+def transmitted(kin: Kinematics, values: Values, friction: float, roller: Any) -> tuple[Floats, Floats]:
+    """The same of one cam or of many, with the radii of their rollers [mm]."""
+    cosine, sine, turning = _angle(kin, values)
     lean = kin.leaning * friction
-    rim = cam.roller_radius / kin.reach if kin.swings else 0.0
+    rim = roller / kin.reach if kin.swings else 0.0
     return cosine - lean * (sine - rim), -(sine + lean * cosine) * turning
+
+
+def lever_about_cam(kin: Kinematics, values: Values, friction: float, roller: Any) -> tuple[Floats, Floats]:
+    """The torque on the cam over the normal force [mm], of one cam or of many, and its slope: by virtual power."""
+    _, v, a, _ = values
+    moved, moved_slope = transmitted(kin, values, friction, roller)
+    sliding, sliding_slope = kin.sliding(values, roller)
+    lever = kin.reach * v * moved + friction * sliding
+    return lever, kin.reach * (a * moved + v * moved_slope) + friction * sliding_slope
 
 
 def jamming_margin(cam: Cam, friction: float) -> ValueAt:
@@ -125,10 +139,10 @@ def check_friction(friction: float) -> None:
         raise DesignError("friction", friction, "a finite number of 0 or more")
 
 
-def _angle(cam: Cam, values: Values) -> tuple[Floats, Floats, Floats]:
+def _angle(kin: Kinematics, values: Values) -> tuple[Floats, Floats, Floats]:
     """cos and sin of the pressure angle, and its slope by phi."""
-    q, q1 = cam.kinematics.pressure(values)
-    size = np.hypot(*q)
+    q, q1 = kin.pressure(values)
+    size = np.sqrt(np.add(q[0] * q[0], q[1] * q[1]))
     return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2
 
 
@@ -220,7 +234,7 @@ class CamForces:
     def of(self, places: Places) -> Forces:
         """The forces at places that belong to phases."""
         values, direction = places.values, self.cam.motion.directions[places.phase]
-        cosine, sine, _ = _angle(self.cam, values)
+        cosine, sine, _ = _angle(self.cam.kinematics, values)
         normal, slip, (near, far) = self.normal(places), self._slip(places), self.bearings(values)[0]
         with np.errstate(invalid="ignore"):
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
@@ -360,7 +374,7 @@ class CamForces:
 
     def bearings(self, values: Values) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
         """N1 and N2 of the bearings over the normal force, and their slopes."""
-        cosine, sine, turning = _angle(self.cam, values)
+        cosine, sine, turning = _angle(self.cam.kinematics, values)
         moment, moment_slope = self.cam.kinematics.tipping(values, self.friction, self.cam.roller_radius)
         x, x_slope = sine + self.friction * cosine, (cosine - self.friction * sine) * turning
         b, length = self.guide.overhang - values[0], self.guide.length
@@ -368,13 +382,7 @@ class CamForces:
         return (x + far, far), (x_slope + far_slope, far_slope)
 
     def _turning(self, values: Values) -> tuple[Floats, Floats]:
-        """The torque on the cam over the normal force [mm], and its slope."""
-        _, v, a, _ = values
-        moved, moved_slope = transmission(self.cam, values, self.friction)
-        sliding, sliding_slope = self.cam.kinematics.sliding(values, self.cam.roller_radius)
-        reach = self.cam.kinematics.reach
-        lever = reach * v * moved + self.friction * sliding
-        return lever, reach * (a * moved + v * moved_slope) + self.friction * sliding_slope
+        return lever_about_cam(self.cam.kinematics, values, self.friction, self.cam.roller_radius)
 
     def _slip(self, places: Places) -> Floats:
         return self._held(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
