@@ -103,6 +103,10 @@ class Kinematics(ABC):
         (along, across), _ = self.pressure(values)
         return np.divide(across, along)
 
+    def steepest(self, lift: Any, speed: Any) -> Any:
+        """What |tan(alpha)| does not exceed over a motion with that lift and that greatest |v|; 0 of a face."""
+        return 0.0 * lift
+
     def pressure_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
         return pair_cross(*self.pressure(values))

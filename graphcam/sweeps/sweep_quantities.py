@@ -90,8 +90,16 @@ class Chunk:
     def _moves(self) -> NDArray[np.bool_]:
         """Where the follower jams nowhere."""
         assert self.swept is not None
-        friction = self.swept.friction
-        return friction * self._greatest_force(Rubbing) < 1 if friction else np.full(len(self.designs), True)
+        friction, kin, roller = self.swept.friction, self._many, self.designs.column("roller_radius")
+        steep = kin.steepest(self._lift, self.max_v)
+        rim = roller / kin.reach if kin.swings else 0.0
+        moves = friction * (steep + rim * np.sqrt(1 + steep * steep)) < 1
+        # What this does not prove is sought: few of the cams that one would build.
+        (doubtful,) = np.nonzero(~moves & ~np.isnan(steep))
+        if friction and doubtful.size:
+            some = Chunk(self.designs.part(doubtful), self.limits, self.swept)
+            moves[doubtful] = friction * some._greatest_force(Rubbing) < 1
+        return moves
 
     @property
     def _dwells(self) -> tuple[tuple[Floats, Floats], ...]:
