@@ -339,12 +339,18 @@ class CamForces:
         ------
         DesignError : it jams, at the cam or in its guide
         """
+        _ = self._sound
+
+    @cached_property
+    def _sound(self) -> bool:
+        """True: what jams raises an error."""
         if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
             allowed = f"less than the {self._most_friction():.4g} at which the follower jams, {self._where(margin)}"
             remedy = "lubricate, let a roller turn, or enlarge the prime radius"
             raise DesignError("friction", self.friction, allowed, remedy)
         if self.guide.friction:
             self._check_guide()
+        return True
 
     def _greatest(
         self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1

@@ -27,10 +27,10 @@ def flat(n: int) -> gc.Designs:
 
 LAWS = {"rise_law": "rectangular", "return_law": "cycloidal"}
 CASES = {
-    "sliding": (replace(some_designs(25, seed=7), return_law="modified-sine"), SLIDING),
-    "torsion": (replace(some_arms(20, seed=8), **LAWS), TORSION),
-    "at a point": (replace(some_arms(30, seed=9), **LAWS), AT_A_POINT),
-    "flat": (flat(12), SLIDING),
+    "sliding": (replace(some_designs(16, seed=7), return_law="modified-sine"), SLIDING),
+    "torsion": (replace(some_arms(12, seed=8), **LAWS), TORSION),
+    "at a point": (replace(some_arms(24, seed=9), **LAWS), AT_A_POINT),
+    "flat": (flat(6), SLIDING),
 }
 EVERY = pytest.mark.parametrize("case", CASES)
 
@@ -53,8 +53,7 @@ def one_by_one(designs: gc.Designs, load, friction: float) -> dict[str, np.ndarr
     return {name: np.array([row[name] for row in rows]) for name in FORCES}
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.15])
-@EVERY
+@pytest.mark.parametrize(("case", "friction"), [*((case, 0.15) for case in CASES), ("sliding", 0.0)])
 def test_every_force_is_that_of_its_cam(case, friction):
     designs, load = CASES[case]
     found, there = gc.sweep(designs, FORCES, load=load, friction=friction), one_by_one(designs, load, friction)
@@ -62,7 +61,7 @@ def test_every_force_is_that_of_its_cam(case, friction):
         same = np.isnan(there[name]) == np.isnan(found[name])
         assert same.all(), (name, np.flatnonzero(~same))
         known = ~np.isnan(there[name])
-        assert known.sum() > 5
+        assert known.sum() > 3
         size = np.maximum(np.abs(there[name]), 1e-3 * np.nanmax(np.abs(there[name])))
         assert np.max(np.abs(found[name] - there[name])[known] / size[known]) < 1e-12, name
 
