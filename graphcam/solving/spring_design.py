@@ -20,7 +20,8 @@ from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
-from graphcam.mechanism.forces import CamForces, Forces, jamming_margin
+from graphcam.mechanism.forces import CamForces, Forces
+from graphcam.mechanism.jamming import jamming_margin
 from graphcam.mechanism.mean_torque import mean_torque
 from graphcam.mechanism.stationary import Places, ValueAt, places_in, smooth_pieces
 from graphcam.mechanism.turn_curve import TurnCurve, over_turn

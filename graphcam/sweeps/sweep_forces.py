@@ -11,7 +11,7 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import SpringLoad
-from graphcam.mechanism.forces import check_friction, lever_about_cam, transmitted
+from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.greatest import Numbers, Sought
 
