@@ -2,8 +2,8 @@
 
 All that turns the arm towards the cam is the torque M about the pivot C.  Reduced to the arm's end B it is the force
 Q = M/l square to the arm.  Of the contact force F the direction is known from the arm positions: the normal is parallel
-to the line from the cam centre A to D, the end of l v laid off along the arm.  Both act at B and balance about C, so the
-reaction R to both passes through B and through C: it lies along the arm.  Three directions and one size are known: a
+to the line from the cam centre A to D, the end of l v laid off along the arm.  Both act at B and balance about C, so
+the reaction R to both passes through B and through C: it lies along the arm.  Three directions and one size are known: a
 triangle, drawn parallel to lines that lie on the board.
 
 R is the reaction to F and to the reduced load; what the pivot bears besides, the arm's weight and the forces of its
@@ -272,8 +272,8 @@ def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         (
             say(
                 "R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N. "
-                "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F sin "
-                "α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
+                "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F "
+                "sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
             ),
             reaction,
         ),
