@@ -3,8 +3,8 @@
 All that turns the arm towards the cam is the torque M about the pivot C.  Reduced to the arm's end B it is the force
 Q = M/l square to the arm.  Of the contact force F the direction is known from the arm positions: the normal is parallel
 to the line from the cam centre A to D, the end of l v laid off along the arm.  Both act at B and balance about C, so
-the reaction R to both passes through B and through C: it lies along the arm.  Three directions and one size are known: a
-triangle, drawn parallel to lines that lie on the board.
+the reaction R to both passes through B and through C: it lies along the arm.  Three directions and one size are known:
+a triangle, drawn parallel to lines that lie on the board.
 
 R is the reaction to F and to the reduced load; what the pivot bears besides, the arm's weight and the forces of its
 inertia and of a spring that do not turn it, depends on their places and does not enter F.
