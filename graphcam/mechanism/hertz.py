@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest
+from graphcam.mechanism.kinematics import Kinematics
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of
 from graphcam.showing import by_parts
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
@@ -189,7 +189,7 @@ class ContactStress:
             raise DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")
         if self.forces.greatest_normal().value <= 0:
             raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
-        squared, phi, side = greatest(cam.motion, self.slope, self._squared)
+        squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 
     def least_width(self, permitted: float) -> float:
@@ -198,12 +198,12 @@ class ContactStress:
             raise DesignError("permitted stress", permitted, "a finite number greater than 0 MPa")
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
-    def slope(self, values: Values) -> Floats:
-        """Of the sign of the peak pressure's slope, that is of (F/(1 - kappa r))', from (s, v, a, j)."""
-        kin, r = self._kinematics, self._roller
+    def slope(self, places: Places) -> Floats:
+        """Of the sign of the peak pressure's slope, that is of (F/(1 - kappa r))', at places inside phases."""
+        kin, r, values = self._kinematics, self._roller, places.values
         kappa_slope = kin.curvature_slope(values) / kin.speed(values, inset=0.0) ** 5
         room = 1 - kin.curvature(values) * r
-        return self.forces.normal_slope(values) * room + self.forces.normal_inside(values) * r * kappa_slope
+        return self.forces.normal_slope(places) * room + self.forces.normal(places) * r * kappa_slope
 
     @property
     def _roller(self) -> float:

@@ -19,7 +19,6 @@ class TranslatingKinematics(RollerKinematics):
     """z = e + i (s0 + s), with s0 = sqrt((r0 - e)(r0 + e)); offset : e [mm]."""
 
     offset: Any
-    has_forces = True
 
     @classmethod
     def of(cls, sizes: Translating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
@@ -58,6 +57,10 @@ class TranslatingKinematics(RollerKinematics):
         """q of :meth:`pressure`: from the centre of relative rotation to the trace point, turned."""
         s, v, _, _ = values
         return self.s0 + s, v - self.sigma * self.offset
+
+    def steepest(self, lift: Any, speed: Any) -> Any:
+        """(|v| + |e|)/s0."""
+        return (speed + np.abs(self.offset)) / self.s0
 
     def bend(self, values: Values) -> tuple[Pair, Pair]:
         """g = v and h = a of kappa, and g', h'."""

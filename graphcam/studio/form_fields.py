@@ -13,7 +13,13 @@ Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, DRAWING = say("Limits"), say("Spring"), say("Drawing")
 DEGREES = "°"
-UNITS = {"rpm": say("rpm"), "kg": say("kg"), "N/mm": say("N/mm"), "N": say("N"), "mm": say("mm")}
+UNITS = {
+    str(unit): unit
+    for unit in (
+        *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm")),
+        *(say("kg·mm²"), say("rad/s²"), say("N·mm"), say("N·mm/rad")),
+    )
+}
 
 NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
@@ -29,6 +35,13 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "spring.mass": (SPRING, say("Moving mass"), "kg"),
     "spring.stiffness": (SPRING, say("Stiffness c"), "N/mm"),
     "spring.preload": (SPRING, say("Preload F₀"), "N"),
+    "spring.inertia": (SPRING, say("Moment of inertia J"), "kg·mm²"),
+    "spring.acceleration": (SPRING, say("Angular acceleration ε"), "rad/s²"),
+    "spring.friction": (SPRING, say("Friction at the cam μ"), ""),
+    "spring.load": (SPRING, say("Load P"), "N"),
+    "spring.at.arm": (SPRING, say("Spring from the pivot"), "mm"),
+    "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x"), "mm"),
+    "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y"), "mm"),
     "drawing.divisions": (DRAWING, say("Divisions of a phase"), ""),
     "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise"), "mm"),
     "drawing.poles[0]": (DRAWING, say("Pole distance H₁"), "mm"),
