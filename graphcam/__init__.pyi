@@ -1,4 +1,5 @@
 # The public names.  Each stands here once: type checkers read this file, and so does graphcam when a name is used.
+from .comparison.contact_elements import ElementContact as ElementContact, contact_by_elements as contact_by_elements
 from .drafting.ink import Construction as Construction, Reading as Reading, Step as Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale

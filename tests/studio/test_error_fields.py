@@ -33,6 +33,8 @@ NOT_REACHED = {
     "built-in task": "the page has the tasks themselves",
     "force": "Hertzian stress is worked out in Python only",
     "radii": "Hertzian stress is worked out in Python only",
+    "poisson": "the contact by finite elements stands in Python only",
+    "parts": "the contact by finite elements stands in Python only",
     "contact force": "Hertzian stress is worked out in Python only",
     "permitted stress": "sizing stands in Python and in exercises only",
     "smallest cam": "sizing stands in Python and in exercises only",
