@@ -14,6 +14,7 @@ from .given.measured import (
 )
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
+from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
@@ -25,7 +26,6 @@ from .mechanism.forces import CamForces as CamForces
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
-    RollerContact as RollerContact,
     hertz_line_contact as hertz_line_contact,
 )
 from .mechanism.least_radius import (

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, installed
 from graphcam.given.laws import Floats
-from graphcam.mechanism.hertz import STEEL_POISSON, STEEL_YOUNG, LineContact, hertz_line_contact
+from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG
+from graphcam.mechanism.hertz import LineContact, hertz_line_contact
 
 ABREAST, DEEP = 1.5, 2.0
 """Half-widths of the contact, to the side and into the depth, over which the mesh is even."""

@@ -21,6 +21,7 @@ SENSIBLE = {
     "kg/m^3": (10.0, 30000.0),
     "N/mm": (1e-6, 1e9),
     "N": (0.0, 1e9),
+    "MPa": (1e-3, 1e7),
 }
 """The least and the greatest size by its unit; zero is none."""
 REMEDY = "check its unit and its digits"

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
+from graphcam.given.roller_contact import RollerContact
 from graphcam.given.spring_load import SpringLoad
-from graphcam.mechanism.hertz import ContactStress, RollerContact
+from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics

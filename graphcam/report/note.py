@@ -19,11 +19,13 @@ from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
+from graphcam.report.stress_note import contact_stress
 from graphcam.sheets.tables import Table
 from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import at_side
+from graphcam.solving.stress_diagram import MEANING as STRESS
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
 
@@ -36,6 +38,8 @@ def note(solution: Solution) -> str:
     True
     """
     chapters = constructions(solution)
+    if solution.stress and solution.stress.without:
+        chapters.append((STRESS.title, contact_stress(solution)))
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
     chapters.append((say("Kind of impact"), _impact(solution)))

@@ -77,6 +77,11 @@ class SpringDesign:
         return Contact(self.cam.motion, self.load)
 
     @cached_property
+    def forces(self) -> CamForces:
+        """At the contact, of a translating follower."""
+        return CamForces(self.cam, self.load)
+
+    @cached_property
     def greatest_normal(self) -> ValueAt:
         """The greatest force along the contact normal [N]; of a flat face it is the force along the motion."""
         if self.cam.kinematics.has_forces:

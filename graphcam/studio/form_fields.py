@@ -11,9 +11,9 @@ from graphcam.words import Caption, Tell, Words, say
 
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
-LIMITS, SPRING, DRAWING = say("Limits"), say("Spring"), say("Drawing")
+LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREES = "°"
-UNITS = {"rpm": say("rpm"), "kg": say("kg"), "N/mm": say("N/mm"), "N": say("N"), "mm": say("mm")}
+UNITS = {str(unit): unit for unit in (say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa"))}
 
 NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
@@ -29,6 +29,12 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "spring.mass": (SPRING, say("Moving mass"), "kg"),
     "spring.stiffness": (SPRING, say("Stiffness c"), "N/mm"),
     "spring.preload": (SPRING, say("Preload F₀"), "N"),
+    "material.width": (MATERIAL, say("Width of the contact"), "mm"),
+    "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam"), "MPa"),
+    "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower"), "MPa"),
+    "material.poisson_cam": (MATERIAL, say("Poisson's ratio ν₁, cam"), ""),
+    "material.poisson_follower": (MATERIAL, say("Poisson's ratio ν₂, follower"), ""),
+    "material.permitted_stress": (MATERIAL, say("Permitted contact stress"), "MPa"),
     "drawing.divisions": (DRAWING, say("Divisions of a phase"), ""),
     "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise"), "mm"),
     "drawing.poles[0]": (DRAWING, say("Pole distance H₁"), "mm"),

@@ -140,7 +140,7 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """What the cam must keep to, and the spring if there is one."""
+    """What the cam must keep to, and the spring and the material if there are such."""
     if not has_angles(solution.task):
         yield make.open_number("limits.min_curvature_radius", None)
     else:
@@ -151,6 +151,10 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("spring.mass")
         yield make.number("spring.stiffness")
         yield make.open_number("spring.preload", solution.spring.load.preload)
+    if solution.task.material is not None:
+        for name in ("width", "young_cam", "young_follower", "poisson_cam", "poisson_follower"):
+            yield make.number(f"material.{name}")
+        yield make.open_number("material.permitted_stress", None)
 
 
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:

@@ -25,6 +25,7 @@ from graphcam.tasks.dataclass_reader import (
     WrongType,
     read_dataclass,
 )
+from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 
@@ -47,6 +48,7 @@ _CLASSES: Classes = {
     ("cam",): tables.CamTable,
     ("limits",): tables.LimitsTable,
     ("spring",): tables.SpringTable,
+    ("material",): MaterialTable,
     ("drawing",): tables.DrawingTable,
     ("part",): PartTable,
 }
