@@ -4,8 +4,10 @@ from .drafting.ink import Construction as Construction, Reading as Reading, Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
+from .given.arm_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
 from .given.laws import LAWS as LAWS, law as law
+from .given.load_curve import LoadCurve as LoadCurve
 from .given.measured import (
     IntegratedMotion as IntegratedMotion,
     MeasuredMotion as MeasuredMotion,
@@ -20,9 +22,14 @@ from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.arcs import ThreeArcCam as ThreeArcCam, three_arc_cam as three_arc_cam
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
-from .mechanism.contact import Contact as Contact, SpringPreload as SpringPreload, spring_preload as spring_preload
+from .mechanism.contact import (
+    Contact as Contact,
+    SpringPreload as SpringPreload,
+    least_preload as least_preload,
+    spring_preload as spring_preload,
+)
 from .mechanism.flat_faced import FaceWidth as FaceWidth, face_width as face_width
-from .mechanism.forces import CamForces as CamForces
+from .mechanism.forces import CamForces as CamForces, jamming_margin as jamming_margin
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
@@ -34,6 +41,7 @@ from .mechanism.least_radius import (
     minimum_radius as minimum_radius,
 )
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
+from .mechanism.mean_torque import mean_torque as mean_torque
 from .mechanism.sizing import SizedCam as SizedCam, size_cam as size_cam
 from .mechanism.spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline
 from .mechanism.three_points import circumradius as circumradius

@@ -1,4 +1,4 @@
-"""What presses a translating follower on its cam: its inertia, a spring, friction in the guide.
+"""What presses a follower that slides on its cam: its inertia, a spring, a load, friction in the guide.
 
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007): contact is kept while m (a omega^2 + v eps) + F0 +
 c s is not negative.
@@ -7,18 +7,19 @@ c s is not negative.
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from graphcam.errors import DesignError
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
+from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
+from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
 from graphcam.given.ranges import bounded
-
-Values = tuple[Floats, Floats, Floats, Floats]
-"""(s, v, a, j)"""
 
 
 @dataclass(frozen=True)
 class SpringLoad:
-    """The load along the motion of a translating follower: F = m (a omega^2 + v eps) + F0 + c s, in N.
+    """The load along the motion of a follower that slides: F = m (a omega^2 + v eps) + F0 + c s + P, in N.
 
     mass : of the follower and all that moves with it [kg]
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2], 0 at a
@@ -26,6 +27,8 @@ class SpringLoad:
     stiffness : c of the spring [N/mm];  preload : F0 at the lowest place [N], with a constant load of the follower
     friction : in the guide [N], whatever the side force: it acts against the motion, so the cam bears it on a rise and
         is relieved of it on a return
+    load : P, what presses on the follower besides [N], positive towards the cam: a number, or a
+        :class:`~graphcam.LoadCurve` over the turn
 
     Raises
     ------
@@ -45,6 +48,7 @@ class SpringLoad:
     preload: float = 0.0
     acceleration: float = 0.0
     friction: float = 0.0
+    load: Load = 0.0
 
     def __post_init__(self) -> None:
         for quantity, unit in (("mass", "kg"), ("speed_rpm", "rpm"), ("stiffness", "N/mm"), ("friction", "N")):
@@ -55,32 +59,44 @@ class SpringLoad:
         for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
             if not math.isfinite(value := getattr(self, quantity)):
                 raise DesignError(quantity, value, f"a finite number of {unit}")
+        check_load(self.load)
 
     @property
     def omega(self) -> float:
         """Speed of the cam [rad/s]."""
         return omega_of(self.speed_rpm)
 
-    def force(self, values: Values, direction: Floats | float = 0.0) -> Floats:
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """The cam angles [rad] at which the load's slope may jump inside a phase."""
+        return knots_of(self.load)
+
+    def force(self, values: Values, direction: Floats | float = 0.0, phi: Floats | float = math.nan) -> Floats:
         """The force [N] that the cam must bear along the motion, from (s, v, a, j).
 
         direction : +1 on a rise, -1 on a return, 0 in a dwell, where the friction may act either way
+        phi : cam angles [rad], for a load that depends on them
         returns : negative where the cam would have to pull
         """
         s, v, a, _ = values
         inertia = self.mass / MM_PER_M * (a * self.omega**2 + v * self.acceleration)
-        return inertia + self.preload + self.stiffness * s + self.friction * direction
+        return inertia + self.preload + self.stiffness * s + self.friction * direction + load_at(self.load, phi)
 
-    def slope(self, values: Values) -> Floats:
-        """dF/dphi [N/rad], from (s, v, a, j)."""
+    def slope(self, values: Values, phi: Floats | float = math.nan) -> Floats:
+        """dF/dphi [N/rad] inside a phase, from (s, v, a, j)."""
         _, v, a, j = values
-        return self.mass / MM_PER_M * (j * self.omega**2 + a * self.acceleration) + self.stiffness * v
+        inertia = self.mass / MM_PER_M * (j * self.omega**2 + a * self.acceleration)
+        return inertia + self.stiffness * v + load_slope(self.load, phi)
 
     def size(self, values: Values) -> Floats:
         """The sum of the magnitudes of the force's terms [N]: what its rounding is a part of."""
         s, v, a, _ = values
         inertia = self.mass / MM_PER_M * (abs(a) * self.omega**2 + abs(v * self.acceleration))
-        return inertia + abs(self.preload) + self.stiffness * s + self.friction
+        return inertia + abs(self.preload) + self.stiffness * s + self.friction + largest(self.load)
+
+    def leverage(self, values: Values) -> tuple[Floats, Floats]:
+        """1 and 0: the spring acts along the motion."""
+        return np.ones_like(values[0]), np.zeros_like(values[0])
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Whether a spring keeps a follower on its cam: the contact function xi(phi), its extremes, and where it is negative.
 
-xi = m (a omega^2 + v eps) + F0 + c s is the force along the motion with which the cam bears the follower; where it
+xi = m (a omega^2 + v eps) + F0 + c s + P is the force along the motion with which the cam bears the follower; where it
 would be negative the cam would have to pull, and the follower leaves it.
 
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
@@ -11,13 +11,25 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
+from graphcam.given.arm_load import ArmLoad
+from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.roots import roots
 from graphcam.given.spring_load import SpringLoad
-from graphcam.mechanism.stationary import ROUNDING, Places, ValueAt, greatest, smooth_pieces, stationary_places
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.stationary import (
+    ROUNDING,
+    Places,
+    ValueAt,
+    greatest_of,
+    places_in,
+    places_of,
+    smooth_pieces,
+)
+from graphcam.mechanism.turn_curve import over_turn
 from graphcam.showing import by_parts
 
 
@@ -62,14 +74,57 @@ def spring_preload(
     >>> round(preload, 4), degrees(phi)
     (69.2296, 45.0)
     """
-    load = SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration)
-    least = Contact(motion, load).least_force()
-    return SpringPreload(-least.value, least.phi)
+    return _least_preload(motion, SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration))
+
+
+def least_preload(cam: Cam, load: SpringLoad | ArmLoad) -> SpringPreload:
+    """The least preload of a load's spring that keeps any follower on its cam over the whole turn.
+
+    load : its own preload does not count
+    returns : preload [N; N mm of a torsion spring about an arm's pivot], negative if none is needed, and the cam angle
+        [rad].  Friction at the cam does not change it, as long as the follower does not jam
+
+    Raises
+    ------
+    DesignError : the load does not fit the follower
+
+    >>> from math import degrees, radians
+    >>> import graphcam as gc
+    >>> swing = radians(15)
+    >>> motion = gc.Motion([gc.Rise(swing, radians(75)), gc.Dwell(radians(60)), gc.Return(swing, radians(75)),
+    ...     gc.Dwell(radians(150))])
+    >>> cam = gc.Cam(motion, gc.Oscillating(arm=120, distance=130), prime_radius=50)
+    >>> spring = gc.ArmSpring(arm=60, anchor=(90, -40))
+    >>> preload, phi = gc.least_preload(cam, gc.ArmLoad(3000, 550, stiffness=3, at=spring))
+    >>> round(preload, 3), round(degrees(phi), 2)
+    (165.395, 59.04)
+    """
+    return _least_preload(cam.motion, cam.kinematics.pressed_by(load))
+
+
+def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
+    """sup -(Q - w F0)/w, with w the force per preload."""
+
+    def needed(places: Places) -> Floats:
+        """Of the preload, at places."""
+        weight, _ = load.leverage(places.values)
+        return load.preload - load.force(places.values, motion.directions[places.phase], places.phi) / weight
+
+    def slope(places: Places) -> Floats:
+        """Of the sign of its derivative, the weight being positive."""
+        (weight, weight_slope), direction = load.leverage(places.values), motion.directions[places.phase]
+        force, force_slope = load.force(places.values, direction, places.phi), load.slope(places.values, places.phi)
+        return force * weight_slope - force_slope * weight
+
+    everywhere = places_of(motion, slope, load.knots)
+    size = float((load.size(everywhere.values) / load.leverage(everywhere.values)[0]).max())
+    found = greatest_of(motion, slope, needed, size, load.knots)
+    return SpringPreload(found.value, found.phi)
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A translating follower that a load presses on its cam.
+    """A follower that a load presses on its cam; of an arm the load beside it, and torques [N mm] in place of forces.
 
     >>> from math import degrees, radians
     >>> import graphcam as gc
@@ -84,7 +139,7 @@ class Contact:
     """
 
     motion: Motion
-    load: SpringLoad
+    load: FollowerLoad
     __repr__ = by_parts
 
     def least_force(self) -> ValueAt:
@@ -117,31 +172,31 @@ class Contact:
         return found
 
     def curve(self, parts: int = 60) -> ContactCurve:
-        """xi over the turn, with ``parts`` points on every smooth piece and both its ends."""
-        phase, u0, u1 = smooth_pieces(self.motion)
-        share = np.linspace(0, 1, parts + 1)
-        u = u0[:, None] * (1 - share) + u1[:, None] * share
-        phase = np.repeat(phase[:, None], parts + 1, axis=1)
-        force = self._force(phase, u)
-        force[:, -1] = self._force(phase[:, -1], u[:, -1], "left")
-        return ContactCurve(self.motion.angle_at(phase, u).ravel(), force.ravel())
+        """xi over the turn [N], with ``parts`` points on every smooth piece and both its ends."""
+        curve = over_turn(self.motion, self.force, self.load.knots, parts)
+        return ContactCurve(curve.phi, curve.values)
 
     def force(self, places: Places) -> Floats:
         """xi at places that belong to phases [N]."""
-        return self.load.force(places.values, self.motion.directions[places.phase])
+        return self.load.force(places.values, self.motion.directions[places.phase], places.phi)
 
-    def _force(self, phase: NDArray[np.intp], u: Floats, side: Side = "right") -> Floats:
-        return self.load.force(self.motion.at(phase, u, side), self.motion.directions[phase])
+    def _force(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Floats:
+        return self.force(places_in(self.motion, phase, u, side))
+
+    def _slope(self, places: Places) -> Floats:
+        return self.load.slope(places.values, places.phi)
+
+    def _places(self) -> Places:
+        return places_of(self.motion, self._slope, self.load.knots)
 
     def _greatest(self, sign: int) -> ValueAt:
-        places = stationary_places(self.motion, self.load.slope)
-        size = float(self.load.size(places.values).max())
-        return greatest(self.motion, self.load.slope, lambda places: sign * self.force(places), size)
+        size = float(self.load.size(self._places().values).max())
+        return greatest_of(self.motion, self._slope, lambda places: sign * self.force(places), size, self.load.knots)
 
     def _stretches(self) -> list[tuple[int, float, float]]:
         """(phase, u, u) of stretches in which xi is monotonous, in order."""
-        phase, u0, u1 = smooth_pieces(self.motion)
-        places = stationary_places(self.motion, self.load.slope)
+        phase, u0, u1 = smooth_pieces(self.motion, self.load.knots)
+        places = self._places()
         roots, root_phase = places.u[2 * phase.size :], places.phase[2 * phase.size :]
         stretches: list[tuple[int, float, float]] = []
         for k, low, high in zip(phase, u0, u1, strict=True):
@@ -156,7 +211,7 @@ class Contact:
         def xi(u: float) -> float:
             """The force at a part u of the phase, from 0 to 1."""
             # From inside: beyond the end of the stretch the force may have jumped.
-            return float(self._force(np.array([phase]), np.array([u]), "left" if u == high else "right")[0])
+            return float(self._force([phase], [u], "left" if u == high else "right")[0])
 
         first, last = xi(low), xi(high)
         slack = ROUNDING * max(float(self.load.size(self.motion.at(phase, u)).max()) for u in (low, high))

@@ -55,6 +55,15 @@ class FlatFacedKinematics(Kinematics):
         """0."""
         return 0 * values[0]
 
+    def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
+        """r0 + s: the cam slides along the face."""
+        s, v, _, _ = values
+        return self.prime_radius + s, v
+
+    def tipping(self, values: Values, friction: float, roller: float) -> tuple[Floats, Floats]:
+        """-v: the contact wanders from the middle of the face."""
+        return -values[1], -values[2]
+
     def speed(self, values: Values, inset: float) -> Floats:
         """rho - inset [mm/rad]: the face turns with the cam."""
         return self.convex_radius(values) - inset

@@ -1,33 +1,53 @@
-"""The forces on a translating follower: at the contact, in the guide, and the torque on the cam.
+"""The forces between a cam and its follower: at the contact, in the guide, and the torque on the cam.
 
-The roller turns freely, so the cam pushes along the contact normal, at the pressure angle alpha to the motion, with F.
-Two bearings guide the stem; the nearer one lies b above the roller's centre, the farther one l above the nearer.
-The stem is thin, the roller light.  Equilibrium across the motion, of moments about the roller's centre, and along the
-motion under the load Q:
+The cam pushes along the contact normal, at the pressure angle alpha to the motion, with N, and as it slides past the
+follower it drags it along the profile with mu N: always in the cam's sense, for an edge or a face that slides, and for
+a roller with as much as its bearing holds it back at the rim.  Along the motion of a follower that slides
 
-    N1 - N2 = F sin alpha                          N1 b = N2 (b + l)
-    N1 = F sin alpha (l + b)/l                     N2 = F sin alpha b/l
-    F cos alpha = Q +- mu (|N1| + |N2|)            + on a rise, - on a return: friction acts against the motion
+    m (a omega^2 + v eps) = N (cos alpha - mu sin alpha) - (F0 + c s) - P
 
-so with g = mu (1 + 2 b/l) the normal force is F = Q/(cos alpha -+ g |sin alpha|).  On a rise it grows without bound as
-tan alpha approaches 1/g: the follower jams.  Of the work on a rise the part 1 - g |tan alpha| lifts the load.
+and of an arm about its pivot, with its length l, the roller radius r and the cam's sense sigma,
 
-Sources: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 6, tan alpha_max = B/(mu (2 A + B)) for the overhang A
-and the length B of the bearing.  The cam's torque is F cos alpha ds/dphi, by virtual work.
+    J (a omega^2 + v eps) = N (l cos alpha - sigma mu (l sin alpha - r)) - (F0 + c s) - l P
+
+because the friction acts at the rim, r nearer to the cam than the roller's centre.  Contact is kept where N > 0.  What
+a unit of N moves, cos alpha - mu sin alpha, is the transmission coefficient: where it is zero or less the follower
+jams.
+
+Two bearings guide a stem; the nearer one lies b above the roller's centre, the farther one l above the nearer.  The
+stem is thin, the roller light.  Equilibrium across the motion, of moments about the roller's centre, and along the
+motion under the load Q, with x = sin alpha + mu cos alpha and the moment N m of the contact about the centre, m = mu r:
+
+    N1 - N2 = N x                                  N1 b + N m = N2 (b + l)
+    N1 = N (x (l + b) + m)/l                       N2 = N (x b + m)/l
+    N (cos alpha - mu sin alpha) = Q +- mu_g (|N1| + |N2|)      + on a rise, - on a return: against the motion
+
+so with h = mu_g (|N1| + |N2|)/N the normal force is N = Q/(cos alpha - mu sin alpha -+ h).  On a rise it grows without
+bound as the denominator vanishes: the follower jams in its guide.  Without friction at the cam that is
+where tan alpha = l/(mu_g (l + 2 b)).  Of a flat face, whose contact wanders sigma v from the axis, m = -v.
+
+The torque on the cam is found by virtual power: the follower's motion, and the friction times the speed of sliding.
+
+Sources: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007) for the load; H. A. Rothbart, *Cam Design Handbook*
+(2004), chapter 6, for the guide, tan alpha_max = B/(mu (2 A + B)) for the overhang A and the length B of the bearing.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
+from graphcam.given.arm_load import ArmLoad
+from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
 from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Values, pair_cross
-from graphcam.mechanism.stationary import Places, ValueAt, greatest
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
 from graphcam.showing import by_parts
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
@@ -54,17 +74,76 @@ def jamming_angle(guide: Guide, s: Floats | float = 0.0) -> Floats:
     return np.arctan2(1.0, grip(guide, s))
 
 
+def transmission(cam: Cam, values: Values, friction: float = 0.0) -> tuple[Floats, Floats]:
+    """What a unit of normal force moves along the motion, cos alpha - mu sin alpha, and its derivative by phi.
+
+    values : (s, v, a, j)
+    returns : of an arm divided by its length, cos alpha - sigma mu (sin alpha - r/l)
+    """
+    kin = cam.kinematics
+    cosine, sine, turning = _angle(cam, values)
+    lean = kin.leaning * friction
+    rim = cam.roller_radius / kin.reach if kin.swings else 0.0
+    return cosine - lean * (sine - rim), -(sine + lean * cosine) * turning
+
+
+def jamming_margin(cam: Cam, friction: float) -> ValueAt:
+    """The least transmission coefficient over the turn, cos alpha - mu sin alpha, and where it is; at 0 the cam jams.
+
+    friction : mu between cam and follower
+
+    Raises
+    ------
+    DesignError : the friction is negative or not finite
+
+    >>> from math import degrees, radians
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, radians(60)), gc.Dwell(radians(120)), gc.Return(30, radians(120)),
+    ...     gc.Dwell(radians(60))])
+    >>> margin = gc.jamming_margin(gc.Cam(motion, gc.Translating(), prime_radius=30), friction=0.1)
+    >>> round(margin.value, 4), round(degrees(margin.phi), 2)
+    (0.5443, 25.19)
+    """
+    check_friction(friction)
+
+    def margin(places: Places) -> Floats:
+        """Its negative: the least coefficient is the greatest of these."""
+        return -transmission(cam, places.values, friction)[0]
+
+    worst = greatest_of(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
+    return worst._replace(value=-worst.value)
+
+
+def check_friction(friction: float) -> None:
+    """That a coefficient of friction can be one.
+
+    Raises
+    ------
+    DesignError : it is negative or not finite
+    """
+    if not (math.isfinite(friction) and friction >= 0):
+        raise DesignError("friction", friction, "a finite number of 0 or more")
+
+
+def _angle(cam: Cam, values: Values) -> tuple[Floats, Floats, Floats]:
+    """cos and sin of the pressure angle, and its slope by phi."""
+    q, q1 = cam.kinematics.pressure(values)
+    size = np.hypot(*q)
+    return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2
+
+
 @dataclass(frozen=True, eq=False)
 class Forces:
     """The forces at places of a cam; every array is shaped like the places.  Negative: the cam would have to pull.
 
-    phi : rad;  load : Q, along the motion [N]
-    normal : F, along the contact normal [N]; NaN where the guide jams
-    along, side : F cos(alpha), which drives the follower, and F sin(alpha), which presses it against the guide [N]
-    near, far : N1 and N2 of the bearings, in the sense that they balance a positive side force [N]
-    friction : of both bearings together [N]
-    torque : on the cam [N mm], positive where it must be driven
-    efficiency : part of the work that passes the guide; NaN where nothing moves
+    phi : rad;  load : Q, along the motion [N], of an arm about its pivot [N mm]
+    normal : N, along the contact normal [N]; NaN where the follower jams
+    along, side : N cos(alpha), along the motion, and N sin(alpha), across it [N]
+    contact_friction : mu N, along the profile [N]
+    near, far : N1 and N2 of the bearings, in the sense that they balance a positive side force [N]; NaN of an arm
+    friction : of both bearings together [N];  torque : on the cam [N mm], positive where it must be driven
+    efficiency : part of the work that passes the guide; NaN where nothing moves, and of an arm
+    transmission : cos(alpha) - mu sin(alpha), what a unit of the normal force moves
     """
 
     phi: Floats
@@ -77,15 +156,21 @@ class Forces:
     friction: Floats
     torque: Floats
     efficiency: Floats
+    transmission: Floats
+    contact_friction: Floats
 
 
 @dataclass(frozen=True)
 class CamForces:
-    """The forces between a cam and a translating follower under a load, in a guide.
+    """The forces between a cam and its follower under a load, with friction between them, and of a stem in a guide.
+
+    load : a :class:`~graphcam.SpringLoad`, or of an arm an :class:`~graphcam.ArmLoad`
+    guide : of a follower that slides;  friction : mu, between cam and follower
 
     Raises
     ------
-    DesignError : the follower is not a translating one, or it rises beyond the nearer bearing
+    DesignError : the load does not fit the follower, the friction is negative, an arm has a guide, or the follower
+        rises beyond the nearer bearing
 
     >>> from math import degrees, radians
     >>> import graphcam as gc
@@ -102,107 +187,235 @@ class CamForces:
     """
 
     cam: Cam
-    load: SpringLoad
+    load: SpringLoad | ArmLoad
     guide: Guide = field(default=NO_GUIDE)
+    friction: float = 0.0
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
-        if not self.cam.kinematics.has_forces:
-            raise DesignError("follower", self.cam.follower.kind, "'translating'", "forces are worked out for it alone")
+        check_friction(self.friction)
+        _ = self.pressing  # says at once what does not fit
+        if not self.guide.friction:
+            return
+        if self.cam.kinematics.swings:
+            remedy = "an arm turns in a bearing: leave the guide out"
+            raise DesignError("follower", self.cam.follower.kind, "one that slides in a guide", remedy)
         overhang, lift = self.guide.overhang, self.cam.motion.lift
-        if self.guide.friction and overhang < lift:
+        if overhang < lift:
             remedy = "place the nearer bearing higher: the roller's centre rises towards it"
             raise DesignError("overhang", overhang, f"the lift of {lift:g} mm or more", remedy)
+
+    @cached_property
+    def pressing(self) -> FollowerLoad:
+        """The load as it stands beside this cam."""
+        return self.cam.kinematics.pressed_by(self.load)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Forces:
         """The forces at the fraction u of a phase, so that an end of a phase is seen from inside.
 
         phase : index of the phase, one or as many as there are u
         """
-        motion = self.cam.motion
-        values, direction = motion.at(phase, u, side), self.cam.motion.directions[np.asarray(phase, dtype=np.intp)]
-        s, v, _, _ = values
-        cosine, sine, _ = self._angle(values)
-        load = self.load.force(values, direction)
-        normal = self._normal(values, direction)
-        across, leverage = normal * sine, (self.guide.overhang - s) / self.guide.length
-        slip = grip(self.guide, s) * np.abs(sine) / cosine
+        return self.of(places_in(self.cam.motion, phase, u, side))
+
+    def of(self, places: Places) -> Forces:
+        """The forces at places that belong to phases."""
+        values, direction = places.values, self.cam.motion.directions[places.phase]
+        cosine, sine, _ = _angle(self.cam, values)
+        normal, slip, (near, far) = self.normal(places), self._slip(places), self.bearings(values)[0]
         with np.errstate(invalid="ignore"):
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
-        along, friction = normal * cosine, grip(self.guide, s) * np.abs(across)
-        bearings, efficiency = (across * (1 + leverage), across * leverage), np.where(direction == 0, np.nan, works)
-        phi = motion.angle_at(phase, u)
-        return Forces(phi, load, normal, along, across, *bearings, friction, along * v, efficiency)
+        stem = np.nan if self.cam.kinematics.swings else 1.0
+        return Forces(
+            phi=places.phi,
+            load=self.pressing.force(values, direction, places.phi),
+            normal=normal,
+            along=normal * cosine,
+            side=normal * sine,
+            near=stem * normal * near,
+            far=stem * normal * far,
+            friction=np.abs(normal) * self._held(values)[0],
+            torque=normal * self._turning(values)[0],
+            efficiency=np.where(direction == 0, np.nan, stem * works),
+            transmission=transmission(self.cam, values, self.friction)[0],
+            contact_friction=self.friction * normal,
+        )
 
     def greatest_normal(self) -> ValueAt:
         """The greatest normal force over the turn [N], both sides of every jump included.
 
         Raises
         ------
-        DesignError : the guide jams on a rise
+        DesignError : the follower jams, at the cam or in its guide
         """
-        self._check_jamming()
-        return greatest(self.cam.motion, self.normal_slope, self.normal)
+        return self._greatest(self.normal_slope, self.normal)
+
+    def least_normal(self) -> ValueAt:
+        """The least normal force over the turn [N]; contact is lost where it is negative.
+
+        Raises
+        ------
+        DesignError : the follower jams, at the cam or in its guide
+        """
+        return self._greatest(self.normal_slope, self.normal, -1)
+
+    def greatest_torque(self) -> ValueAt:
+        """The greatest torque that must drive the cam [N mm].
+
+        Raises
+        ------
+        DesignError : the follower jams, at the cam or in its guide
+
+        >>> from math import degrees, radians
+        >>> import graphcam as gc
+        >>> swing = radians(15)
+        >>> motion = gc.Motion([gc.Rise(swing, radians(120)), gc.Dwell(radians(60)), gc.Return(swing, radians(120)),
+        ...     gc.Dwell(radians(60))])
+        >>> cam = gc.Cam(motion, gc.Oscillating(arm=120, distance=130, roller_radius=12), prime_radius=50)
+        >>> forces = gc.CamForces(cam, gc.ArmLoad(2000, 300, 5000, preload=6000), friction=0.1)
+        >>> torque = forces.greatest_torque()
+        >>> round(torque.value, 1), round(degrees(torque.phi), 2)
+        (1953.2, 60.48)
+        """
+        return self._greatest(self.torque_slope, self.torque)
+
+    def least_torque(self) -> ValueAt:
+        """The least torque on the cam [N mm], negative where the follower drives it.
+
+        Raises
+        ------
+        DesignError : the follower jams, at the cam or in its guide
+        """
+        return self._greatest(self.torque_slope, self.torque, -1)
 
     def least_efficiency(self) -> ValueAt:
         """The least efficiency of the guide over the rises; at 0 or below it jams."""
-        worst = greatest(self.cam.motion, self._slip_slope, self._slip_on_rises)
-        return ValueAt(1 - worst.value, worst.phi, worst.side)
+        worst = greatest_of(self.cam.motion, self._slip_slope, self._slip_on_rises)
+        return worst._replace(value=1 - worst.value)
 
     # --- for other quantities of the contact -------------------------------------------------------------------------
 
     def normal(self, places: Places) -> Floats:
-        """F at places that belong to phases [N]."""
-        return self._normal(places.values, self.cam.motion.directions[places.phase])
+        """N at places that belong to phases [N]; NaN where the follower jams."""
+        direction, values = self.cam.motion.directions[places.phase], places.values
+        left = self._left(values, direction)[0]
+        return self.pressing.force(values, direction, places.phi) / np.where(left > 0, left, np.nan)
 
-    def normal_inside(self, values: Values) -> Floats:
-        """F [N] inside a phase, where v has the sense of the motion, from (s, v, a, j)."""
-        return self._normal(values, np.sign(values[1]))
-
-    def normal_slope(self, values: Values) -> Floats:
-        """dF/dphi [N/rad] inside a phase, from (s, v, a, j)."""
-        # F = Q/D
-        direction = np.sign(values[1])
-        cosine, sine, turning = self._angle(values)
-        share, share_slope = self._share(values, direction)
-        q, q_slope = self.load.force(values, direction), self.load.slope(values)
-        d = cosine - share * np.abs(sine)
-        d_slope = -(sine + share * np.sign(sine) * cosine) * turning - share_slope * np.abs(sine)
+    def normal_slope(self, places: Places) -> Floats:
+        """dN/dphi [N/rad] inside a phase."""
+        # N = Q/D
+        direction, values = self.cam.motion.directions[places.phase], places.values
+        q, q_slope = self.pressing.force(values, direction, places.phi), self.pressing.slope(values, places.phi)
+        d, d_slope = self._left(values, direction)
         with np.errstate(divide="ignore", invalid="ignore"):
             return (q_slope * d - q * d_slope) / d**2
 
-    def _normal(self, values: Values, direction: Floats) -> Floats:
-        cosine, sine, _ = self._angle(values)
-        share, _ = self._share(values, direction)
-        d = cosine - share * np.abs(sine)
-        return self.load.force(values, direction) / np.where(d > 0, d, np.nan)
+    def torque(self, places: Places) -> Floats:
+        """The torque on the cam at places that belong to phases [N mm]; NaN where the follower jams."""
+        return self.normal(places) * self._turning(places.values)[0]
 
-    def _share(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
-        """g with the sense of the motion, and its slope."""
-        slope = -2 * self.guide.friction / self.guide.length * values[1]
-        return direction * grip(self.guide, values[0]), direction * slope
+    def torque_slope(self, places: Places) -> Floats:
+        """Its derivative by phi inside a phase [N mm/rad]."""
+        lever, lever_slope = self._turning(places.values)
+        return self.normal_slope(places) * lever + self.normal(places) * lever_slope
+
+    def check(self) -> None:
+        """That the follower moves.
+
+        Raises
+        ------
+        DesignError : it jams, at the cam or in its guide
+        """
+        margin = jamming_margin(self.cam, self.friction)
+        if margin.value <= 0:
+            allowed = f"less than the {self._most_friction():.4g} at which the follower jams, {self._where(margin)}"
+            remedy = "lubricate, let a roller turn, or enlarge the prime radius"
+            raise DesignError("friction", self.friction, allowed, remedy)
+        if self.guide.friction:
+            self._check_guide()
+
+    def _greatest(
+        self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1
+    ) -> ValueAt:
+        """The greatest value, or with -1 the least, of a quantity that grows without bound where the follower jams."""
+        self.check()
+        found = greatest_of(self.cam.motion, slope, lambda places: sign * quantity(places), knots=self.pressing.knots)
+        return found._replace(value=sign * found.value)
+
+    def _left(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
+        """What a unit of normal force moves along the motion, less what the guide holds of it, and its slope.
+
+        Of an arm about the pivot [mm].
+        """
+        (moved, moved_slope), (held, held_slope) = transmission(self.cam, values, self.friction), self._held(values)
+        reach = self.cam.kinematics.reach
+        return reach * moved - direction * held, reach * moved_slope - direction * held_slope
+
+    def _held(self, values: Values) -> tuple[Floats, Floats]:
+        """h, the friction in the guide over the normal force, and its slope."""
+        guide, still = self.guide, np.zeros_like(values[0])
+        if not guide.friction:
+            return still, still
+        bearings, slopes = self.bearings(values)
+        held_slope = sum((np.sign(n) * slope for n, slope in zip(bearings, slopes, strict=True)), still)
+        return guide.friction * (np.abs(bearings[0]) + np.abs(bearings[1])), guide.friction * held_slope
+
+    def bearings(self, values: Values) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
+        """N1 and N2 of the bearings over the normal force, and their slopes."""
+        cosine, sine, turning = _angle(self.cam, values)
+        moment, moment_slope = self.cam.kinematics.tipping(values, self.friction, self.cam.roller_radius)
+        x, x_slope = sine + self.friction * cosine, (cosine - self.friction * sine) * turning
+        b, length = self.guide.overhang - values[0], self.guide.length
+        far, far_slope = x * (b / length) + moment / length, (x_slope * b - x * values[1] + moment_slope) / length
+        return (x + far, far), (x_slope + far_slope, far_slope)
+
+    def _turning(self, values: Values) -> tuple[Floats, Floats]:
+        """The torque on the cam over the normal force [mm], and its slope."""
+        _, v, a, _ = values
+        moved, moved_slope = transmission(self.cam, values, self.friction)
+        sliding, sliding_slope = self.cam.kinematics.sliding(values, self.cam.roller_radius)
+        reach = self.cam.kinematics.reach
+        lever = reach * v * moved + self.friction * sliding
+        return lever, reach * (a * moved + v * moved_slope) + self.friction * sliding_slope
+
+    def _slip(self, places: Places) -> Floats:
+        return self._held(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
 
     def _slip_on_rises(self, places: Places) -> Floats:
-        cosine, sine, _ = self._angle(places.values)
-        slip = grip(self.guide, places.values[0]) * np.abs(sine) / cosine
-        return np.where(self.cam.motion.directions[places.phase] > 0, slip, np.nan)
+        return np.where(self.cam.motion.directions[places.phase] > 0, self._slip(places), np.nan)
 
-    def _slip_slope(self, values: Values) -> Floats:
-        """Of the sign of (g |tan alpha|)'."""
-        cosine, sine, turning = self._angle(values)
-        share, share_slope = self._share(values, np.ones_like(values[0]))
-        return share_slope * np.abs(sine) * cosine + share * np.sign(sine) * turning
+    def _slip_slope(self, places: Places) -> Floats:
+        """Of the sign of the slope of h/(cos alpha - mu sin alpha)."""
+        moved, moved_slope = transmission(self.cam, places.values, self.friction)
+        held, held_slope = self._held(places.values)
+        return held_slope * moved - held * moved_slope
 
-    def _check_jamming(self) -> None:
-        efficiency, phi, _ = self.least_efficiency()
-        if efficiency <= 0:
-            alpha, limit = self.cam.pressure_angle(phi), jamming_angle(self.guide, self.cam.motion(phi)[0])
-            allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
-            remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
-            raise DesignError("pressure angle", f"{math.degrees(alpha):.4g} degrees", allowed, remedy)
+    def _most_friction(self) -> float:
+        """The friction at the cam at which the least transmission coefficient is zero."""
 
-    def _angle(self, values: Values) -> tuple[Floats, Floats, Floats]:
-        """cos and sin of the pressure angle, and its slope by phi."""
-        q, q1 = self.cam.kinematics.pressure(values)
-        size = np.hypot(*q)
-        return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2
+        # cos alpha = mu x, with x = sin alpha less r/l of an arm's roller
+        def over(places: Places) -> Floats:
+            plain, _ = transmission(self.cam, places.values)
+            return (plain - transmission(self.cam, places.values, 1.0)[0]) / plain
+
+        def slope(places: Places) -> Floats:
+            (plain, plain_slope), (held, held_slope) = (transmission(self.cam, places.values, mu) for mu in (0.0, 1.0))
+            return held * plain_slope - held_slope * plain
+
+        return 1 / greatest_of(self.cam.motion, slope, over).value
+
+    def _where(self, found: ValueAt) -> str:
+        alpha = math.degrees(self.cam.pressure_angle(found.phi))
+        return f"at a cam angle of {math.degrees(found.phi):.4g} degrees, where the pressure angle is {alpha:.4g}"
+
+    def _check_guide(self) -> None:
+        worst = self.least_efficiency()
+        if worst.value > 0:
+            return
+        if self.friction:
+            allowed = f"so small that the follower does not jam in its guide, {self._where(worst)}"
+            raise DesignError("friction", self.friction, allowed, "lubricate guide and cam, or lengthen the guide")
+        alpha, limit = self.cam.pressure_angle(worst.phi), jamming_angle(self.guide, self.cam.motion(worst.phi)[0])
+        found = f"{math.degrees(alpha):.4g} degrees at a cam angle of {math.degrees(worst.phi):.4g}"
+        allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
+        remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
+        raise DesignError("pressure angle", found, allowed, remedy)

@@ -7,7 +7,7 @@ Source: K. L. Johnson, *Contact Mechanics* (1985), chapter 4.
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +18,8 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest, smooth_pieces
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
+from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.showing import by_parts
 
 
@@ -130,28 +131,21 @@ class ContactStress:
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
         """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
-        forces, values = self.forces.at(phase, u, side), self.forces.cam.motion.at(phase, u, side)
-        kin = self._kinematics
-        relative, _ = kin.relative_radius(values, self._roller)
+        return self.of(places_in(self.forces.cam.motion, phase, u, side))
+
+    def of(self, places: Places) -> Stresses:
+        """The contact at places that belong to phases."""
+        force, modulus = self.forces.normal(places), self.contact.modulus
+        relative, _ = self._kinematics.relative_radius(places.values, self._roller)
         sound = np.where(relative > 0, relative, np.nan)
-        load = np.maximum(forces.normal, 0) / self.contact.width / math.pi
-        stiffness = self.contact.modulus
-        peak, half_width = np.sqrt(load * stiffness / sound), 2 * np.sqrt(load * sound / stiffness)
-        return Stresses(forces.phi, forces.normal, self._profile_radius(values), peak, half_width)
+        load = np.maximum(force, 0) / self.contact.width / math.pi
+        peak, half_width = np.sqrt(load * modulus / sound), 2 * np.sqrt(load * sound / modulus)
+        return Stresses(places.phi, force, self._profile_radius(places.values), peak, half_width)
 
-    def curve(self, parts: int = 60) -> Stresses:
-        """The contact over the turn in order: ``parts`` places on every smooth piece after its first, both ends seen.
-
-        So at a jump there is a place on either side of it.
-        """
-        phase, u0, u1 = smooth_pieces(self.forces.cam.motion)
-        share = np.linspace(0, 1, parts + 1)
-        u = u0[:, None] * (1 - share) + u1[:, None] * share
-        inside, ends = self.at(phase[:, None], u), self.at(phase, u1, "left")
-        found = {key.name: np.array(np.broadcast_to(getattr(inside, key.name), u.shape)) for key in fields(Stresses)}
-        for name, values in found.items():
-            values[:, -1] = getattr(ends, name)
-        return Stresses(**{name: values.ravel() for name, values in found.items()})
+    def curve(self) -> TurnCurve:
+        """The peak pressure over the turn [MPa]."""
+        knots = self.forces.pressing.knots
+        return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots)
 
     def greatest(self) -> ValueAt:
         """The greatest peak pressure over the turn [MPa], both sides of every jump included.
@@ -166,7 +160,7 @@ class ContactStress:
             raise self._undercut(rho)
         if self.forces.greatest_normal().value <= 0:
             raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
-        squared, phi, side = greatest(cam.motion, self.slope, self._squared)
+        squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 
     def contact_at(self, found: ValueAt) -> Stresses:
@@ -185,10 +179,10 @@ class ContactStress:
             raise DesignError("permitted stress", permitted, "a finite number greater than 0 MPa")
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
-    def slope(self, values: Values) -> Floats:
-        """Of the sign of the peak pressure's slope, that is of (F/R)', from (s, v, a, j)."""
-        relative, relative_slope = self._kinematics.relative_radius(values, self._roller)
-        return self.forces.normal_slope(values) * relative - self.forces.normal_inside(values) * relative_slope
+    def slope(self, places: Places) -> Floats:
+        """Of the sign of the peak pressure's slope, that is of (F/R)', at places inside phases."""
+        relative, relative_slope = self._kinematics.relative_radius(places.values, self._roller)
+        return self.forces.normal_slope(places) * relative - self.forces.normal(places) * relative_slope
 
     @property
     def _roller(self) -> float:

@@ -17,8 +17,11 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.errors import DesignError
+from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
+from graphcam.given.spring_load import SpringLoad
 
 Complexes = NDArray[np.complexfloating[Any, Any]]
 Pair = tuple[Floats | float, Floats | float]
@@ -59,8 +62,8 @@ class Kinematics(ABC):
     """Whether a roller touches the cam, or a knife edge in its place: then a smaller roller mends an undercut."""
     has_pressure_angle: ClassVar[bool] = True
     """Whether the contact pushes the follower aside at all."""
-    has_forces: ClassVar[bool] = False
-    """Whether :mod:`~graphcam.mechanism.forces` works out the forces on it."""
+    swings: ClassVar[bool] = False
+    """Whether the follower swings about a pivot: then s is an angle, and a load along the motion a torque."""
 
     @classmethod
     @abstractmethod
@@ -99,6 +102,40 @@ class Kinematics(ABC):
     def pressure_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
         return pair_cross(*self.pressure(values))
+
+    def pressed_by(self, load: Any) -> FollowerLoad:
+        """A load on the follower beside this cam.
+
+        Raises
+        ------
+        DesignError : it is a load on another kind of follower, or does not fit
+        """
+        if not isinstance(load, SpringLoad):
+            found = f"of the kind {type(load).__name__}"
+            raise DesignError("load", found, "a SpringLoad, for the follower slides", "an ArmLoad turns an arm")
+        return load
+
+    @property
+    def reach(self) -> Any:
+        """How far the trace point moves with s [mm per mm; of an arm per rad]."""
+        return 1.0
+
+    @property
+    def leaning(self) -> Any:
+        """The sign of sin(alpha) where the cam, that slides past the follower, holds it back by friction: +1 or -1."""
+        return 1.0
+
+    @abstractmethod
+    def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
+        """How fast the cam slides past a follower whose roller does not turn [mm/rad], and that by phi."""
+
+    def tipping(self, values: Values, friction: float, roller: float) -> tuple[Floats, Floats]:
+        """The moment of a unit normal force with its friction about trace point or middle of the face, and its slope.
+
+        Positive as that of the friction on a roller [mm].
+        """
+        still = np.zeros_like(values[0])
+        return still + friction * roller, still
 
     @abstractmethod
     def speed(self, values: Values, inset: float) -> Floats:
@@ -173,6 +210,12 @@ class RollerKinematics(Kinematics):
         """The trace point [mm]."""
         x, y = self.trace(values)[0]
         return x + 1j * np.asarray(y)
+
+    def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
+        """|q| - r: the cam slides past the trace point with |q|, and past the contact with less by the roller."""
+        (along, across), (along1, across1) = self.pressure(values)
+        speed = np.hypot(along, across)
+        return speed - roller, (along * along1 + across * across1) / speed
 
     def speed(self, values: Values, inset: float) -> Floats:
         """|p'| (1 - inset kappa) [mm/rad]."""

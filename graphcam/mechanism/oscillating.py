@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
+from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Oscillating
+from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.pieces import sine_cosine
@@ -30,6 +32,7 @@ class OscillatingKinematics(RollerKinematics):
     arm: Any
     distance: Any
     swing: Any
+    swings = True
 
     @classmethod
     def of(cls, sizes: Oscillating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
@@ -98,6 +101,28 @@ class OscillatingKinematics(RollerKinematics):
         """g = l v (sigma + v) and h = l a of kappa, and g', h'."""
         _, v, a, j = values
         return (self.arm * v * (self.sigma + v), self.arm * a), (self.arm * a * (self.sigma + 2 * v), self.arm * j)
+
+    def pressed_by(self, load: Any) -> FollowerLoad:
+        """A torque about the pivot."""
+        if not isinstance(load, ArmLoad):
+            found = f"of the kind {type(load).__name__}"
+            raise DesignError("load", found, "an ArmLoad, for the follower swings", "give its inertia about the pivot")
+        return load.placed(self.arm, self.distance, self.psi0, self.swing)
+
+    @property
+    def reach(self) -> Any:
+        """l: s is an angle."""
+        return self.arm
+
+    @property
+    def leaning(self) -> Any:
+        """sigma: alpha is measured in one sense about the arm, whichever way the cam turns."""
+        return self.sigma
+
+    def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
+        """|q| - r (1 + sigma v): the roller turns with the arm."""
+        speed, slope = super().sliding(values, roller)
+        return speed - self.sigma * roller * values[1], slope - self.sigma * roller * values[2]
 
     def appearance(self, motion: Motion, values: Values) -> Appearance:
         """An arm; from the left it swings clockwise on the rise."""

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.roller_contact import RollerContact
-from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
+from graphcam.mechanism.stationary import Places, places_of, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
 
 LIMITS = ("pressure angle on the rise", "pressure angle on the return", "curvature", "stress")
@@ -70,13 +70,13 @@ class TurnPlaces:
     load: Floats
 
     @classmethod
-    def of(cls, motion: Motion, load: SpringLoad, places: Places) -> TurnPlaces:
+    def of(cls, motion: Motion, load: FollowerLoad, places: Places) -> TurnPlaces:
         """The same places with their loads."""
         direction = motion.directions[places.phase]
-        return cls(direction, places.values, load.force(places.values, direction))
+        return cls(direction, places.values, load.force(places.values, direction, places.phi))
 
     @classmethod
-    def spread(cls, motion: Motion, load: SpringLoad, finer: int = 1) -> TurnPlaces:
+    def spread(cls, motion: Motion, load: FollowerLoad, finer: int = 1) -> TurnPlaces:
         """Places all over the turn, ``finer`` times as many as usual, both ends of every piece among them."""
         phase, u0, u1 = smooth_pieces(motion)
         share = (1 - np.cos(np.linspace(0, np.pi, finer * SPREAD))) / 2
@@ -93,10 +93,12 @@ class TurnPlaces:
     @classmethod
     def worst(cls, stress: ContactStress) -> TurnPlaces:
         """Where pressure angle, curvature and stress of one cam can have their exact extremes."""
-        cam, load = stress.forces.cam, stress.forces.load
-        kin = cam.kinematics
-        slopes = (kin.pressure_slope, kin.curvature_slope, stress.slope)
-        first, *others = (cls.of(cam.motion, load, stationary_places(cam.motion, slope)) for slope in slopes)
+        cam, load = stress.forces.cam, stress.forces.pressing
+        kin, motion = cam.kinematics, cam.motion
+        steep, sharp = (stationary_places(motion, slope) for slope in (kin.pressure_slope, kin.curvature_slope))
+        first, *others = (
+            cls.of(motion, load, places) for places in (steep, sharp, places_of(motion, stress.slope, load.knots))
+        )
         for other in others:
             first = first.joined(other)
         return first

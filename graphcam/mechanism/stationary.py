@@ -6,16 +6,16 @@ C_a h/F^2: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapter
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion import Dwell, Motion, Phase
 from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Values
 
@@ -54,10 +54,24 @@ def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Plac
     >>> stationary_places(motion, slope=lambda values: values[2]).u.round(12).tolist()  # where v is greatest
     [0.0, 0.0, 1.0, 1.0, 0.5, 0.5]
     """
-    phase, u0, u1 = smooth_pieces(motion)
+    return places_of(motion, lambda places: slope(places.values))
+
+
+def places_of(motion: Motion, slope: Callable[[Places], Floats], knots: Sequence[float] = ()) -> Places:
+    """The same of a quantity that depends on the cam angle besides, or on the sense of the motion.
+
+    slope : of places;  knots : cam angles [rad] at which the slope may jump inside a smooth piece
+    """
+    phase, u0, u1 = smooth_pieces(motion, knots)
     phase_r, u_r = _roots(motion, slope, phase, u0, u1)
     begin, end, inner = motion.at(phase, u0, "right"), motion.at(phase, u1, "left"), motion.at(phase_r, u_r)
     return at_places(motion, (phase, u0, begin), (phase, u1, end), (phase_r, u_r, inner))
+
+
+def places_in(motion: Motion, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Places:
+    """Places at fractions u of phases, shaped like both together."""
+    index, fraction = np.broadcast_arrays(np.asarray(phase, dtype=np.intp), np.asarray(u, dtype=np.float64))
+    return Places(index, fraction, motion.angle_at(index, fraction), motion.at(index, fraction, side))
 
 
 def at_places(motion: Motion, *parts: tuple[NDArray[np.intp], Floats, Values]) -> Places:
@@ -68,31 +82,43 @@ def at_places(motion: Motion, *parts: tuple[NDArray[np.intp], Floats, Values]) -
     return Places(phase, u, motion.angle_at(phase, u), (s, v, a, j))
 
 
-def smooth_pieces(motion: Motion) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """Where a motion is smooth: (p,) phase, and the fractions of it where the piece begins and ends."""
+def smooth_pieces(motion: Motion, knots: Sequence[float] = ()) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Where a motion is smooth: (p,) phase, and the fractions of it where the piece begins and ends.
+
+    knots : cam angles [rad] at which pieces end besides
+    """
     pieces = [
         (k, u0, u1)
         for k, phase in enumerate(motion.phases)
-        for u0, u1 in pairwise((0.0, *(() if isinstance(phase, Dwell) else phase.normalised.breaks), 1.0))
+        for u0, u1 in pairwise((0.0, *_inside(motion, k, phase, knots), 1.0))
     ]
     phase, u0, u1 = zip(*pieces, strict=True)
     return np.array(phase), np.array(u0), np.array(u1)
 
 
+def _inside(motion: Motion, k: int, phase: Phase, knots: Sequence[float]) -> list[float]:
+    """The fractions of a phase at which one piece of it meets the next."""
+    breaks = [] if isinstance(phase, Dwell) else list(phase.normalised.breaks)
+    shares = ((phi - float(motion.starts[k])) / phase.angle for phi in knots)
+    return sorted({*breaks, *(u for u in shares if APART < u < 1 - APART and all(abs(u - b) > APART for b in breaks))})
+
+
 def _roots(
-    motion: Motion, slope: Callable[[Values], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
+    motion: Motion, slope: Callable[[Places], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
 ) -> tuple[NDArray[np.intp], Floats]:
     moving = motion.directions[phase] != 0  # in a dwell nothing changes
     phase, u0, u1 = phase[moving], u0[moving], u1[moving]
     u = u0[:, None] + (u1 - u0)[:, None] * SAMPLES
-    sign = np.sign(slope(motion.at(phase[:, None], u)))
+    sign = np.sign(slope(places_in(motion, phase[:, None], u)))
     on_root = np.nonzero(sign == 0)
     piece, left = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
     inside = phase[piece]
-    bracketed = roots(lambda u: slope(motion.at(inside, u)), u[piece, left], u[piece, left + 1])
+    bracketed = roots(lambda u: slope(places_in(motion, inside, u)), u[piece, left], u[piece, left + 1])
     return np.concatenate([inside, phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])
 
 
+APART = 1e-9
+"""Knots that lie nearer to a break than this part of a phase are one with it."""
 ROUNDING = 32 * np.finfo(np.float64).eps
 """Values that differ by less than this part of their terms are the same value."""
 
@@ -120,8 +146,22 @@ def greatest(
     >>> round(value, 3), phi, side  # the acceleration just after the start, and on to the middle
     (12.159, 0.0, 'right')
     """
-    places = stationary_places(motion, slope)
-    values, pieces = quantity(places), len(smooth_pieces(motion)[0])
+    return greatest_of(motion, lambda places: slope(places.values), quantity, size)
+
+
+def greatest_of(
+    motion: Motion,
+    slope: Callable[[Places], Floats],
+    quantity: Callable[[Places], Floats],
+    size: float = 0.0,
+    knots: Sequence[float] = (),
+) -> ValueAt:
+    """The same of a quantity whose slope depends on the cam angle besides, or on the sense of the motion.
+
+    slope : of places;  knots : cam angles [rad] at which it may jump inside a smooth piece
+    """
+    places = places_of(motion, slope, knots)
+    values, pieces = quantity(places), len(smooth_pieces(motion, knots)[0])
     top = np.nanmax(values)
     best = np.flatnonzero(values >= top - ROUNDING * max(size, abs(top)))
     k = best[np.argmin(places.phi[best])]

@@ -19,7 +19,6 @@ class TranslatingKinematics(RollerKinematics):
     """z = e + i (s0 + s), with s0 = sqrt((r0 - e)(r0 + e)); offset : e [mm]."""
 
     offset: Any
-    has_forces = True
 
     @classmethod
     def of(cls, sizes: Translating, prime_radius: Any, sigma: Any, lift: Any) -> Self:

@@ -78,15 +78,13 @@ class SpringDesign:
 
     @cached_property
     def forces(self) -> CamForces:
-        """At the contact, of a translating follower."""
+        """At the contact."""
         return CamForces(self.cam, self.load)
 
     @cached_property
     def greatest_normal(self) -> ValueAt:
-        """The greatest force along the contact normal [N]; of a flat face it is the force along the motion."""
-        if self.cam.kinematics.has_forces:
-            return CamForces(self.cam, self.load).greatest_normal()
-        return self.contact.greatest_force()
+        """The greatest force along the contact normal [N]."""
+        return self.forces.greatest_normal()
 
     @cached_property
     def force_plan(self) -> Construction | None:

@@ -142,7 +142,7 @@ class StressDesign:
         if self.greatest is None:
             return {}
         curve, motion = self.stress.curve(), self.forces.cam.motion
-        turn = StressOverTurn(motion, curve.phi, curve.peak_pressure, self.greatest, self.material.permitted_stress)
+        turn = StressOverTurn(motion, curve.phi, curve.values, self.greatest, self.material.permitted_stress)
         return {MEANING.name: Construction(MEANING, turn, self.chain.pencil, {}, {}, stress_steps)}
 
     def table(self) -> Table:

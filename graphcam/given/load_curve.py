@@ -1,0 +1,113 @@
+"""A load over the turn: a table of cam angles and forces, with straight lines between its rows."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from graphcam.errors import DesignError
+from graphcam.given.laws import Floats
+from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
+
+
+@dataclass(frozen=True)
+class LoadCurve:
+    """A load that depends on the cam angle; between two rows it changes evenly.
+
+    phi : (n,) cam angles [rad], each greater than the one before, from 0 to a full turn
+    force : (n,) the load there [N], positive where it presses the follower on the cam; the last as the first
+
+    Raises
+    ------
+    DesignError : of the quantity ``load``: the rows do not cover the turn, are out of order, or do not close
+
+    >>> import graphcam as gc
+    >>> from math import radians
+    >>> press = gc.LoadCurve(np.radians([0, 90, 100, 360]), [20, 20, 120, 20])
+    >>> press(np.radians([45, 95, 360])).round(9).tolist()
+    [20.0, 70.0, 20.0]
+    """
+
+    phi: Sequence[float]
+    force: Sequence[float]
+
+    def __post_init__(self) -> None:
+        phi, force = (tuple(np.asarray(each, dtype=np.float64).ravel().tolist()) for each in (self.phi, self.force))
+        object.__setattr__(self, "phi", phi)
+        object.__setattr__(self, "force", force)
+        if len(phi) != len(force) or not all(map(math.isfinite, (*phi, *force))):
+            raise DesignError("load", f"a table of {len(phi)} angles and {len(force)} loads", "rows of finite numbers")
+        if len(phi) < 2 or abs(phi[0]) > CLOSURE or abs(phi[-1] - FULL_TURN) > CLOSURE:
+            covered = f"from {_degrees(phi[0])} to {_degrees(phi[-1])}" if phi else "without a row"
+            remedy = "begin the table with a row at 0 degrees and end it with one at 360"
+            raise DesignError(
+                "load", f"a table {covered}", "a table that covers the turn, from 0 to 360 degrees", remedy
+            )
+        for before, after in pairwise(phi):
+            if not before < after:
+                found = f"a table with {_degrees(after)} after {_degrees(before)}"
+                remedy = "a jump is a steep line between two rows that lie close together"
+                raise DesignError("load", found, "a table whose angles grow from row to row", remedy)
+        if not math.isclose(force[0], force[-1], rel_tol=CLOSURE, abs_tol=CLOSURE):
+            found, remedy = f"{force[0]:g} N at 0 degrees and {force[-1]:g} N at 360", "a turn ends as the next begins"
+            raise DesignError("load", found, "the same at both", remedy)
+
+    def __call__(self, phi: Floats | float) -> Floats:
+        """The load [N] at cam angles [rad], any real numbers; NaN for NaN."""
+        return np.interp(wrap(phi), self.phi, self.force)
+
+    def slope(self, phi: Floats | float) -> Floats:
+        """Its derivative by phi [N/rad]; at a row that of the line behind it."""
+        angles = np.asarray(self.phi)
+        row = np.clip(np.searchsorted(angles, wrap(phi), side="right") - 1, 0, angles.size - 2)
+        return self._steepness[row]
+
+    @cached_property
+    def _steepness(self) -> Floats:
+        return np.diff(self.force) / np.diff(self.phi)
+
+
+Load = float | LoadCurve
+"""A load along the motion: the same over the turn [N], or one that depends on the cam angle."""
+
+
+def load_at(load: Load, phi: Floats | float) -> Floats | float:
+    """A load [N] at cam angles [rad]."""
+    return load(phi) if isinstance(load, LoadCurve) else load
+
+
+def load_slope(load: Load, phi: Floats | float) -> Floats | float:
+    """The derivative of a load by phi [N/rad]."""
+    return load.slope(phi) if isinstance(load, LoadCurve) else 0.0
+
+
+def knots_of(load: Load) -> tuple[float, ...]:
+    """The cam angles [rad] at which the load's slope may jump."""
+    return tuple(load.phi) if isinstance(load, LoadCurve) else ()
+
+
+def check_load(load: Load) -> None:
+    """That a load of one number is finite.
+
+    Raises
+    ------
+    DesignError : it is not
+    """
+    if not isinstance(load, LoadCurve) and not math.isfinite(load):
+        raise DesignError("load", load, "a finite number of N, or a table over the turn")
+
+
+def largest(load: Load) -> float:
+    """The greatest magnitude of a load [N].
+
+    >>> largest(-3.0)
+    3.0
+    """
+    return max(map(abs, load.force)) if isinstance(load, LoadCurve) else abs(load)
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.6g} degrees"
