@@ -2,6 +2,7 @@
 
 import ast
 import functools
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from graphcam.studio.error_fields import FIELDS, field_of
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.task_paths import changed
 from graphcam.tasks import task_file
+from graphcam.tasks.material_table import MaterialTable
 
 PACKAGE = Path(gc.__file__).parent
 ROOMS = "comparison", "constructions", "drafting", "given", "mechanism", "solving", "tasks"
@@ -133,12 +135,14 @@ def test_fields_are_in_the_form():
     """What is shown beside a field must find it."""
     shown = {field["path"] for name in BUILT_IN for field in form_of(solved(name), str)}
     of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation"}
+    materials = {f"material.{key.name}" for key in fields(MaterialTable)}
     springs = {"spring.mass", "spring.stiffness", "spring.preload"}
-    assert set(FIELDS.values()) - shown == of_no_field | springs
-    sprung = changed(plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}})
-    assert springs <= {field["path"] for field in form_of(gc.solve(rebuilt(sprung)), str)}
+    assert set(FIELDS.values()) - shown == of_no_field | springs | {"material.width"}
+    sprung = changed(plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}, "material": {"width": 15.0}})
+    assert springs | materials <= {field["path"] for field in form_of(gc.solve(rebuilt(sprung)), str)}
 
 
+SPRING = {"mass": 0.5, "stiffness": 2.0}
 LIFTS = "motion.phases[0].lift", "motion.phases[2].lift"
 WRONG = [
     ("coursework", {"follower.offset": "left"}, "follower.offset"),
@@ -157,6 +161,10 @@ WRONG = [
     ("coursework", {"drawing.language": "xx"}, "drawing.language"),
     ("coursework", {"rotation": "left"}, "rotation"),
     ("coursework", {"spring": {"mass": 1.0, "stiffness": -2.0}}, "spring.stiffness"),
+    ("coursework", {"material": {"width": 15.0}}, "spring"),
+    ("coursework", {"spring": SPRING, "material": {"width": -15.0}}, "material.width"),
+    ("coursework", {"spring": SPRING, "material": {"width": 15.0, "poisson_cam": 0.7}}, "material.poisson_cam"),
+    ("coursework", {"spring": SPRING, "material": {"width": 15.0, "young_follower": 0.0}}, "material.young_follower"),
     ("coursework", {"follower.kind": "magnetic"}, "follower.kind"),
     (
         "coursework",
