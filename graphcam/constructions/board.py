@@ -12,6 +12,7 @@ from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Paper, Scale
+from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Follower, Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -20,6 +21,8 @@ from graphcam.given.roller_rule import Candidate
 from graphcam.given.spring_load import SpringLoad
 from graphcam.given.stations import Stations, divide
 
+FollowerLoads = SpringLoad | ArmLoad
+"""A load of a follower that slides, or of one that swings."""
 Values = tuple[Floats, Floats, Floats]
 """s, v and a at places of the turn."""
 
@@ -86,8 +89,10 @@ class DrawnFollower(ABC):
         """The least radius of curvature, from what is drawn; readings ``rho`` and ``rho_candidates`` [mm]."""
         return curvature(drawn["inversion"], pencil)
 
-    def force_plan(self, drawn: Mapping[str, Construction], load: SpringLoad, pencil: Pencil) -> Construction | None:
-        """The force plan under a spring's load, where one is drawn of it."""
+    def force_plan(
+        self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
+    ) -> Construction | None:
+        """The force plan under a spring's load with friction at the cam, where one is drawn of it."""
         return None
 
     @abstractmethod

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import turning
-from graphcam.constructions.board import DrawnFollower, Values, roller_given
+from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_given
 from graphcam.constructions.force_plan import force_plan
+from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
@@ -61,9 +62,13 @@ class DrawnTranslating(DrawnFollower):
         """On tangents of the offset circle."""
         return inversion(integrated, rotation, r0, place, mu_l, pencil)
 
-    def force_plan(self, drawn: Mapping[str, Construction], load: SpringLoad, pencil: Pencil) -> Construction:
+    def force_plan(
+        self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
+    ) -> Construction:
         """At the station of the velocity plan."""
-        return force_plan(drawn["pressure_angle"], load, pencil)
+        assert isinstance(load, SpringLoad)
+        measured = drawn["pressure_angle"]
+        return friction_plan(measured, load, pencil, friction) if friction else force_plan(measured, load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """All offsets at which the line of motion cuts the prime circle: a larger radius keeps the limits at each."""

@@ -93,7 +93,8 @@ def force_plan(
     direction = integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction
     read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
     s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
-    force = reckoned(partial(_force, load, direction), s, v, a)
+    phi = float(integrated.givens.stations.phi[k])
+    force = reckoned(partial(force_at, load, direction, phi), s, v, a)
     mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
 
     origin = hand.given("origin")
@@ -123,9 +124,9 @@ def force_plan(
     return hand.finished(givens, _draw, {**points, **directions})
 
 
-def _force(load: SpringLoad, direction: int, s: Floats, v: Floats, a: Floats) -> Floats:
-    """The load [N], from the displacement and its derivatives."""
-    return load.force((s, v, a, np.zeros_like(s)), direction)
+def force_at(load: SpringLoad, direction: int, phi: Floats | float, s: Floats, v: Floats, a: Floats) -> Floats:
+    """The load [N] at a cam angle, from the displacement and its derivatives."""
+    return load.force((s, v, a, np.zeros_like(s)), direction, phi)
 
 
 def _incline(guide: Guide, direction: int, s: Floats) -> Floats:
@@ -140,7 +141,7 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     """
     integrated = measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
-    force = np.where(moving_up(measured), _force(load, 1, s, v, a), 0.0)
+    force = np.where(moving_up(measured), force_at(load, 1, integrated.givens.stations.phi, s, v, a), 0.0)
     k = shown_station(measured)
     return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
 
@@ -164,16 +165,17 @@ READABLE_FORCE = 0.05
 
 def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
     view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
-    last = _jammed if math.isnan(float(plan.first("normal"))) else _closed
-    return [draw(plan, view) for draw in (_load, _line_of_force, _line_of_reaction, last)]
+    last = jammed_step if math.isnan(float(plan.first("normal"))) else _closed
+    return [draw(plan, view) for draw in (load_step, _line_of_force, reaction_step, last)]
 
 
-def _side(plan: Construction[ForcePlanGivens]) -> float:
+def side_of(plan: Construction[ForcePlanGivens]) -> float:
     """On which side of the load the triangle lies: -1 for the left, 1 for the right."""
     return -1.0 if plan.acts["line of F"].first.directions.real < 0 else 1.0
 
 
-def _towards(side: float) -> Caption:
+def towards(side: float) -> Caption:
+    """A side in words."""
     return say("to the left") if side < 0 else say("to the right")
 
 
@@ -192,17 +194,19 @@ def _direction(plan: Construction[ForcePlanGivens]) -> int:
 def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
     """What the load consists of, term by term [N]."""
     load, values = plan.givens.load, [np.array(value) for value in _values(plan, "s", "v", "a")]
-    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0)
+    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0, load=0.0)
     alone = (
         (say("inertia {force:.1f} N"), replace(none, mass=load.mass)),
         (say("preload {force:.1f} N"), replace(none, preload=load.preload)),
         (say("spring {force:.1f} N"), replace(none, stiffness=load.stiffness)),
         (say("friction {force:.1f} N"), replace(none, friction=load.friction)),
+        (say("load P {force:.1f} N"), replace(none, load=load.load)),
     )
-    return [(said, float(_force(part, _direction(plan), *values))) for said, part in alone]
+    phi = float(plan.givens.measured.givens.integrated.givens.stations.phi[plan.givens.station])
+    return [(said, float(force_at(part, _direction(plan), phi, *values))) for said, part in alone]
 
 
-def _load(plan: Construction[ForcePlanGivens], view: View) -> Step:
+def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The load, straight down from its tail."""
     foot, integrated = plan.acts["foot"].first, plan.givens.measured.givens.integrated
     name, mu = station_names(integrated.givens.stations)[plan.givens.station], plan.givens.mu_force.per_mm
@@ -214,7 +218,7 @@ def _load(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
     ).where(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
-    label = Label(foot.place / 2, "Q", towards=-_side(plan) + 0j, of=foot.act, index=foot.index)
+    label = Label(foot.place / 2, "Q", towards=-side_of(plan) + 0j, of=foot.act, index=foot.index)
     tail_and_head = Dots(np.array([0j, foot.place]), of=foot.act, index=foot.index.repeat(2))
     return Step(
         say("Force plan at station {name}: the load", name=name),
@@ -232,7 +236,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the upright {side}, and draw the line of the "
         "contact force F there, parallel to the contact normal of this station."
-    ).where(alpha=abs(math.degrees(alpha)), side=_towards(_side(plan)))
+    ).where(alpha=abs(math.degrees(alpha)), side=towards(side_of(plan)))
     reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
     radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
     named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
@@ -247,12 +251,12 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     return Step(say("The line of the contact force"), said, view, marks, why=why)
 
 
-def _line_of_reaction(plan: Construction[ForcePlanGivens], view: View) -> Step:
+def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The line of the reaction through the tail of the load."""
     line, guide, side, title = (
         plan.acts["line of R"].first,
         plan.givens.guide,
-        _side(plan),
+        side_of(plan),
         say("The line of the guide's reaction"),
     )
     end = BASE * side + 0j if guide is None else plan.acts["incline"].first.place
@@ -265,7 +269,7 @@ def _line_of_reaction(plan: Construction[ForcePlanGivens], view: View) -> Step:
         return Step(title, said, view, (across,), why=why)
     base, incline, (s,) = plan.acts["base"].first, plan.acts["incline"].first, _values(plan, "s")
     height = float(_incline(guide, _direction(plan), np.array(s)))
-    values = {"base": BASE, "side": _towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
+    values = {"base": BASE, "side": towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
     values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
     told = (
         say("With the dividers lay off {base:g} mm from the tail of Q level {side}, for l = {length:g} mm."),
@@ -285,7 +289,7 @@ def _line_of_reaction(plan: Construction[ForcePlanGivens], view: View) -> Step:
     return Step(title, sequence(told, " "), view, marks, why=why, parts=parts)
 
 
-def _jammed(plan: Construction[ForcePlanGivens], view: View) -> Step:
+def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The last step where there is no third corner."""
     said = say(
         "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its guide, or "
@@ -298,7 +302,7 @@ def _jammed(plan: Construction[ForcePlanGivens], view: View) -> Step:
 def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
-    corner, shown, side, mu = corner[0], showing(plan), _side(plan), plan.givens.mu_force.per_mm
+    corner, shown, side, mu = corner[0], showing(plan), side_of(plan), plan.givens.mu_force.per_mm
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
     values = {name: float(plan.value(name)) for name in plan.readings}
     values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings} | {"mu": mu}

@@ -22,6 +22,10 @@ SENSIBLE = {
     "N/mm": (1e-6, 1e9),
     "N": (0.0, 1e9),
     "MPa": (1e-3, 1e7),
+    "kg mm^2": (1e-6, 1e15),
+    "N mm/rad": (1e-6, 1e15),
+    "N mm": (0.0, 1e15),
+    "rad/s^2": (0.0, 1e9),
 }
 """The least and the greatest size by its unit; zero is none."""
 REMEDY = "check its unit and its digits"

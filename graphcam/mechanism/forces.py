@@ -325,8 +325,7 @@ class CamForces:
         ------
         DesignError : it jams, at the cam or in its guide
         """
-        margin = jamming_margin(self.cam, self.friction)
-        if margin.value <= 0:
+        if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
             allowed = f"less than the {self._most_friction():.4g} at which the follower jams, {self._where(margin)}"
             remedy = "lubricate, let a roller turn, or enlarge the prime radius"
             raise DesignError("friction", self.friction, allowed, remedy)

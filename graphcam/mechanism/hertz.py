@@ -142,10 +142,10 @@ class ContactStress:
         peak, half_width = np.sqrt(load * modulus / sound), 2 * np.sqrt(load * sound / modulus)
         return Stresses(places.phi, force, self._profile_radius(places.values), peak, half_width)
 
-    def curve(self) -> TurnCurve:
-        """The peak pressure over the turn [MPa]."""
+    def curve(self, parts: int = 60) -> TurnCurve:
+        """The peak pressure over the turn [MPa], with ``parts`` points on every smooth piece and both its ends."""
         knots = self.forces.pressing.knots
-        return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots)
+        return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots, parts)
 
     def greatest(self) -> ValueAt:
         """The greatest peak pressure over the turn [MPa], both sides of every jump included.

@@ -6,7 +6,7 @@ from itertools import groupby
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
 from graphcam.comparison.speed import PER_SPEED
-from graphcam.constructions.axes import degrees, phase_title
+from graphcam.constructions.axes import phase_title
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
@@ -19,13 +19,12 @@ from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
-from graphcam.report.stress_note import contact_stress
+from graphcam.report.stress_paragraphs import contact_stress
 from graphcam.sheets.tables import Table
 from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import at_side
-from graphcam.solving.stress_diagram import MEANING as STRESS
+from graphcam.solving.stress_design import STRESS_MEANING
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
 
@@ -39,7 +38,7 @@ def note(solution: Solution) -> str:
     """
     chapters = constructions(solution)
     if solution.stress and solution.stress.without:
-        chapters.append((STRESS.title, contact_stress(solution)))
+        chapters.append((STRESS_MEANING.title, contact_stress(solution)))
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
     chapters.append((say("Kind of impact"), _impact(solution)))
@@ -206,38 +205,6 @@ def _impact(solution: Solution) -> str:
         )
         return f"{tell(said)} {told_jumps(soft, 'a', f'{of_lift}/rad²', tell)}"
     return tell(say("Velocity and acceleration are continuous: there is no impact."))
-
-
-def contact(solution: Solution) -> str:
-    """The spring's preload, the least contact force, and where contact is lost."""
-    tell, spring = solution.tell, solution.spring
-    assert spring is not None
-    load, needed, least, lost = spring.load, spring.least, spring.contact.least_force(), joined(spring.lost)
-    keeps = say(
-        "A preload of at least {preload} N keeps contact over the whole turn; it is needed at φ = {phi}.",
-        preload=number(needed.preload),
-        phi=degrees(needed.phi),
-    )
-    adopted = say("The preload is adopted as $F_0 = {preload}$ N.", preload=number(load.preload))
-    given = say("The preload is given as $F_0 = {preload}$ N.", preload=number(load.preload))
-    said = [
-        keeps if needed.preload > 0 else say("Contact is kept even without a preload."),
-        adopted if spring.open_preload else given,
-        say("The least contact force is {force} N, {at}.", force=number(least.value), at=at_side(least)),
-    ]
-    too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
-    return blocks(
-        say(
-            "A spring of $c = {stiffness:g}$ N/mm presses the moving mass of $m = {mass:g}$ kg on the cam. The cam "
-            "bears the follower with the force",
-            stiffness=load.stiffness,
-            mass=load.mass,
-        ),
-        r"$$\xi = m\,a\,\omega^2 + F_0 + c\,s.$$",
-        sequence(said, " "),
-        warning(too_small) if lost else "",
-        tell=tell,
-    )
 
 
 def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str, tell: Tell) -> str:

@@ -77,7 +77,7 @@ class Solution(ShownSolution):
         spring, speed = self.task.spring, self.task.speed_rpm
         if spring is None or speed is None:
             return None
-        return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None)
+        return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None, spring.friction)
 
     @cached_property
     def stress(self) -> StressDesign | None:
@@ -172,4 +172,7 @@ def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solutio
     """The solution of a task on a drawing board, whose scales may be other than the task's own."""
     chain = Chain(board, pencil or Pencil())
     follower = chain.board.follower.built(chain.place, chain.roller_radius)
-    return Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
+    solution = Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
+    if solution.spring:
+        solution.spring.check()
+    return solution

@@ -1,43 +1,52 @@
 """What a solution says of a spring: contact over the turn, forces, the force plan, a view and a table of the sheet."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise, product
+from functools import cached_property, partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import axes_over_phi, degrees, degrees_below, phase_ends, phase_symbol, reach
+from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.force_plan import round_scale
-from graphcam.constructions.graduation import graduated
-from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Caption, Construction, Step, View, say
-from graphcam.drafting.marks import Dots, Label, Line, Role, Segments
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.scale import Scale
-from graphcam.given.motion import FULL_TURN
+from graphcam.drafting.units import unit
+from graphcam.given.arm_load import ArmLoad
+from graphcam.given.laws import Floats
+from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.contact import Contact, SpringPreload, spring_preload
-from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.stationary import ValueAt
+from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
+from graphcam.mechanism.forces import CamForces, Forces, jamming_margin
+from graphcam.mechanism.mean_torque import mean_torque
+from graphcam.mechanism.stationary import Places, ValueAt, places_in, smooth_pieces
+from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
-from graphcam.words import sequence
+from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
+from graphcam.words import Words, sequence
 
 CONTACT_MEANING = Meaning(
     "contact",
     say("Contact force"),
     say("A spring presses the follower on the cam, but no cam can pull: where it would have to, contact is lost."),
-    calculation="report.note.contact",
+    calculation="report.spring_paragraphs.contact",
 )
-CONTACT = View("contact", say("Contact force ξ"), across="contact phi", up="contact force")
-WIDTH = 120.0
-"""A turn is this long on paper [mm]."""
-OVERHANG = 6.0
-"""How far the axes run on beyond the curve [mm]."""
+FORCES_MEANING = Meaning(
+    "turn_forces",
+    say("Forces over the turn"),
+    say(
+        "The cam pushes along the normal, so the contact force is greater than what moves the follower; its arm about "
+        "the cam centre makes the torque on the shaft."
+    ),
+    calculation="report.spring_paragraphs.forces",
+)
+Row = tuple[Words, Words, Words]
+PLAIN_PARTS = 12
+"""Points of a smooth piece in the plain data."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,39 +56,40 @@ class SpringDesign:
     chain, cam : of the solution
     given : the load without a preload that the task leaves open
     open_preload : whether it does: then the least preload is taken
+    friction : mu, between cam and follower
     """
 
     chain: Chain
     cam: Cam
-    given: SpringLoad
+    given: SpringLoad | ArmLoad
     open_preload: bool
+    friction: float = 0.0
     __repr__ = by_parts
 
     @cached_property
     def least(self) -> SpringPreload:
         """The least preload that keeps contact."""
-        load = self.given
-        return spring_preload(self.cam.motion, load.mass, load.speed_rpm, load.stiffness)
+        return least_preload(self.cam, self.given)
 
     @property
     def needed(self) -> float:
-        """The least preload [N], none where contact is kept without one: a spring cannot pull."""
+        """The least preload [N, or N mm], none where contact is kept without one: a spring cannot pull."""
         return max(0.0, self.least.preload)
 
     @cached_property
-    def load(self) -> SpringLoad:
+    def load(self) -> SpringLoad | ArmLoad:
         """The load with its preload; an open one is what is needed."""
         return replace(self.given, preload=self.needed) if self.open_preload else self.given
 
     @cached_property
-    def contact(self) -> Contact:
-        """The contact under this load."""
-        return Contact(self.cam.motion, self.load)
+    def forces(self) -> CamForces:
+        """The forces under this load."""
+        return CamForces(self.cam, self.load, friction=self.friction)
 
     @cached_property
-    def forces(self) -> CamForces:
-        """At the contact."""
-        return CamForces(self.cam, self.load)
+    def contact(self) -> Contact:
+        """The contact under this load; of an arm in torques."""
+        return Contact(self.cam.motion, self.forces.pressing)
 
     @cached_property
     def greatest_normal(self) -> ValueAt:
@@ -88,111 +98,271 @@ class SpringDesign:
 
     @cached_property
     def force_plan(self) -> Construction | None:
-        """The force plan of a translating follower at the station of its velocity plan, if that is loaded."""
-        return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil)
+        """The force plan at the station of the velocity plan, if that is loaded."""
+        return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil, self.friction)
+
+    def check(self) -> None:
+        """That there is such a design.
+
+        Raises
+        ------
+        DesignError : the follower jams at the cam, or a spring at a point of an arm passes over the pivot
+        """
+        CamForces(self.cam, self.given, friction=self.friction).check()
 
     @property
     def lost(self) -> list[Caption]:
         """Between which cam angles contact is lost."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
 
+    @property
+    def units(self) -> tuple[str, str, str]:
+        """Of what presses along the motion, of the preload, and of the stiffness."""
+        if isinstance(self.load, SpringLoad):
+            return "N", "N", "N/mm"
+        return ("N·mm", "N·mm", "N·mm/rad") if self.load.at is None else ("N·mm", "N", "N/mm")
+
+    @cached_property
+    def torques(self) -> tuple[float, ValueAt, ValueAt]:
+        """The mean torque on the cam [N mm], the greatest and the least."""
+        return mean_torque(self.forces), self.forces.greatest_torque(), self.forces.least_torque()
+
     def to_dict(self) -> dict[str, Any]:
-        """The results as plain data: N and degrees."""
-        least, greatest = self.contact.least_force(), self.greatest_normal
+        """The results as plain data: N, N mm and degrees."""
+        least, (along, preload, _) = self.contact.least_force(), self.units
+        mean, most, fewest = self.torques
         return {
-            "least_preload": {"value": self.needed, "unit": "N", "phi_deg": math.degrees(self.least.phi)},
-            "preload": {"value": self.load.preload, "unit": "N"},
-            "least_contact_force": _at(least),
-            "greatest_normal_force": _at(greatest),
+            "least_preload": {"value": self.needed, "unit": preload, "phi_deg": math.degrees(self.least.phi)},
+            "preload": {"value": self.load.preload, "unit": preload},
+            "least_contact_force": plain_place(least, along),
+            "least_normal_force": plain_place(self.forces.least_normal(), "N"),
+            "greatest_normal_force": plain_place(self.greatest_normal, "N"),
             "contact_lost_deg": [[math.degrees(phi) for phi in interval] for interval in self.contact.lost()],
+            "friction": self.friction,
+            "least_transmission": plain_place(jamming_margin(self.cam, self.friction), ""),
+            "torque": {
+                "mean": {"value": _clean(mean), "unit": "N·mm"},
+                "greatest": plain_place(most, "N·mm"),
+                "least": plain_place(fewest, "N·mm"),
+            },
+            "over_turn": self._over_turn(),
         }
+
+    def _over_turn(self) -> dict[str, list[float]]:
+        """What the diagrams show, at points of every smooth piece and both its ends."""
+        motion, knots, share = self.cam.motion, self.forces.pressing.knots, np.linspace(0, 1, PLAIN_PARTS + 1)
+        phase, u0, u1 = smooth_pieces(motion, knots)
+        inside = places_in(motion, phase[:, None], u0[:, None] * (1 - share) + u1[:, None] * share)
+        at, ends = self.forces.of(inside), self.forces.of(places_in(motion, phase, u1, "left"))
+        columns = {"phi_deg": np.degrees(inside.phi).ravel().tolist()}
+        for key, name in PLAIN_FORCES.items():
+            values = getattr(at, name) + 0.0
+            values[:, -1] = getattr(ends, name)
+            columns[key] = values.ravel().tolist()
+        return columns
 
     @property
     def drawn(self) -> dict[str, Construction]:
-        """What is drawn of it by name: the contact function, and the force plan."""
-        drawn = Construction(CONTACT_MEANING, self.contact, self.chain.pencil, {}, {}, contact_steps)
-        return {each.name: each for each in (drawn, self.force_plan) if each}
+        """What is drawn of it by name: the contact function, the forces over the turn, the force plan."""
+        pencil = self.chain.pencil
+        drawn = (
+            turn_diagrams(CONTACT_MEANING, [self._contact_diagram()], pencil),
+            turn_diagrams(FORCES_MEANING, self._diagrams(), pencil),
+            self.force_plan,
+        )
+        return {each.name: each for each in drawn if each}
+
+    def _contact_diagram(self) -> TurnDiagram:
+        """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
+        contact, along = self.contact, self.units[0]
+        curve, least, lost = contact.curve(), contact.least_force(), tuple(contact.lost())
+        said = CONTACT_CAPTIONS[along == "N", bool(lost)]
+        return TurnDiagram(
+            "contact",
+            say("The contact function"),
+            say("Contact force ξ, μ = {mu:g} N/mm") if along == "N" else say("Contact torque ξ, μ = {mu:g} N·mm/mm"),
+            say("ξ, {unit}", unit=unit(along)),
+            along,
+            contact.motion,
+            TurnCurve(curve.phi, curve.force),
+            said.where(formula=contact_formula(self.load)),
+            marked=((least, with_unit(_clean(least.value), along)),),
+            wrong=lost,
+        )
+
+    def _diagrams(self) -> list[TurnDiagram]:
+        forces, flat = self.forces, not self.cam.kinematics.has_pressure_angle
+        margin, (_, most_torque, least_torque) = jamming_margin(self.cam, self.friction), self.torques
+        make = partial(TurnDiagram, motion=self.cam.motion)
+        sliding = make(
+            "transmission",
+            say("The transmission coefficient"),
+            say("Transmission coefficient, μ = {mu:g}/mm"),
+            say("cos α − μ sin α"),
+            "",
+            curve=self._curve(lambda places: forces.of(places).transmission),
+            caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
+            why=say("Because the normal leans by α to the motion, and friction acts along the profile."),
+            marked=((margin, say("{value:.3f}", value=margin.value)),),
+        )
+        normal = make(
+            "normal_force",
+            say("The normal force"),
+            say("Normal force N, μ = {mu:g} N/mm"),
+            say("N, {unit}", unit=unit("N")),
+            "N",
+            curve=self._curve(forces.normal),
+            caption=say(
+                "N = {formula} is the force along the normal, at {mu:g} N/mm. Its greatest value is {greatest}.",
+                formula=normal_formula(self.load, self.friction),
+                greatest=with_unit(self.greatest_normal.value, "N"),
+            ),
+            why=say("Because along the motion only a part of the normal force acts."),
+            marked=((self.greatest_normal, with_unit(self.greatest_normal.value, "N")),),
+        )
+        mean, peak = self.torques[0], max(most_torque, least_torque, key=lambda found: abs(found.value))
+        torque = make(
+            "torque",
+            say("The torque on the cam"),
+            say("Torque M, μ = {mu:g} N·mm/mm"),
+            say("M, {unit}", unit=unit("N·mm")),
+            "N·mm",
+            curve=self._curve(forces.torque),
+            caption=say(
+                "M is the torque that drives the cam, at {mu:g} N·mm/mm; where it is negative the follower drives the "
+                "cam. Its peak is {peak} and its mean {mean}.",
+                peak=with_unit(peak.value, "N·mm"),
+                mean=with_unit(_clean(mean), "N·mm"),
+            ),
+            why=say("Because the power of the shaft is that of the follower and of the friction."),
+            marked=((peak, with_unit(peak.value, "N·mm")),),
+        )
+        return [normal, torque] if flat else [sliding, normal, torque]
+
+    def _curve(self, quantity: Callable[[Places], Floats]) -> TurnCurve:
+        return over_turn(self.cam.motion, quantity, self.forces.pressing.knots)
+
+    def at_stations(self) -> Forces:
+        """The forces at the stations of the drawing."""
+        stations = self.chain.board.stations
+        return self.forces.at(stations.phase, stations.u)
 
     def table(self) -> Table:
         """The load and its results for the sheet."""
-        least, greatest, load = self.contact.least_force(), self.greatest_normal, self.load
-        lost = sequence(self.lost, "; ")
-        rows = (
-            (say("moving mass"), say("{mass:g} kg", mass=load.mass), ""),
-            (say("stiffness c"), say("{stiffness:g} N/mm", stiffness=load.stiffness), ""),
-            (say("preload F₀"), _newtons(load.preload), say("least") if self.open_preload else say("given")),
-            (say("least preload"), _newtons(self.needed), say("at {phi}", phi=degrees(self.least.phi))),
-            (say("least contact force"), _newtons(_clean(least.value)), at_side(least)),
-            (say("greatest normal force"), _newtons(greatest.value), at_side(greatest)),
-            (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), ""),
+        given, found = self._given_rows(), self._found_rows()
+        first = len(given) - (1 if self.open_preload else 0)
+        rows = (*given, *found)
+        return Table(
+            say("Spring"),
+            (say("quantity"), say("value"), ""),
+            rows,
+            frozenset(product(range(first, len(rows)), (1, 2))),
         )
-        given = 2 if self.open_preload else 3
-        found = frozenset(product(range(given, len(rows)), (1, 2)))
-        return Table(say("Spring"), (say("quantity"), say("value"), ""), rows, found)
+
+    def _given_rows(self) -> list[Row]:
+        load, (_, preload, stiffness) = self.load, self.units
+        rows: list[Row] = [
+            (say("moving mass"), say("{mass:g} kg", mass=load.mass), "")
+            if isinstance(load, SpringLoad)
+            else (say("moment of inertia"), say("{inertia:g} kg·mm²", inertia=load.inertia), ""),
+            (say("stiffness c"), say("{stiffness:g} {unit}", stiffness=load.stiffness, unit=unit(stiffness)), ""),
+        ]
+        if self.friction:
+            rows.append((say("friction at the cam μ"), say("{friction:g}", friction=self.friction), ""))
+        if load.acceleration:
+            value = say("{acceleration:g} rad/s²", acceleration=load.acceleration)
+            rows.append((say("angular acceleration ε"), value, ""))
+        if isinstance(load.load, LoadCurve):
+            least, most = min(load.load.force), max(load.load.force)
+            rows.append((say("load P"), say("{least:g} to {most:g} N", least=least, most=most), say("by table")))
+        elif load.load:
+            rows.append((say("load P"), with_unit(load.load, "N"), ""))
+        open_or_not = say("least") if self.open_preload else say("given")
+        return [*rows, (say("preload F₀"), with_unit(load.preload, preload), open_or_not)]
+
+    def _found_rows(self) -> list[Row]:
+        least, greatest, (along, preload, _) = self.contact.least_force(), self.greatest_normal, self.units
+        mean, most, fewest = self.torques
+        lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
+        contact = say("least contact force") if along == "N" else say("least contact torque")
+        rows: list[Row] = [
+            (say("least preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
+            (contact, with_unit(_clean(least.value), along), at_side(least, self.cam.motion)),
+            (say("greatest normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
+            (say("greatest torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
+            (say("least torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
+            (say("mean torque"), with_unit(_clean(mean), "N·mm"), ""),
+        ]
+        if self.friction:
+            rows.append(
+                (say("least cos α − μ sin α"), say("{value:.3f}", value=margin.value), at_side(margin, self.cam.motion))
+            )
+        return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), "")]
 
 
-def at_side(found: ValueAt) -> Caption:
-    """At which cam angle, and on which side of it where it is a jump."""
-    phi = degrees(found.phi)
-    return say("just before {phi}", phi=phi) if found.side == "left" else say("just after {phi}", phi=phi)
-
-
-def _newtons(force: float) -> Caption:
-    return say("{force:.4g} N", force=force)
-
-
-def contact_steps(drawn: Construction[Contact]) -> list[Step]:
-    """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
-    contact = drawn.givens
-    curve, motion = contact.curve(), contact.motion
-    mu_force, mu_phi = round_scale(float(np.abs(curve.force).max())), Scale(FULL_TURN / WIDTH, "rad")
-    points = curve.phi / mu_phi.per_mm + UP * curve.force / mu_force.per_mm
-    low, high = reach(points.imag)
-    ends = phase_ends(motion, mu_phi)
-    least = contact.least_force()
-    bottom = least.phi / mu_phi.per_mm + UP * least.value / mu_force.per_mm
-    axes = (
-        *axes_over_phi(WIDTH, mu_phi, points.imag, say("ξ, N")),
-        *graduated(points.imag, mu_force.per_mm),
-        *degrees_below(WIDTH, mu_phi, low),
-        Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
-        *(
-            Label(complex((a + b) / 2), phase_symbol(motion, k), towards=-UP, small=True)
-            for k, (a, b) in enumerate(pairwise(ends))
-        ),
-    )
-    lost = [part for interval in contact.lost() for part in _in_turn(*interval)]
-    marks = (
-        *axes,
-        Line(points, Role.RESULT),
-        Dots(np.array([bottom]), Role.LIMIT),
-        Label(bottom, _newtons(_clean(least.value)), towards=-UP),
-        *(Line(np.array(ends) / mu_phi.per_mm + 0j, Role.LIMIT) for ends in lost),
-    )
-    mu = {"mu": mu_force.per_mm}
-    view = replace(CONTACT, title=say("Contact force ξ, μ = {mu:g} N/mm", **mu))
-    return [Step(say("The contact function"), replace(LOST if lost else KEPT, values=mu), view, marks, given=axes)]
-
-
-LOST = say(
-    "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is "
-    "negative, as marked on the axis, the cam would have to pull: contact is lost."
+PLAIN_FORCES = {
+    "transmission": "transmission",
+    "normal_force": "normal",
+    "along": "along",
+    "side": "side",
+    "torque": "torque",
+}
+"""The columns of the plain data over the turn, and the fields of the forces."""
+CONTACT_CAPTIONS = {
+    (True, True): say(
+        "{formula} is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is negative, as marked "
+        "on the axis, the cam would have to pull: contact is lost."
+    ),
+    (True, False): say(
+        "{formula} is the force with which the cam bears the follower, at {mu:g} N/mm. It is nowhere negative: contact "
+        "is kept."
+    ),
+    (False, True): say(
+        "{formula} is the torque about the pivot with which the cam bears the arm, at {mu:g} N·mm/mm. Where it is "
+        "negative, as marked on the axis, the cam would have to pull: contact is lost."
+    ),
+    (False, False): say(
+        "{formula} is the torque about the pivot with which the cam bears the arm, at {mu:g} N·mm/mm. It is nowhere "
+        "negative: contact is kept."
+    ),
+}
+"""What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""
+TRANSMITTED = say(
+    "cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, at "
+    "{mu:g}/mm. Where it falls to zero the follower jams."
 )
-KEPT = say(
-    "ξ = m(aω² + vε) + F₀ + cs is the force with which the cam bears the follower, at {mu:g} N/mm. It is nowhere "
-    "negative: contact is kept."
+TRANSMITTED_BY_ARM = say(
+    "The lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, is the "
+    "part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
 )
 
 
-def _in_turn(start: float, end: float) -> list[tuple[float, float]]:
-    """An interval that may run over the end of the turn, in parts inside it."""
-    return [(start, end)] if end <= FULL_TURN else [(start, FULL_TURN), (0.0, end - FULL_TURN)]
+def contact_formula(load: SpringLoad | ArmLoad) -> str:
+    """The contact function of a load, as a text."""
+    return f"ξ = {_pressing(load)}"
 
 
-def _at(found: ValueAt) -> dict[str, Any]:
-    return {"value": found.value, "unit": "N", "phi_deg": math.degrees(found.phi), "side": found.side}
+def normal_formula(load: SpringLoad | ArmLoad, friction: float) -> str:
+    """The normal force under a load, as a text."""
+    if isinstance(load, SpringLoad):
+        return "ξ/(cos α − μ sin α)" if friction else "ξ/cos α"
+    return "ξ/(l cos α − σμ(l sin α − r))" if friction else "ξ/(l cos α)"
+
+
+def _pressing(load: SpringLoad | ArmLoad) -> str:
+    outer = bool(load.load)
+    if isinstance(load, SpringLoad):
+        return "m(aω² + vε) + F₀ + cs" + (" + P" if outer else "")
+    spring = "F₀ + cs" if load.at is None else "(F₀ + cx)·dx/ds"
+    return f"J(aω² + vε) + {spring}" + (" + lP" if outer else "")
+
+
+def with_unit(value: float, of: str) -> Caption:
+    """A force or a torque with its unit."""
+    # No powers of ten: four digits, and zeros.
+    return say("{value:.12g} {unit}", value=float(f"{value:.4g}"), unit=unit(of))
 
 
 def _clean(force: float) -> float:
-    """A force without the rounding that is left where the least preload makes it zero."""
+    """A force without the rounding that is left where it is zero."""
     return round(force, 9) + 0.0

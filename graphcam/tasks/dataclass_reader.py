@@ -2,7 +2,8 @@
 
 It is strict: no text stands for a number, no number for a switch, nothing is infinite, nothing unknown is passed over.
 What a hint may be: ``float``, ``int``, ``str``, ``bool``, a ``Literal``, ``Any``, a dataclass, a tuple of fixed or of
-any length, a mapping of texts, one of several of these, and with :class:`ByKind` one of several dataclasses.
+any length, a mapping of texts, one of several of these, and with :class:`ByKind` or :class:`ByKeys` one of several
+dataclasses.
 """
 
 from __future__ import annotations
@@ -25,6 +26,10 @@ _Read = TypeVar("_Read")
 
 class ByKind:
     """Marks a choice among dataclasses as one by the key ``kind``, whose ``Literal`` each of them has."""
+
+
+class ByKeys:
+    """Marks a choice among dataclasses as one by the keys of the table: that which knows most of them is read."""
 
 
 class ByName:
@@ -130,6 +135,8 @@ def _reader(hint: Any) -> Reader:
             if ByName in marks
             else _kind_reader(get_args(parts[0]))
             if ByKind in marks
+            else _keys_reader(get_args(parts[0]))
+            if ByKeys in marks
             else _reader(parts[0])
         )
     if origin in (Union, types.UnionType):
@@ -230,6 +237,17 @@ def _kind_reader(classes: tuple[type, ...]) -> Reader:
         if not isinstance(tag, str) or tag not in readers:
             return faults.append(UnknownKind(place))
         return readers[tag](said, (*place, tag), faults)
+
+    return read
+
+
+def _keys_reader(classes: tuple[type, ...]) -> Reader:
+    """Reads a table as that class which has most of its keys, the first of several."""
+    known = {kind: {each.name for each in dataclasses.fields(kind) if each.init} for kind in classes}
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        keys = set(cast(dict[str, Any], said)) if isinstance(said, dict) else set[str]()
+        return _dataclass_reader(max(classes, key=lambda kind: len(keys & known[kind])))(said, place, faults)
 
     return read
 

@@ -17,13 +17,13 @@ from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translatin
 from graphcam.given.limits import Limits
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
-from graphcam.given.spring_load import SpringLoad
 from graphcam.showing import WIDTH, in_lines
-from graphcam.tasks.dataclass_reader import ByKind
+from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
+from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
@@ -38,7 +38,8 @@ class _FollowerTable:
     roller_radius: float | None
     without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": OF_A_FACE}
     """The limits that it does not have, and why."""
-    takes_spring: ClassVar[bool] = True
+    swings: ClassVar[bool] = False
+    """Whether a spring turns it about a pivot."""
 
     @property
     def lift_unit(self) -> float:
@@ -105,7 +106,7 @@ class OscillatingTable(_FollowerTable):
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
-    takes_spring = False
+    swings = True
 
     def __post_init__(self) -> None:
         self()
@@ -186,31 +187,6 @@ class LimitsTable:
 
 
 @dataclass(frozen=True)
-class SpringTable:
-    """``[spring]``: what presses a translating or flat-faced follower on its cam; it needs ``speed_rpm``.
-
-    mass : kg, of the follower and all that moves with it
-    stiffness : N/mm
-    preload : N, of the spring at the lowest place; None is the least one that keeps contact
-    """
-
-    mass: float
-    stiffness: float
-    preload: float | None = None
-
-    def __post_init__(self) -> None:
-        positive("mass", self.mass, "kg")
-        positive("stiffness", self.stiffness, "N/mm")
-        if self.preload is not None and not (math.isfinite(self.preload) and self.preload >= 0):
-            raise DesignError("preload", self.preload, "a finite number of 0 N or more")
-        bounded("preload", self.preload, "N")
-
-    def __call__(self, speed_rpm: float) -> SpringLoad:
-        """The load at a speed; an open preload is 0 in it."""
-        return SpringLoad(self.mass, speed_rpm, self.stiffness, self.preload or 0.0)
-
-
-@dataclass(frozen=True)
 class DrawingTable(SheetTable):
     """``[drawing]``: how it is drawn.
 
@@ -273,7 +249,7 @@ class Task:
     title: TitleTable = field(default_factory=TitleTable)
     cam: CamTable = field(default_factory=CamTable)
     limits: LimitsTable = field(default_factory=LimitsTable)
-    spring: SpringTable | None = None
+    spring: Annotated[SpringTable | ArmSpringTable, ByKeys()] | None = None
     material: MaterialTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
@@ -302,8 +278,12 @@ class Task:
             return
         if self.speed_rpm is None:
             raise DesignError("speed_rpm", "missing", "given where there is a spring", "inertia grows with the speed")
-        if not self.follower.takes_spring:
-            raise DesignError("spring", "a table", "left out for an arm", "it holds a translating follower on its cam")
+        if self.follower.swings and not self.spring.swings:
+            remedy = "give spring.inertia in kg mm^2, about the pivot"
+            raise DesignError("spring.mass", getattr(self.spring, "mass", None), "left out for an arm", remedy)
+        if self.spring.swings and not self.follower.swings:
+            left_out = f"left out for a follower of kind {self.follower.kind}"
+            raise DesignError("spring.inertia", getattr(self.spring, "inertia", None), left_out, "give spring.mass")
 
     def _check_limits(self) -> None:
         """Limits that the follower does not have are refused: they would be given, and not kept."""

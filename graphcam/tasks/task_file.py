@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.given.table_file import read_table
-from graphcam.tasks import arcs_task as arcs, motion_tables, task as tables
+from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
     Fault,
@@ -47,7 +47,8 @@ _CLASSES: Classes = {
     ("follower", "flat-faced"): tables.FlatFacedTable,
     ("cam",): tables.CamTable,
     ("limits",): tables.LimitsTable,
-    ("spring",): tables.SpringTable,
+    ("spring",): spring_tables.SpringTable,
+    ("spring", "at"): spring_tables.ArmSpringPlace,
     ("material",): MaterialTable,
     ("drawing",): tables.DrawingTable,
     ("part",): PartTable,

@@ -32,14 +32,16 @@ from graphcam.drafting.marks import (
     Segments,
 )
 from graphcam.errors import DesignError
+from graphcam.tasks.spring_tables import SpringTable
 
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
 HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
-TASKS = BUILT_IN | RANDOM
+RUBBING = replace(BUILT_IN["coursework"], speed_rpm=120.0, spring=SpringTable(0.5, 2.0, 150.0, friction=0.15, load=9.0))
+TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING}
 EVERY = pytest.mark.parametrize("name", TASKS)
-SHOWN = pytest.mark.parametrize("name", [*BUILT_IN, *list(RANDOM)[::5]])
+SHOWN = pytest.mark.parametrize("name", [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam"])
 
 
 @cache
@@ -124,7 +126,7 @@ def by_own_errors(name: str) -> Iterator[tuple[str, Construction]]:
         yield own, replace(before, pencil=HANDS, done=earlier)[own]
     if spring := getattr(solution, "spring", None):
         follower = spring.chain.board.follower
-        if plan := follower.force_plan(before, spring.load, HANDS):
+        if plan := follower.force_plan(before, spring.load, HANDS, spring.friction):
             yield "force plan", plan
 
 
@@ -144,7 +146,7 @@ def test_no_reading_is_without_scatter_of_its_own(name):
 
 def test_the_constructions_of_every_follower_err_of_their_own():
     """The four built-in tasks, arcs and a spring are all among those that are tried."""
-    shown = [*BUILT_IN, *list(RANDOM)[::5]]
+    shown = [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam"]
     tried = {key for name in shown for key in drawn(name)}
     assert tried >= {*drawn("coursework"), *drawn("arm"), *drawn("flat"), "differentiation", "three_arcs", "arc_roller"}
     assert tried >= {"arc_diagrams", "force plan"}

@@ -127,7 +127,7 @@ def test_a_step_has_the_number_that_it_has_on_the_sheet_and_its_chapter_that_of_
     chapters = re.findall(r"^### (.*)", appendix, re.MULTILINE)
     assert re.findall(r"^## (\d.*)", said, re.MULTILINE)[: len(chapters)] == chapters
     assert chapters[0] == "1. Kinematic diagram"
-    assert chapters[-2:] == ["11. Contact force", "12. Force plan"]
+    assert chapters[-3:] == ["11. Contact force", "12. Forces over the turn", "13. Force plan"]
 
 
 def test_of_a_hand_the_note_says_what_was_adopted_instead():

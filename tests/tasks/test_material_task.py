@@ -91,11 +91,11 @@ def test_the_diagram_and_the_note_say_what_is_permitted(tmp_path, permitted, mar
     limit = "" if permitted is None else f"permitted_stress = {permitted}\n"
     solution = solved(tmp_path, TRANSLATING + MATERIAL + limit)
     (step,) = solution.stress.drawn["contact_stress"].steps()
-    assert ("above it the curve is marked" in str(step.caption)) == marked
+    assert ("the curve passes it the axis is marked" in str(step.caption)) == marked
     note = note_of(solution)
     assert words in note
     assert "= 1148.8\\ \\text{MPa}" in note
-    assert "The pressure is greatest just after 138.001°, where $N = 6410.2$ N." in note
+    assert "The pressure is greatest at 138.001°, where $N = 6410.2$ N." in note
     told = texts_of(solution)
     assert "1149 MPa" in told
     assert (f"{permitted} MPa" in told) == (permitted is not None)

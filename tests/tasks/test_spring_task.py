@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import graphcam as gc
 from graphcam.constructions.pressure_angle import shown_station
+from graphcam.drafting.marks import Dots, Line, Role
+from graphcam.mechanism.stationary import ValueAt
+from graphcam.mechanism.turn_curve import TurnCurve
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Stroke, Text
+from graphcam.solving.turn_diagrams import TurnDiagram, diagram_step
 from graphcam.tasks.task_file import builtin_text
+from graphcam.words import Caption
 
 VOLODER = """
 rotation = "cw"
@@ -28,6 +35,27 @@ offset = 0
 mass = 0.2
 stiffness = 3
 """
+
+ARM = """
+rotation = "ccw"
+speed_rpm = 900
+[motion]
+phases = [
+  { kind = "rise", angle = 75, lift = 15, law = "3-4-5" }, { kind = "dwell", angle = 60 },
+  { kind = "return", angle = 90, lift = 15, law = "cycloidal" }, { kind = "dwell", angle = 135 },
+]
+[follower]
+kind = "oscillating"
+arm = 125
+distance = 150
+roller_radius = 12
+[cam]
+prime_radius = 61
+[spring]
+inertia = 1500
+stiffness = 4000
+"""
+TABLE = "load = [[0, 20], [50, 20], [130, 60], [140, 25], [360, 20]]\n"
 
 
 def solved(path: Path, text: str) -> gc.Solution:
@@ -104,11 +132,102 @@ def test_the_force_plan_is_drawn_where_the_least_preload_leaves_a_load(tmp_path)
 
 
 def test_a_flat_faced_follower_has_a_spring_but_no_plan_of_forces(tmp_path):
+    """Its contact force is the load itself: there is no pressure angle, and no diagram of the transmission."""
     flat = builtin_text("flat")
     speed = "" if "speed_rpm" in flat else "speed_rpm = 100\n"
-    solution = solved(tmp_path, speed + flat + "\n[spring]\nmass = 0.3\nstiffness = 2\n")
+    solution = solved(tmp_path, speed + flat + "\n[spring]\nmass = 0.3\nstiffness = 2\nfriction = 0.1\n")
     assert solution.spring.force_plan is None
-    assert solution.to_dict()["spring"]["greatest_normal_force"]["value"] > 0
+    found = solution.to_dict()["spring"]
+    assert found["greatest_normal_force"]["value"] > 0
+    assert found["least_transmission"]["value"] == 1
+    assert [diagram.name for diagram in solution.spring.drawn["turn_forces"].givens.diagrams] == [
+        "normal_force",
+        "torque",
+    ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        VOLODER + TABLE + "friction = 0.1\nacceleration = 30\n",
+        ARM + TABLE + "friction = 0.1\nacceleration = -30\n",
+        ARM.replace("stiffness = 4000", "stiffness = 6\nat = { arm = 70, anchor = [130, -40] }") + "load = 15\n",
+    ],
+    ids=["slides", "torsion", "at a point"],
+)
+def test_what_presses_is_what_the_task_says(tmp_path, text):
+    """The plain data, the diagrams and the extremes are those of CamForces under the load of the task."""
+    solution = solved(tmp_path, text)
+    spring, said = solution.spring, solution.task.spring
+    found = solution.to_dict()["spring"]
+    load = replace(said(solution.task.speed_rpm), preload=found["preload"]["value"])
+    forces = gc.CamForces(solution.cam, load, friction=said.friction)
+    assert load.acceleration == said.acceleration
+    assert found["least_preload"]["value"] == pytest.approx(gc.least_preload(solution.cam, load).preload)
+    assert abs(found["least_normal_force"]["value"]) <= 1e-9 * found["greatest_normal_force"]["value"]
+    assert found["greatest_normal_force"]["value"] == pytest.approx(forces.greatest_normal().value, rel=1e-13)
+    assert found["torque"]["mean"]["value"] == pytest.approx(gc.mean_torque(forces), rel=1e-9, abs=1e-9)
+    assert found["torque"]["greatest"]["value"] == pytest.approx(forces.greatest_torque().value, rel=1e-13)
+    margin = gc.jamming_margin(solution.cam, said.friction)
+    assert found["least_transmission"]["value"] == pytest.approx(margin.value, rel=1e-13)
+    columns = found["over_turn"]
+    phi = np.radians(columns["phi_deg"])
+    assert np.all(np.diff(phi) >= -1e-12)
+    assert len(set(map(len, columns.values()))) == 1
+    assert np.hypot(columns["along"], columns["side"]) == pytest.approx(np.abs(columns["normal_force"]), abs=1e-9)
+    assert max(columns["torque"]) == pytest.approx(found["torque"]["greatest"]["value"], rel=0.02)
+    (normal,) = (each for each in spring.drawn["turn_forces"].givens.diagrams if each.name == "normal_force")
+    assert normal.curve.values.max() == pytest.approx(forces.greatest_normal().value, rel=1e-3)
+    assert {step.view.name for step in spring.drawn["turn_forces"].steps()} == {
+        "transmission",
+        "normal_force",
+        "torque",
+    }
+
+
+def test_the_diagrams_show_curve_extreme_limit_and_what_is_wrong():
+    """Lengths on paper times the scale are the values; a curve with a gap is drawn in two parts."""
+    motion = gc.builtin_task().motion()
+    phi = np.linspace(0, math.tau, 721)
+    values = 40 * np.sin(phi)
+    values[100:110] = np.nan
+    diagram = TurnDiagram(
+        "stress", Caption("Stress"), Caption("Stress, {mu:g} MPa/mm"), Caption("p, MPa"), "MPa", motion,
+        TurnCurve(phi, values), Caption("At {mu:g} MPa/mm."), marked=((ValueAt(40.0, math.pi / 2, "right"), "40 MPa"),),
+        limit=(60.0, "60 MPa permitted"), wrong=((6.0, 6.6),),
+    )  # fmt: skip
+    step = diagram_step(diagram)
+    assert diagram.mu.per_mm == 2.0  # 60 MPa in 50 mm at most, at a round scale
+    assert str(step.view.title) == "Stress, 2 MPa/mm"
+    assert str(step.caption) == "At 2 MPa/mm."
+    curve = [mark for mark in step.own if isinstance(mark, Line) and mark.role is Role.RESULT]
+    assert len(curve) == 2
+    points = np.concatenate([line.points for line in curve])
+    assert points.real / 120 * math.tau == pytest.approx(phi[np.isfinite(values)])
+    assert 2 * points.imag == pytest.approx(values[np.isfinite(values)])
+    (dot,) = (mark for mark in step.own if isinstance(mark, Dots))
+    assert dot.points[0] == pytest.approx(30 + 20j)
+    level, *wrong = (mark.points for mark in step.own if isinstance(mark, Line) and mark.role is Role.LIMIT)
+    assert level.imag == pytest.approx([30, 30])
+    ends = [tuple(part.real / 120 * math.tau) for part in wrong]
+    assert ends == [pytest.approx((6.0, math.tau)), pytest.approx((0.0, 6.6 - math.tau))]
+
+
+def test_friction_that_jams_is_refused_with_the_place(tmp_path):
+    """A steep rise on a small cam: the message names the friction that would do, and where it does not."""
+    text = VOLODER.replace("[spring]", "[cam]\nprime_radius = 30\n[spring]\nfriction = 0.8") + "preload = 80\n"
+    with pytest.raises(
+        gc.DesignError, match=r"friction is 0\.8, but must be less than the [\d.]+ .* cam angle of"
+    ) as caught:
+        solved(tmp_path, text)
+    permitted = float(caught.value.limit.split()[3])
+    assert solved(tmp_path, text.replace("0.8", f"{permitted - 1e-3:g}")).to_dict()["spring"]["friction"] < permitted
+
+
+def test_a_spring_over_the_pivot_is_refused(tmp_path):
+    text = ARM.replace("stiffness = 4000", "stiffness = 6\nat = { arm = 70, anchor = [200, -25] }")
+    with pytest.raises(gc.DesignError, match=r"at\.anchor is '\(200, -25\)'.* passes over the pivot"):
+        solved(tmp_path, text)
 
 
 def test_without_a_spring_nothing_is_said_of_one():
@@ -129,8 +248,27 @@ def test_without_a_spring_nothing_is_said_of_one():
         (VOLODER.replace("[spring]\nmass = 0.2\nstiffness = 3\n", "spring = 3"), "follower.spring", "unknown"),
         (
             VOLODER.replace('"translating"\noffset = 0', '"oscillating"\narm = 80\ndistance = 100'),
-            "spring", "a table left out for an arm",
+            "spring.mass", "0.2 left out for an arm spring.inertia",
         ),
+        (VOLODER.replace("mass = 0.2", "inertia = 20"), "spring.inertia", "20 left out translating spring.mass"),
+        (VOLODER.replace("mass = 0.2", "mass = -0.2"), "spring.mass", "-0.2 greater than 0 kg"),
+        (VOLODER.replace("stiffness = 3", "stiffness = 0"), "spring.stiffness", "0 greater than 0 N/mm"),
+        (VOLODER + "accelaration = 3\n", "spring.accelaration", "unknown did you mean 'acceleration'"),
+        (VOLODER + "friction = -0.1\n", "spring.friction", "-0.1 from 0 to 2"),
+        (VOLODER + "friction = 30\n", "spring.friction", "30 from 0 to 2 coefficient"),
+        (VOLODER + "load = 1e12\n", "spring.load", "N in magnitude"),
+        (VOLODER + "load = [[0, 5], [270, 5]]\n", "spring.load", "0 to 270 degrees covers the turn 360"),
+        (VOLODER + "load = [[0, 5], [90, 7], [80, 5], [360, 5]]\n", "spring.load", "80 degrees after 90 grow"),
+        (VOLODER + "load = [[0, 5], [360, 9]]\n", "spring.load", "5 N 9 N the same at both"),
+        (VOLODER + "load = [[0, 5, 7], [360, 9]]\n", "spring.load[0]", "a list of 2"),
+        (VOLODER + "load = 'heavy'\n", "spring.load", "a number a list"),
+        (VOLODER + "at = { arm = 3, anchor = [1, 2] }\n", "spring.at", "unknown key"),
+        (ARM.replace("inertia = 1500", "inertia = -1"), "spring.inertia", "-1 greater than 0 kg mm^2"),
+        (ARM.replace("inertia = 1500\n", ""), "spring.mass", "missing"),
+        (ARM + "at = { arm = 0, anchor = [1, 2] }\n", "spring.at.arm", "0 pivot"),
+        (ARM + "at = { arm = 5, anchor = [1, 1e12] }\n", "spring.at.anchor", "mm in magnitude"),
+        (ARM + "at = { arm = 5, anchor = [1] }\n", "spring.at.anchor[1]", "missing"),
+        (ARM + "at = { arms = 5, anchor = [1, 2] }\n", "spring.at.arms", "unknown did you mean 'arm'"),
     ],
 )  # fmt: skip
 def test_faults_of_the_spring_are_named(tmp_path, text, field, words):

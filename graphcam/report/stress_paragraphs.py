@@ -1,12 +1,11 @@
 """The note's chapter on the stress between cam and follower."""
 
-import math
-
+from graphcam.drafting.units import unit
 from graphcam.report.markdown import blocks, formula, number, numbers
 from graphcam.report.paragraphs import general, warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import at_side
-from graphcam.solving.stress_design import StressDesign
+from graphcam.solving.stress_design import StressDesign, rounded_up
+from graphcam.solving.turn_diagrams import at_side
 from graphcam.words import Caption, say
 
 SHEAR, DEPTH = 0.300, 0.786
@@ -49,7 +48,7 @@ def contact_stress(solution: Solution) -> str:
         poisson1=stress.material.poisson_cam,
         poisson2=stress.material.poisson_follower,
     )
-    modulus = formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=say("MPa"))
+    modulus = formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=unit("MPa"))
     if stress.without:
         said = WITHOUT[stress.without]
         return blocks(given, modulus, warning(said) if stress.without != "no force" else said, tell=tell)
@@ -69,7 +68,11 @@ def _found(stress: StressDesign) -> list[Caption]:
         "By Hertz the force $N$ along the normal flattens a strip of the half-width $b$, under a pressure that is "
         "greatest in its middle:"
     )
-    where = say("The pressure is greatest {at}, where $N = {force}$ N.", at=at_side(greatest), force=number(force, 1))
+    where = say(
+        "The pressure is greatest {at}, where $N = {force}$ N.",
+        at=at_side(greatest, stress.forces.cam.motion),
+        force=number(force, 1),
+    )
     in_numbers = formula(
         IN_NUMBERS,
         force=number(force, 1),
@@ -77,7 +80,7 @@ def _found(stress: StressDesign) -> list[Caption]:
         width=general(stress.material.width),
         relative=number(relative, 3),
         stress=number(greatest.value, 1),
-        unit=say("MPa"),
+        unit=unit("MPa"),
     )
     below = say(
         "The strip is {strip} mm wide. The greatest shear stress, {share:.2f} of that pressure or {shear} MPa, lies "
@@ -97,7 +100,7 @@ def _verdict(stress: StressDesign) -> list[Caption]:
     limit = stress.material.permitted_stress
     if limit is None or stress.greatest is None or stress.least_width is None:
         return []
-    values = {"limit": limit, "width": number(math.ceil(100 * stress.least_width) / 100)}
+    values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
     if stress.permitted:
         kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would do.")
         return [kept.where(**values)]

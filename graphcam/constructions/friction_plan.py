@@ -1,0 +1,247 @@
+"""The force plan of a translating follower with friction at the cam: the contact force leans from the normal.
+
+Where the cam slides past the follower it drags it along the profile, in its own sense, with mu times the normal force.
+Both together are the contact force F, which leans from the contact normal by the angle whose tangent is mu, so the
+triangle of load, contact force and reaction is drawn as without friction, with the line of F turned by that angle.  The
+square from its third corner to the normal parts F into the normal force N and the friction T = mu N.
+
+Source: the equilibrium of a follower with friction at the cam, I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM*
+(2007): N (cos alpha - mu sin alpha) is the load.
+"""
+
+import cmath
+import math
+from dataclasses import dataclass, replace
+from functools import partial
+from operator import itemgetter
+
+import numpy as np
+
+from graphcam.constructions.force_plan import (
+    BASE,
+    BEYOND,
+    LOAD_LENGTH,
+    MEANING as WITHOUT,
+    ForcePlanGivens,
+    force_at,
+    jammed_step,
+    load_step,
+    plan_station,
+    reaction_step,
+    round_scale,
+    side_of,
+    towards,
+)
+from graphcam.constructions.pressure_angle import MeasuredAngles
+from graphcam.constructions.views import FORCES
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Construction, Part, Step, View, say
+from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role, angle_at
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.follower import sense
+from graphcam.given.spring_load import SpringLoad
+from graphcam.plane import dot
+from graphcam.words import sequence
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionPlanGivens(ForcePlanGivens):
+    """What lies on the board; see :func:`friction_plan`.
+
+    mu : the coefficient of friction between cam and follower
+    """
+
+    mu: float
+
+
+MEANING = Meaning(
+    "force_plan",
+    WITHOUT.title,
+    say(
+        "Load, contact force and the reaction of the guide are in balance. With friction the contact force leans from "
+        "the normal: three directions and one size are known, a triangle."
+    ),
+    {
+        "load": WITHOUT.readings["load"],
+        "contact": ReadingMeaning(say("contact force F"), "F", "N"),
+        "normal": ReadingMeaning(say("normal force N"), "N", "N"),
+        "contact_friction": ReadingMeaning(say("friction at the cam T"), "T", "N"),
+        "along": ReadingMeaning(say("N cos α"), "N cos α", "N"),
+        "side": ReadingMeaning(say("N sin α"), "N sin α", "N"),
+        "reaction": WITHOUT.readings["reaction"],
+    },
+)
+
+
+def friction_plan(
+    measured: MeasuredAngles,
+    load: SpringLoad,
+    pencil: Pencil,
+    friction: float,
+    station: int | None = None,
+    mu_force: Scale | None = None,
+) -> Construction[FrictionPlanGivens]:
+    """Draw the force plan with friction at the cam at a station; the guide is without friction.
+
+    friction : mu between cam and follower, greater than 0
+    station : None for the one of :func:`~graphcam.constructions.force_plan.plan_station`
+    mu_force : scale of forces [N/mm]; None for a round one
+
+    Readings are NaN where the load does not press, or the follower jams.
+    """
+    hand, k = Hand(pencil, MEANING), plan_station(measured, load) if station is None else station
+    integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)
+    stations = integrated.givens.stations
+    direction, phi = integrated.givens.motion.phases[stations.phase[k]].direction, float(stations.phi[k])
+    read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
+    s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
+    force = reckoned(partial(force_at, load, direction, phi), s, v, a)
+    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
+
+    origin = hand.given("origin")
+    foot = hand.lay_off("foot", origin, -UP, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
+    normal = hand.protractor("normal", foot, UP, reckoned(partial(np.multiply, sigma), alpha))
+    # The cam drags the follower in its own sense: the line of F is turned on from the normal in that sense.
+    base = hand.lay_off("base", normal, normal, BASE)
+    incline = hand.lay_off("incline", base, normal.turned(sigma * UP), BASE * friction)
+    line = hand.join("line of F", foot, incline)
+    across = hand.erect("line of R", origin, RIGHT)
+    meeting = hand.cross("meeting", line, across)
+    pushes = (foot.points.imag < 0) & (dot(meeting.points - foot.points, line.directions) > 0)
+    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
+    corner = found[0]
+    hand.join("F", foot, corner)
+    hand.join("R", corner, origin)
+    tip = hand.cross("tip of N", normal, hand.perpendicular("square", normal, corner))
+    hand.join("N", foot, tip)
+    hand.join("T", tip, corner)
+    lengths = {
+        "load": between(foot, origin, UP),
+        "contact": between(foot, corner),
+        "normal": between(foot, tip),
+        "contact_friction": between(tip, corner),
+        "along": between(foot, tip, UP),
+        "side": reckoned(np.abs, between(foot, tip, RIGHT)),
+        "reaction": between(origin, corner),
+    }
+    for name, length in lengths.items():
+        hand.read(name, length, mu.per_mm)
+    givens = FrictionPlanGivens(measured, load, None, k, mu, friction)
+    points = {"foot": foot, "corner": corner, "tip": tip, "contact_normal": normal.directions}
+    return hand.finished(givens, _draw, {**points, "across": across.directions})
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
+def _draw(plan: Construction[FrictionPlanGivens]) -> list[Step]:
+    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
+    last = jammed_step if math.isnan(float(plan.first("normal"))) else _closed
+    return [draw(plan, view) for draw in (load_step, _normal, _line_of_force, reaction_step, last)]
+
+
+def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
+    """The contact normal through the head of the load."""
+    normal, length = plan.acts["normal"].first, float(plan.first("normal"))
+    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
+    foot, direction = normal.place, complex(normal.directions)
+    said = say(
+        "At the head of Q set the protractor to α = {alpha:.2f}° from the upright {side}, and draw the contact normal "
+        "of this station there."
+    ).where(alpha=abs(math.degrees(alpha)), side=towards(-1.0 if direction.real < 0 else 1.0))
+    reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
+    radius = 0.4 * min(reach, LOAD_LENGTH)
+    named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
+    way = Line(
+        np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)
+    )
+    marks = (
+        way,
+        Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
+        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
+    )
+    why = say("Because without friction the cam would push along the contact normal.")
+    return Step(say("The contact normal"), said, view, marks, why=why)
+
+
+def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
+    """The line of the contact force, turned from the normal by the angle of friction."""
+    base, incline, line = (plan.acts[name].first for name in ("base", "incline", "line of F"))
+    sigma, mu, length = sense(plan.givens.measured.givens.rotation), plan.givens.mu, float(plan.first("contact"))
+    values = {"base": BASE, "mu": mu, "height": BASE * mu, "side": towards(-float(sigma))}
+    told = (
+        say("With the dividers lay off {base:g} mm on the normal from the head of Q."),
+        say("From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."),
+        say("Join the head of Q to this place with the ruler: on this line lies the contact force F."),
+    )
+    captions = [each.where(**values) for each in told]
+    along = complex(line.directions) / abs(complex(line.directions))
+    reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
+    run = Line(
+        np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2)
+    )
+    marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
+    why = say(
+        "Because the cam slides past the follower in its own sense and drags it along the profile with μN, so F leans "
+        "from the normal by the angle whose tangent is μ."
+    )
+    parts = tuple(Part(each, (left,)) for each, left in zip(captions, (base, incline, line), strict=True))
+    return Step(say("The line of the contact force"), sequence(captions, " "), view, marks, why=why, parts=parts)
+
+
+def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
+    """The triangle, the contact force in its parts, and what is measured on it."""
+    names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
+    foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
+    corner, shown, side, mu = corner[0], showing(plan), side_of(plan), plan.givens.mu_force.per_mm
+    level = shown.project("level", tip, shown.given("line of Q", 0j, UP))
+    values = {name: float(plan.value(name)) for name in plan.readings}
+    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings} | {"mu": mu}
+    told = (
+        (say("Mark where the line of F meets that of R: the third corner."), (corner,)),
+        (
+            say("F runs from the head of Q up to this corner: {contact_mm:.1f} mm × {mu:g} = {contact:.1f} N."),
+            (force,),
+        ),
+        (
+            say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N."),
+            (reaction,),
+        ),
+        (
+            say(
+                "From the corner draw the square to the normal with the set squares. On the normal it cuts off the "
+                "normal force N = {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N, and it is itself the friction T = "
+                "{contact_friction_mm:.1f} mm × {mu:g} = {contact_friction:.1f} N."
+            ),
+            (square, tip, normal, friction),
+        ),
+        (
+            say(
+                "With the T-square carry the tip of N level to the line of Q. Along the motion N cos α measures "
+                "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × {mu:g} = "
+                "{side:.1f} N."
+            ),
+            (level,),
+        ),
+    )
+    parts = tuple(Part(said.where(**values), left) for said, left in told)
+    marks: tuple[Mark, ...] = (
+        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
+        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
+        Arrow(foot.place, tip.place, Role.CURVE, of=normal.act, index=normal.index),
+        Arrow(tip.place, corner.place, Role.CURVE, of=friction.act, index=friction.index),
+        *(level.line_from(tip, Role.CONSTRUCTION), corner.dots(), tip.dots()),
+        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=force.act, index=force.index),
+        Label(corner.place / 2, "R", towards=UP, of=reaction.act, index=reaction.index),
+        Label((foot.place + tip.place) / 2, "N", towards=-side + 0j, of=normal.act, index=normal.index),
+        Label((tip.place + corner.place) / 2, "T", towards=UP, of=friction.act, index=friction.index),
+    )
+    return Step(
+        say("The triangle of forces"),
+        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
+        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        parts=parts,
+    )

@@ -1,0 +1,138 @@
+"""The table ``[spring]`` of a task file: what presses the follower on its cam, of one that slides and of an arm."""
+
+import math
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+from graphcam.given.arm_load import ArmLoad, ArmSpring
+from graphcam.given.load_curve import Load, LoadCurve
+from graphcam.given.ranges import bounded, positive
+from graphcam.given.spring_load import SpringLoad
+
+LoadTable = float | tuple[tuple[float, float], ...]
+"""A load in N, or rows of a cam angle in degrees and a load in N, from 0 to 360 degrees."""
+
+
+def load_of(said: LoadTable) -> Load:
+    """The load that a file says.
+
+    Raises
+    ------
+    DesignError : the rows do not cover the turn, are out of order or do not close
+
+    >>> load_of(25.0), float(load_of(((0, 10), (180, 20), (360, 10)))(np.pi / 2))
+    (25.0, 15.0)
+    """
+    if not isinstance(said, tuple):
+        return said
+    return LoadCurve([math.radians(angle) for angle, _ in said], [force for _, force in said])
+
+
+def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
+    positive("stiffness", stiffness, stiffness_unit)
+    if preload is not None and not (math.isfinite(preload) and preload >= 0):
+        raise DesignError("preload", preload, f"a finite number of 0 {preload_unit} or more")
+    bounded("preload", preload, preload_unit)
+
+
+def _check_turning(acceleration: float, friction: float, load: LoadTable) -> None:
+    bounded("acceleration", acceleration, "rad/s^2")
+    if not 0 <= friction <= MOST_FRICTION:
+        remedy = "it is the coefficient mu between cam and follower"
+        raise DesignError("friction", friction, f"from 0 to {MOST_FRICTION:g}", remedy)
+    for each in [load] if not isinstance(load, tuple) else [force for _, force in load]:
+        bounded("load", each, "N")
+    load_of(load)
+
+
+MOST_FRICTION = 2.0
+"""A greater coefficient is a slip of the digits."""
+
+
+@dataclass(frozen=True)
+class SpringTable:
+    """``[spring]``: what presses a translating or flat-faced follower on its cam; it needs ``speed_rpm``.
+
+    mass : kg, of the follower and all that moves with it
+    stiffness : N/mm
+    preload : N, of the spring at the lowest place; None is the least one that keeps contact
+    acceleration : rad/s^2, of the cam, at the speed
+    friction : mu, between cam and follower
+    load : N, what presses on the follower besides: a number, or rows [[degrees, N], ...] from 0 to 360 degrees
+    """
+
+    mass: float
+    stiffness: float
+    preload: float | None = None
+    acceleration: float = 0.0
+    friction: float = 0.0
+    load: LoadTable = 0.0
+    swings = False
+
+    def __post_init__(self) -> None:
+        positive("mass", self.mass, "kg")
+        _check_common(self.stiffness, "N/mm", self.preload, "N")
+        _check_turning(self.acceleration, self.friction, self.load)
+
+    def __call__(self, speed_rpm: float) -> SpringLoad:
+        """The load at a speed; an open preload is 0 in it.  The friction is a matter of the contact."""
+        load, preload = load_of(self.load), self.preload or 0.0
+        return SpringLoad(self.mass, speed_rpm, self.stiffness, preload, self.acceleration, load=load)
+
+
+@dataclass(frozen=True)
+class ArmSpringPlace:
+    """``[spring] at``: where a spring acts on an arm.
+
+    arm : mm from the pivot, on the line to the arm's end
+    anchor : mm, (x, y) of the spring's other end in the frame, whose origin is the cam centre
+    """
+
+    arm: float
+    anchor: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        if self.arm == 0:
+            raise DesignError("arm", self.arm, "a length other than 0 mm", "at the pivot a spring turns nothing")
+        bounded("arm", self.arm, "mm")
+        for coordinate in self.anchor:
+            bounded("anchor", coordinate, "mm")
+
+    def __call__(self) -> ArmSpring:
+        """The same for the exact side."""
+        return ArmSpring(self.arm, self.anchor)
+
+
+@dataclass(frozen=True)
+class ArmSpringTable:
+    """``[spring]``: what presses an arm on its cam; it needs ``speed_rpm``.
+
+    inertia : kg mm^2, of the arm and all that swings with it, about the pivot
+    stiffness : N mm/rad, of a torsion spring about the pivot; N/mm, of a spring at a point
+    preload : at the lowest place, N mm of a torsion spring, N of a spring at a point; None is the least one that keeps
+        contact
+    acceleration : rad/s^2, of the cam, at the speed
+    friction : mu, between cam and follower
+    load : N, what presses on the arm's end along its path besides: a number, or rows [[degrees, N], ...] from 0 to 360
+    at : where a spring acts on the arm; None is a torsion spring about the pivot
+    """
+
+    inertia: float
+    stiffness: float
+    preload: float | None = None
+    acceleration: float = 0.0
+    friction: float = 0.0
+    load: LoadTable = 0.0
+    at: ArmSpringPlace | None = None
+    swings = True
+
+    def __post_init__(self) -> None:
+        positive("inertia", self.inertia, "kg mm^2")
+        units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
+        _check_common(self.stiffness, units[0], self.preload, units[1])
+        _check_turning(self.acceleration, self.friction, self.load)
+
+    def __call__(self, speed_rpm: float) -> ArmLoad:
+        """The load at a speed; an open preload is 0 in it.  The friction is a matter of the contact."""
+        load, preload, at = load_of(self.load), self.preload or 0.0, self.at and self.at()
+        return ArmLoad(self.inertia, speed_rpm, self.stiffness, preload, self.acceleration, load, at)
