@@ -235,3 +235,64 @@ def test_faults_of_the_table_are_named(tmp_path, text, field, words):
     message = str(caught.value)
     assert f": {field} is " in message
     assert all(word in message for word in words.split()), message
+
+
+ARM = """
+rotation = "ccw"
+speed_rpm = 200
+[motion]
+phases = [
+  { kind = "rise", angle = 100, lift = 15, law = "cycloidal" }, { kind = "dwell", angle = 60 },
+  { kind = "return", angle = 100, lift = 15, law = "cycloidal" }, { kind = "dwell", angle = 100 },
+]
+[follower]
+kind = "oscillating"
+arm = 120
+distance = 130
+roller_radius = 14
+[cam]
+prime_radius = 60
+[spring]
+inertia = 3000
+stiffness = 90000
+preload = 150000
+friction = 0.05
+"""
+
+
+def test_an_arm_presses_with_its_torque_over_its_lever(tmp_path):
+    """The moment of N and of its friction about the pivot is that of spring and inertia; N is found from it anew."""
+    solution = solved(tmp_path, ARM + MATERIAL + "permitted_stress = 500\n")
+    at = solution.to_dict()["contact_stress"]["greatest"]
+    cam, phi = solution.cam, math.radians(at["phi_deg"])
+    s, _, a, _ = cam.motion(phi, at["side"])
+    omega = 200 * 2 * math.pi / 60
+    torque = 3000 * 1e-3 * float(a) * omega**2 + 150000 + 90000 * float(s)
+    # Seen in the frame: where the arm's end is, where it touches, and the normal there.
+    values = cam.motion(phi, at["side"])
+    pivot, end, normal = 130 + 0j, complex(cam.kinematics.point(values)), complex(cam.kinematics.normal(values))
+    touch = end - 14 * normal
+    moment = lambda place, force: ((place - pivot).conjugate() * force).imag  # noqa: E731
+    along = 1j * touch / abs(touch)  # the cam turns anticlockwise
+    tangent = 1j * normal * np.sign((along.conjugate() * 1j * normal).real)
+    lever = abs(moment(touch, normal + 0.05 * tangent))
+    assert at["normal_force"]["value"] == pytest.approx(torque / lever, rel=1e-9)
+    one = gc.hertz_line_contact(at["normal_force"]["value"], 15, at["profile_radius"]["value"], 14)
+    assert at["value"] == pytest.approx(one.peak_pressure, rel=1e-12)
+    assert "Contact stress" in note_of(solution)
+
+
+@pytest.mark.parametrize("permitted", [1035, 1100, 1140])
+def test_where_the_stress_is_exceeded_the_axis_is_marked(tmp_path, permitted):
+    solution = solved(tmp_path, TRANSLATING + MATERIAL + f"permitted_stress = {permitted}\n")
+    (diagram,) = solution.stress.drawn["contact_stress"].givens.diagrams
+    stress = lambda phi: float(np.interp(phi, diagram.curve.phi, diagram.curve.values))  # noqa: E731
+    assert diagram.wrong
+    for start, end in diagram.wrong:
+        for phi in (start, end):
+            assert phi in (0, 2 * math.pi) or stress(phi) == pytest.approx(permitted, rel=1e-9)
+        assert stress((start + end) / 2) > permitted
+    marked = sum(end - start for start, end in diagram.wrong)
+    phi = np.linspace(0, 2 * math.pi, 20001)
+    above = np.interp(phi, diagram.curve.phi, diagram.curve.values) > permitted
+    assert marked == pytest.approx(above.mean() * 2 * math.pi, abs=1e-3)
