@@ -29,12 +29,13 @@ from .mechanism.contact import (
     spring_preload as spring_preload,
 )
 from .mechanism.flat_faced import FaceWidth as FaceWidth, face_width as face_width
-from .mechanism.forces import CamForces as CamForces, jamming_margin as jamming_margin
+from .mechanism.forces import CamForces as CamForces
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
     hertz_line_contact as hertz_line_contact,
 )
+from .mechanism.jamming import jamming_margin as jamming_margin
 from .mechanism.least_radius import (
     FlatMinimumRadius as FlatMinimumRadius,
     MinimumRadius as MinimumRadius,

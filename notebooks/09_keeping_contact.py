@@ -14,13 +14,13 @@
 # %% [markdown]
 # # 9. Keeping contact: springs and stress
 #
-# **Aim.** At the end you can find the preload that keeps a follower on its cam, draw the force plan at a station, and estimate the pressure between roller and
-# profile.
+# **Aim.** At the end you can find the preload that keeps a follower on its cam, draw the force plan at a station with and without friction, say when a follower
+# jams, and estimate the pressure between roller and profile.
 #
-# **You need** the acceleration (notebook 1), the pressure angle (notebook 3). On paper: A4. **Time:** 50 minutes, 20 of them with the pencil.
+# **You need** the acceleration (notebook 1), the pressure angle (notebook 3). On paper: A4. **Time:** 60 minutes, 25 of them with the pencil.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-from math import cos, degrees, radians
+from math import cos, degrees, radians, sin
 
 import numpy as np
 
@@ -146,6 +146,70 @@ explore(
 )
 
 # %% [markdown]
+# ## Friction at the cam
+#
+# The cam slides past the follower, always in its own sense, and drags it along the profile with $\mu N$. Along the motion that takes $\mu N\sin\alpha$ away:
+#
+# $$ m\,(a\,\omega^2 + v\,\varepsilon) = N\,(\cos\alpha - \mu\sin\alpha) - (F_0 + c\,s) - P . $$
+#
+# What is left of a unit of normal force, $\tau = \cos\alpha - \mu\sin\alpha$, is the **transmission coefficient**. Where it falls to zero, at $\tan\alpha = 1/\mu$, no force
+# however great moves the follower: it **jams**. On the return $\alpha$ is negative, and friction bears a part of the load.
+#
+# In the force plan the contact force leans from the normal by the angle whose tangent is $\mu$; everything else stays. The square to the normal parts it
+# into $N$ and the friction $T = \mu N$.
+
+# %%
+rubbing = gc.solve(changed(task, {"spring": SpringTable(mass=0.5, stiffness=3.0, preload=30.0, friction=0.15)}))
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+show_steps(rubbing.spring.force_plan, within=rubbing)
+
+# %% [markdown]
+# Over the turn: without friction the spring gives back on the return what it took on the rise, and the mean torque is zero. With friction the shaft must be driven on the
+# average too.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+smooth = gc.CamForces(rubbing.cam, rubbing.spring.load)
+figure, axes = chart("φ, °", "M, N·m", 2.6)
+for forces, color, label in ((smooth, "#5a5a5a", "without friction"), (rubbing.spring.forces, "#b3201c", "with μ = 0.15")):
+    share = np.linspace(0, 1, 241)
+    at = [forces.at(k, share) for k in range(len(motion.phases))]
+    axes.plot(np.degrees(np.concatenate([each.phi for each in at])), np.concatenate([each.torque for each in at]) / 1000, color=color, label=label)
+axes.axhline(0, color="black", linewidth=0.6)
+axes.legend(fontsize=8)
+picture_of(figure, "The torque on the cam over the cam angle: with friction it is greater on the rise, less negative on the return, and a little above zero in the dwells.",
+           "The driving torque without friction (grey) and with it (red)")
+
+# %%
+rows = []
+for mu in (0.0, 0.15, 0.3):
+    forces = gc.CamForces(rubbing.cam, rubbing.spring.load, friction=mu)
+    rows.append((mu, gc.jamming_margin(rubbing.cam, mu).value, forces.greatest_normal().value, gc.mean_torque(forces) / 1000))
+table(("μ", "least τ", "greatest N, N", "mean M, N·m"), rows, digits=2)
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(rows[0][3]) < 1e-9 < rows[1][3] < rows[2][3]
+assert abs(rows[1][3] - 0.415) < 0.001
+assert all(row[1] > 0 for row in rows)
+assert rows[0][2] > rows[1][2] > rows[2][2]
+
+# %% [markdown]
+# Here the greatest normal force *falls* with friction: it lies on the return, at 49° of pressure angle, where the friction bears a part of the load. On the rise it grows.
+#
+# At a station the load along the motion is $Q = 100$ N, the pressure angle 30° and $\mu = 0.2$. How great is the normal force?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+normal_force = Question(
+    100 / (cos(radians(30)) - 0.2 * sin(radians(30))), 1.0, "N", "the transmission coefficient",
+    {"that is without friction": 100 / cos(radians(30)),
+     "on a rise friction takes away, it does not help": 100 / (cos(radians(30)) + 0.2 * sin(radians(30)))},
+)
+
+# %% tags=["try-it"]
+your_normal_force = None  # N
+normal_force.check(your_normal_force)
+
+# %% [markdown]
 # ## Stress between roller and profile
 #
 # Roller and profile touch along a line. By Hertz the pressure in its middle is
@@ -183,11 +247,12 @@ assert abs(float(normal.value) - exact) < 0.05 * exact
 # ## Where the error comes from
 #
 # The acceleration enters with the scale $\mu_a$, the last of the chain: an error of 1 % in the lift's length on paper is 1 % in the force. Larger is the doubt about what is *not* on the sheet: the true
-# moving mass (a third of the spring moves too), friction, and that the shaft does not turn evenly. So one takes the preload 20 to 50 % above the least one.
+# moving mass (a third of the spring moves too), the friction, and that the shaft does not turn evenly. So one takes the preload 20 to 50 % above the least one.
 #
 # ## Questions
 #
 # 1. At which speed does our spring need no preload at all?
 # 2. For which motion laws is the critical place inside a phase, not at a jump?
 # 3. A groove cam holds the roller on both sides. Which equation of this notebook then changes its meaning?
-# 4. The pressure $p$ grows with the square root of the force. What does doubling the preload cost in $p$, and in width $b$?
+# 4. A follower jams with $\mu = 0.4$. At which pressure angle, and why never on the return?
+# 5. The pressure $p$ grows with the square root of the force. What does doubling the preload cost in $p$, and in width $b$?

@@ -10,10 +10,10 @@ L(s); with x = L - L(0), or L(0) - L of one that is pressed together as the arm 
 virtual work M_spring = (F0 + c x) dx/ds.
 """
 
-import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -123,13 +123,14 @@ class ArmLoad:
 class PlacedArmLoad:
     """A load on an arm beside its cam: a torque about the pivot [N mm], positive towards the cam.
 
-    arm, distance : l and c [mm];  psi0 : angle between the arm and the line of centres at the low rest [rad]
+    arm, distance : l and c [mm];  psi0 : angle between the arm and the line of centres at the low rest [rad]; each may
+        be an array, of many arms at once
     """
 
     given: ArmLoad
-    arm: float
-    distance: float
-    psi0: float
+    arm: Any
+    distance: Any
+    psi0: Any
 
     @property
     def preload(self) -> float:
@@ -174,23 +175,30 @@ class PlacedArmLoad:
 
     def check(self, swing: float) -> None:
         """That a spring at a point presses the arm on the cam over the whole swing [rad]."""
-        if self.given.at is None:
+        if self.given.at is None or self.presses(swing):
             return
-        reach, bearing = abs(self._anchor), cmath.phase(self._anchor)
-        if reach == 0:
+        if self._anchor == 0:
             remedy = "anchor the spring beside the pivot"
             raise DesignError("at.anchor", "at the pivot", "elsewhere, for there the spring turns nothing", remedy)
-        # The spring passes over its dead point where its point, the pivot and the anchor lie on one line.
-        turned = (bearing + self.psi0) % math.pi
-        left = 0.0 if turned < DEAD else math.pi - turned
-        if left <= swing + DEAD:
-            limit = f"beside the line on which the spring passes over the pivot, after {math.degrees(left):.4g} degrees"
-            remedy = "move the anchor round the pivot, or the spring's point to the other side of it"
-            anchor = f"({self.given.at.anchor[0]:g}, {self.given.at.anchor[1]:g})"
-            raise DesignError("at.anchor", anchor, limit, remedy)
+        limit = (
+            f"beside the line on which the spring passes over the pivot, after {math.degrees(self._left):.4g} degrees"
+        )
+        remedy = "move the anchor round the pivot, or the spring's point to the other side of it"
+        anchor = f"({self.given.at.anchor[0]:g}, {self.given.at.anchor[1]:g})"
+        raise DesignError("at.anchor", anchor, limit, remedy)
+
+    def presses(self, swing: Any) -> Any:
+        """Whether the spring turns the arm towards the cam over the whole swing [rad]."""
+        return self.given.at is None or (np.abs(self._anchor) > 0) & (self._left > swing + DEAD)
+
+    @property
+    def _left(self) -> Any:
+        """How far the arm swings until the spring's point, the pivot and the anchor lie on one line [rad]."""
+        turned = np.mod(np.angle(self._anchor) + self.psi0, math.pi)
+        return np.where(turned < DEAD, 0.0, math.pi - turned)[()]
 
     @cached_property
-    def _anchor(self) -> complex:
+    def _anchor(self) -> Any:
         """The anchor seen from the pivot, turned so that the spring's point lies at psi0 = 0 on the positive axis."""
         at = self.given.at
         assert at is not None
@@ -202,13 +210,13 @@ class PlacedArmLoad:
         if at is None:
             return s, np.ones_like(s), np.zeros_like(s)
         # From the pivot the point is -b exp(-i psi): with the anchor at -r exp(i beta) the angle between is psi + beta.
-        b, r = at.arm, abs(self._anchor)
-        start = self.psi0 + cmath.phase(self._anchor)
-        angle, low = start + s, math.sqrt(b * b + r * r - 2 * b * r * math.cos(start))
+        b, r = at.arm, np.abs(self._anchor)
+        start = self.psi0 + np.angle(self._anchor)
+        angle, low = start + s, np.sqrt(b * b + r * r - 2 * b * r * np.cos(start))
         length = np.sqrt(b * b + r * r - 2 * b * r * np.cos(angle))
         first = b * r * np.sin(angle) / length
         second = (b * r * np.cos(angle) - first * first) / length
-        way = math.copysign(1.0, b * math.sin(start))
+        way = np.copysign(1.0, b * np.sin(start))
         # The difference of lengths by that of their squares: it keeps its digits near the lowest place.
         stretch = 4 * b * r * np.sin(s / 2) * np.sin((start + angle) / 2) / (length + low)
         return way * stretch, way * first, way * second

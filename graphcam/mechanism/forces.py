@@ -46,7 +46,15 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
 from graphcam.given.spring_load import Guide, SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.kinematics import Values, pair_cross
+from graphcam.mechanism.jamming import (
+    check_friction,
+    contact_angle,
+    jamming_margin,
+    lever_about_cam,
+    most_friction,
+    transmission,
+)
+from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
 from graphcam.showing import by_parts
 
@@ -72,64 +80,6 @@ def jamming_angle(guide: Guide, s: Floats | float = 0.0) -> Floats:
     78.6901
     """
     return np.arctan2(1.0, grip(guide, s))
-
-
-def transmission(cam: Cam, values: Values, friction: float = 0.0) -> tuple[Floats, Floats]:
-    """What a unit of normal force moves along the motion, cos alpha - mu sin alpha, and its derivative by phi.
-
-    values : (s, v, a, j)
-    returns : of an arm divided by its length, cos alpha - sigma mu (sin alpha - r/l)
-    """
-    kin = cam.kinematics
-    cosine, sine, turning = _angle(cam, values)
-    lean = kin.leaning * friction
-    rim = cam.roller_radius / kin.reach if kin.swings else 0.0
-    return cosine - lean * (sine - rim), -(sine + lean * cosine) * turning
-
-
-def jamming_margin(cam: Cam, friction: float) -> ValueAt:
-    """The least transmission coefficient over the turn, cos alpha - mu sin alpha, and where it is; at 0 the cam jams.
-
-    friction : mu between cam and follower
-
-    Raises
-    ------
-    DesignError : the friction is negative or not finite
-
-    >>> from math import degrees, radians
-    >>> import graphcam as gc
-    >>> motion = gc.Motion([gc.Rise(30, radians(60)), gc.Dwell(radians(120)), gc.Return(30, radians(120)),
-    ...     gc.Dwell(radians(60))])
-    >>> margin = gc.jamming_margin(gc.Cam(motion, gc.Translating(), prime_radius=30), friction=0.1)
-    >>> round(margin.value, 4), round(degrees(margin.phi), 2)
-    (0.5443, 25.19)
-    """
-    check_friction(friction)
-
-    def margin(places: Places) -> Floats:
-        """Its negative: the least coefficient is the greatest of these."""
-        return -transmission(cam, places.values, friction)[0]
-
-    worst = greatest_of(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
-    return worst._replace(value=-worst.value)
-
-
-def check_friction(friction: float) -> None:
-    """That a coefficient of friction can be one.
-
-    Raises
-    ------
-    DesignError : it is negative or not finite
-    """
-    if not (math.isfinite(friction) and friction >= 0):
-        raise DesignError("friction", friction, "a finite number of 0 or more")
-
-
-def _angle(cam: Cam, values: Values) -> tuple[Floats, Floats, Floats]:
-    """cos and sin of the pressure angle, and its slope by phi."""
-    q, q1 = cam.kinematics.pressure(values)
-    size = np.hypot(*q)
-    return q[0] / size, q[1] / size, pair_cross(q, q1) / size**2
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,7 +170,7 @@ class CamForces:
     def of(self, places: Places) -> Forces:
         """The forces at places that belong to phases."""
         values, direction = places.values, self.cam.motion.directions[places.phase]
-        cosine, sine, _ = _angle(self.cam, values)
+        cosine, sine, _ = contact_angle(self.cam.kinematics, values)
         normal, slip, (near, far) = self.normal(places), self._slip(places), self.bearings(values)[0]
         with np.errstate(invalid="ignore"):
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
@@ -325,12 +275,18 @@ class CamForces:
         ------
         DesignError : it jams, at the cam or in its guide
         """
+        _ = self._sound
+
+    @cached_property
+    def _sound(self) -> bool:
+        """True: what jams raises an error."""
         if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
-            allowed = f"less than the {self._most_friction():.4g} at which the follower jams, {self._where(margin)}"
+            allowed = f"less than the {most_friction(self.cam):.4g} at which the follower jams, {self._where(margin)}"
             remedy = "lubricate, let a roller turn, or enlarge the prime radius"
             raise DesignError("friction", self.friction, allowed, remedy)
         if self.guide.friction:
             self._check_guide()
+        return True
 
     def _greatest(
         self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1
@@ -360,7 +316,7 @@ class CamForces:
 
     def bearings(self, values: Values) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
         """N1 and N2 of the bearings over the normal force, and their slopes."""
-        cosine, sine, turning = _angle(self.cam, values)
+        cosine, sine, turning = contact_angle(self.cam.kinematics, values)
         moment, moment_slope = self.cam.kinematics.tipping(values, self.friction, self.cam.roller_radius)
         x, x_slope = sine + self.friction * cosine, (cosine - self.friction * sine) * turning
         b, length = self.guide.overhang - values[0], self.guide.length
@@ -368,13 +324,7 @@ class CamForces:
         return (x + far, far), (x_slope + far_slope, far_slope)
 
     def _turning(self, values: Values) -> tuple[Floats, Floats]:
-        """The torque on the cam over the normal force [mm], and its slope."""
-        _, v, a, _ = values
-        moved, moved_slope = transmission(self.cam, values, self.friction)
-        sliding, sliding_slope = self.cam.kinematics.sliding(values, self.cam.roller_radius)
-        reach = self.cam.kinematics.reach
-        lever = reach * v * moved + self.friction * sliding
-        return lever, reach * (a * moved + v * moved_slope) + self.friction * sliding_slope
+        return lever_about_cam(self.cam.kinematics, values, self.friction, self.cam.roller_radius)
 
     def _slip(self, places: Places) -> Floats:
         return self._held(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
@@ -388,20 +338,6 @@ class CamForces:
         held, held_slope = self._held(places.values)
         return held_slope * moved - held * moved_slope
 
-    def _most_friction(self) -> float:
-        """The friction at the cam at which the least transmission coefficient is zero."""
-
-        # cos alpha = mu x, with x = sin alpha less r/l of an arm's roller
-        def over(places: Places) -> Floats:
-            plain, _ = transmission(self.cam, places.values)
-            return (plain - transmission(self.cam, places.values, 1.0)[0]) / plain
-
-        def slope(places: Places) -> Floats:
-            (plain, plain_slope), (held, held_slope) = (transmission(self.cam, places.values, mu) for mu in (0.0, 1.0))
-            return held * plain_slope - held_slope * plain
-
-        return 1 / greatest_of(self.cam.motion, slope, over).value
-
     def _where(self, found: ValueAt) -> str:
         alpha = math.degrees(self.cam.pressure_angle(found.phi))
         return f"at a cam angle of {math.degrees(found.phi):.4g} degrees, where the pressure angle is {alpha:.4g}"
@@ -413,7 +349,10 @@ class CamForces:
         if self.friction:
             allowed = f"so small that the follower does not jam in its guide, {self._where(worst)}"
             raise DesignError("friction", self.friction, allowed, "lubricate guide and cam, or lengthen the guide")
-        alpha, limit = self.cam.pressure_angle(worst.phi), jamming_angle(self.guide, self.cam.motion(worst.phi)[0])
+        alpha, limit = (
+            self.cam.pressure_angle(worst.phi),
+            jamming_angle(self.guide, self.cam.motion(worst.phi)[0]),
+        )
         found = f"{math.degrees(alpha):.4g} degrees at a cam angle of {math.degrees(worst.phi):.4g}"
         allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
         remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"

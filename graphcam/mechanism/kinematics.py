@@ -94,10 +94,18 @@ class Kinematics(ABC):
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """A vector q whose argument is the pressure angle, and q'."""
 
+    def seen(self, values: Values) -> Pair:
+        """q of :meth:`pressure` alone."""
+        return self.pressure(values)[0]
+
     def steepness(self, values: Values) -> Floats:
         """The tangent of the pressure angle."""
         (along, across), _ = self.pressure(values)
         return np.divide(across, along)
+
+    def steepest(self, lift: Any, speed: Any) -> Any:
+        """What |tan(alpha)| does not exceed over a motion with that lift and that greatest |v|; 0 of a face."""
+        return 0.0 * lift
 
     def pressure_slope(self, values: Values) -> Floats:
         """Of the sign of alpha'."""
@@ -214,7 +222,7 @@ class RollerKinematics(Kinematics):
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
         """|q| - r: the cam slides past the trace point with |q|, and past the contact with less by the roller."""
         (along, across), (along1, across1) = self.pressure(values)
-        speed = np.hypot(along, across)
+        speed = np.sqrt(along * along + across * across)
         return speed - roller, (along * along1 + across * across1) / speed
 
     def speed(self, values: Values, inset: float) -> Floats:

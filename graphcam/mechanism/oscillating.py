@@ -97,6 +97,13 @@ class OscillatingKinematics(RollerKinematics):
         # By the half angle, because l and c cos(psi) may be nearly equal.
         return along, (self.arm - self.distance) + self.sigma * self.arm * v + along * tangent
 
+    def steepest(self, lift: Any, speed: Any) -> Any:
+        """Of numerator and denominator each the farthest, for cos(psi) falls and sin(psi) has its least at an end."""
+        ends = self.psi0, self.psi0 + lift
+        along = self.distance * np.minimum(*map(np.sin, ends))
+        across = np.maximum(*(np.abs(self.arm - self.distance * np.cos(psi)) for psi in ends))
+        return (across + self.arm * speed) / along
+
     def bend(self, values: Values) -> tuple[Pair, Pair]:
         """g = l v (sigma + v) and h = l a of kappa, and g', h'."""
         _, v, a, j = values

@@ -58,6 +58,10 @@ class TranslatingKinematics(RollerKinematics):
         s, v, _, _ = values
         return self.s0 + s, v - self.sigma * self.offset
 
+    def steepest(self, lift: Any, speed: Any) -> Any:
+        """(|v| + |e|)/s0."""
+        return (speed + np.abs(self.offset)) / self.s0
+
     def bend(self, values: Values) -> tuple[Pair, Pair]:
         """g = v and h = a of kappa, and g', h'."""
         _, v, a, j = values

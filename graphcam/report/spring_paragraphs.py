@@ -97,8 +97,8 @@ def _presses(spring: SpringDesign) -> Caption:
             )
         ]
     if load.acceleration:
-        accelerated = say("The cam gains $\\varepsilon = {epsilon:g}$ rad/s² at this speed.", epsilon=load.acceleration)
-        sentences.append(accelerated)
+        accelerated = say("The angular acceleration of the cam is $\\varepsilon = {epsilon:g}$ rad/s².")
+        sentences.append(accelerated.where(epsilon=load.acceleration))
     if isinstance(load.load, LoadCurve):
         least, most = min(load.load.force), max(load.load.force)
         varies = say("A load $P$ from {least:g} to {most:g} N presses besides, by the table.", least=least, most=most)

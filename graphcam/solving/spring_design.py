@@ -20,7 +20,8 @@ from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
-from graphcam.mechanism.forces import CamForces, Forces, jamming_margin
+from graphcam.mechanism.forces import CamForces, Forces
+from graphcam.mechanism.jamming import jamming_margin
 from graphcam.mechanism.mean_torque import mean_torque
 from graphcam.mechanism.stationary import Places, ValueAt, places_in, smooth_pieces
 from graphcam.mechanism.turn_curve import TurnCurve, over_turn
@@ -197,8 +198,8 @@ class SpringDesign:
         sliding = make(
             "transmission",
             say("The transmission coefficient"),
-            say("Transmission coefficient, μ = {mu:g}/mm"),
-            say("cos α − μ sin α"),
+            say("Transmission coefficient τ, μ = {mu:g}/mm"),
+            say("τ"),
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
             caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
@@ -295,7 +296,7 @@ class SpringDesign:
         ]
         if self.friction:
             rows.append(
-                (say("least cos α − μ sin α"), say("{value:.3f}", value=margin.value), at_side(margin, self.cam.motion))
+                (say("least transmission τ"), say("{value:.3f}", value=margin.value), at_side(margin, self.cam.motion))
             )
         return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), "")]
 
@@ -328,12 +329,12 @@ CONTACT_CAPTIONS = {
 }
 """What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""
 TRANSMITTED = say(
-    "cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, at "
-    "{mu:g}/mm. Where it falls to zero the follower jams."
+    "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "
+    "at {mu:g}/mm. Where it falls to zero the follower jams."
 )
 TRANSMITTED_BY_ARM = say(
-    "The lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, is the "
-    "part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
+    "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, is "
+    "the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
 )
 
 

@@ -13,7 +13,8 @@ Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREES = "°"
-UNITS = {str(unit): unit for unit in (say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa"))}
+UNITS = {"rpm": say("rpm"), "kg": say("kg"), "N/mm": say("N/mm"), "N": say("N"), "mm": say("mm"), "MPa": say("MPa")}
+UNITS |= {"kg·mm²": say("kg·mm²"), "rad/s²": say("rad/s²"), "N·mm": say("N·mm"), "N·mm/rad": say("N·mm/rad")}
 
 NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
@@ -29,6 +30,13 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "spring.mass": (SPRING, say("Moving mass"), "kg"),
     "spring.stiffness": (SPRING, say("Stiffness c"), "N/mm"),
     "spring.preload": (SPRING, say("Preload F₀"), "N"),
+    "spring.inertia": (SPRING, say("Moment of inertia J"), "kg·mm²"),
+    "spring.acceleration": (SPRING, say("Angular acceleration ε"), "rad/s²"),
+    "spring.friction": (SPRING, say("Friction at the cam μ"), ""),
+    "spring.load": (SPRING, say("Load P"), "N"),
+    "spring.at.arm": (SPRING, say("Spring from the pivot"), "mm"),
+    "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x"), "mm"),
+    "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y"), "mm"),
     "material.width": (MATERIAL, say("Width of the contact"), "mm"),
     "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam"), "MPa"),
     "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower"), "MPa"),

@@ -10,6 +10,7 @@ from graphcam.solving.solution import Solution
 from graphcam.studio.task_paths import value_at
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sheet_tables import plain
+from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.task import Task
 
 PARTS = 60
@@ -108,9 +109,7 @@ def _(solution: Solution) -> dict[str, SizeRange]:
     found = {**_of_follower(solution), **_of_limits(solution.task), **_of_drawing(solution)}
     found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
     if (spring := solution.task.spring) is not None:
-        found |= {f"spring.{name}": _about(getattr(spring, name)) for name in ("mass", "stiffness")}
-        preload = spring.preload if spring.preload is not None else _preload(solution)
-        found["spring.preload"] = _about(preload or 100.0)._replace(least=0.0)
+        found |= _of_spring(solution, spring)
     if (material := solution.task.material) is not None:
         sized = {"permitted_stress": USUAL_STRESS} | {key: value for key, value in plain(material).items() if value}
         found |= {f"material.{name}": _about(value) for name, value in sized.items()}
@@ -146,6 +145,28 @@ def _wide_enough(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str
 def _about(value: float) -> SizeRange:
     most = round_up(1.6 * value)
     return SizeRange(most / 100, most, most / 100)
+
+
+def _of_spring(solution: Solution, spring: SpringTable | ArmSpringTable) -> dict[str, SizeRange]:
+    """What presses the follower on the cam."""
+    preload = spring.preload if spring.preload is not None else _preload(solution)
+    found = {
+        "spring.stiffness": _about(spring.stiffness),
+        "spring.preload": _about(preload or 100.0)._replace(least=0.0),
+        "spring.friction": SizeRange(0.0, 0.5, 0.01),
+        "spring.acceleration": SizeRange(-500.0, 500.0, 5.0),
+    }
+    if not isinstance(spring.load, tuple):
+        found["spring.load"] = _about(abs(spring.load) or 100.0)._replace(least=0.0)
+    if isinstance(spring, SpringTable):
+        return found | {"spring.mass": _about(spring.mass)}
+    found["spring.inertia"] = _about(spring.inertia)
+    if spring.at is not None:
+        reach = round_up(2.0 * max(abs(spring.at.arm), *map(abs, spring.at.anchor)))
+        step = step_for(reach)
+        found["spring.at.arm"] = SizeRange(step, reach, step)
+        found |= {f"spring.at.anchor[{axis}]": SizeRange(-reach, reach, step) for axis in (0, 1)}
+    return found
 
 
 def _preload(solution: Solution) -> float | None:

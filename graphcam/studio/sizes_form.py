@@ -5,11 +5,14 @@ from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
+from graphcam.given.arm_load import ArmLoad
 from graphcam.given.laws import LAWS
+from graphcam.given.load_curve import LoadCurve
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
+from graphcam.solving.spring_design import SpringDesign
 from graphcam.studio.follower_kinds import kind_choices
 from graphcam.studio.form_fields import DEGREES, DRAWING, FOLLOWER, LIMITS, MOTION, Field, FieldMaker, must_agree
 from graphcam.studio.phase_edits import with_dwell, with_step, without
@@ -148,13 +151,25 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.open_number("limits.pressure_angle_return", None)
         yield make.choice("limits.rest", LIMITS, say("Angle at the low dwell"), AT_REST.items())
     if solution.spring is not None:
-        yield make.number("spring.mass")
-        yield make.number("spring.stiffness")
-        yield make.open_number("spring.preload", solution.spring.load.preload)
+        yield from _spring(make, solution.spring)
     if solution.task.material is not None:
         for name in ("width", "young_cam", "young_follower", "poisson_cam", "poisson_follower"):
             yield make.number(f"material.{name}")
         yield make.open_number("material.permitted_stress", None)
+
+
+def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
+    """What presses the follower on the cam."""
+    load, (_, preload, stiffness) = spring.load, spring.units
+    yield make.number("spring.inertia" if isinstance(load, ArmLoad) else "spring.mass")
+    yield make.number("spring.stiffness") | {"unit": make.unit(stiffness)}
+    yield make.open_number("spring.preload", load.preload) | {"unit": make.unit(preload)}
+    if isinstance(load, ArmLoad) and load.at is not None:
+        yield from map(make.number, ("spring.at.arm", "spring.at.anchor[0]", "spring.at.anchor[1]"))
+    yield make.number("spring.friction")
+    yield make.number("spring.acceleration")
+    if not isinstance(load.load, LoadCurve):
+        yield make.number("spring.load")
 
 
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:

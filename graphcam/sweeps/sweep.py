@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
+from graphcam.given.spring_load import SpringLoad
 from graphcam.sweeps.designs import Designs
+from graphcam.sweeps.sweep_forces import FORCES, SweptLoad
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
 from graphcam.workers import in_order
 
@@ -36,6 +39,8 @@ def sweep(
     executor: Executor | None = None,
     *,
     limits: Limits | None = None,
+    load: SpringLoad | ArmLoad | None = None,
+    friction: float = 0.0,
     chunk: int = CHUNK_OF_DESIGNS,
 ) -> Columns:
     """Extremes and feasibility of many cams.
@@ -49,21 +54,25 @@ def sweep(
         - min_pitch_curvature_radius [mm], the least of the convex parts, inf without any; of a flat face the least rho
         - max_v [mm/rad] and max_a [mm/rad^2], magnitudes; of an arm [rad/rad] and [rad/rad^2]
         - feasible: within the limits, and the roller smaller than the least radius of curvature
+        - under a load, and not by default: max_normal_force, min_normal_force [N], max_torque [N mm] on the cam,
+          least_preload [N; N mm of a torsion spring], jamming_margin, the least cos(alpha) - mu sin(alpha)
 
     executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
     limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
         and force closure
+    load : what presses every follower, a number of N with it but no table; needed for forces
+    friction : mu between cam and follower
     chunk : designs computed at a time
 
     Returns
     -------
     dict : by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large as the
-        prime radius, an arm that does not reach, phases longer than the turn.  The bits depend neither on ``chunk`` nor
-        on the executor
+        prime radius, an arm that does not reach, phases longer than the turn; forces are NaN where the follower jams.
+        The bits depend neither on ``chunk`` nor on the executor
 
     Raises
     ------
-    DesignError : an unknown quantity, or a chunk of none
+    DesignError : an unknown quantity, forces without a load or with one of another follower, or a chunk of none
 
     >>> import numpy as np
     >>> import graphcam as gc
@@ -72,14 +81,23 @@ def sweep(
     >>> found = gc.sweep(designs, ["max_pressure_angle_rise", "feasible"])
     >>> np.degrees(found["max_pressure_angle_rise"]).round(3).tolist(), found["feasible"].tolist()
     ([nan, 14.978, 12.949], [False, True, True])
+    >>> spring = gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100)
+    >>> gc.sweep(designs, ["max_normal_force"], load=spring, friction=0.1)["max_normal_force"].round(3).tolist()
+    [nan, 218.984, 218.924]
     """
     wanted = tuple(quantities)
     for name in wanted:
-        if name not in QUANTITIES:
-            raise DesignError("quantity", name, "one that a sweep can find", nearest(name, QUANTITIES))
+        if name not in (known := (*QUANTITIES, *FORCES)):
+            raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))
+        if name in FORCES and load is None:
+            raise DesignError("load", "left out", f"given where {name} is asked for", "give a SpringLoad or an ArmLoad")
     if chunk < 1:
         raise DesignError("chunk", chunk, "at least 1 design")
-    compute = partial(computed, quantities=wanted, limits=limits or Limits(usual_limit(designs.follower)), chunk=chunk)
+    swept = None if load is None else SweptLoad(load, friction)
+    if swept:
+        swept.check(designs.follower)
+    limits = limits or Limits(usual_limit(designs.follower))
+    compute = partial(computed, quantities=wanted, limits=limits, chunk=chunk, swept=swept)
     if executor is None:
         return compute(designs)
     out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
@@ -100,15 +118,21 @@ def usual_limit(follower: str) -> float:
     return math.radians(FOLLOWERS[follower].usual_limit_deg)
 
 
-def computed(designs: Designs, quantities: tuple[str, ...], limits: Limits, chunk: int = CHUNK_OF_DESIGNS) -> Columns:
+def computed(
+    designs: Designs,
+    quantities: tuple[str, ...],
+    limits: Limits,
+    chunk: int = CHUNK_OF_DESIGNS,
+    swept: SweptLoad | None = None,
+) -> Columns:
     """The quantities of designs, chunk by chunk, without an executor."""
     n = len(designs)
     out = _empty(quantities, n)
     for k in range(0, n, chunk):
         here = slice(k, min(k + chunk, n))
-        some = Chunk(designs.part(here), limits)
+        some = Chunk(designs.part(here), limits, swept)
         for name in quantities:
-            out[name][here] = getattr(some, name)
+            out[name][here] = some.under_load(name) if name in FORCES else getattr(some, name)
     return out
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.given.arm_load import PlacedArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import Floats, law
 from graphcam.given.limits import Limits
@@ -17,11 +18,15 @@ from graphcam.mechanism.followers import EXACT
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
+from graphcam.sweeps.sweep_forces import SOUGHT, Rubbing, SoughtForce, SweptLoad
 
 QUANTITIES = (
     *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
     *("max_v", "max_a", "feasible"),
 )
+
+JAMS = "max_normal_force", "min_normal_force", "max_torque"
+"""What does not exist where the follower jams."""
 
 
 class Steepness(Sought):
@@ -57,6 +62,49 @@ class Chunk:
 
     designs: Designs
     limits: Limits
+    swept: SweptLoad | None = None
+
+    def under_load(self, name: str) -> Floats:
+        """A quantity of the forces, by its name among :data:`FORCES`; NaN where the follower jams somewhere."""
+        assert self.swept is not None
+        kind, sign = SOUGHT[name]
+        found = self._greatest_force(kind)
+        if name in JAMS:
+            found = np.where(self._moves, found, np.nan)
+        return sign * found
+
+    def _greatest_force(self, kind: type[SoughtForce]) -> Floats:
+        assert self.swept is not None
+        found = np.full(len(self.designs), -np.inf)
+        for legs in (self._rises, self._returns):
+            sought = kind(self._many, self.swept, self.designs.column("roller_radius"), legs[1])
+            found = np.maximum(found, self._over_legs(sought, legs))
+        for level, angle in self._dwells:
+            found = np.maximum(found, np.where(angle > 0, sought.at_rest(level), -np.inf))
+        placed = self.swept.beside(self._many)
+        if isinstance(placed, PlacedArmLoad):
+            found = np.where(placed.presses(self._lift), found, np.nan)
+        return found
+
+    @cached_property
+    def _moves(self) -> NDArray[np.bool_]:
+        """Where the follower jams nowhere."""
+        assert self.swept is not None
+        friction, kin, roller = self.swept.friction, self._many, self.designs.column("roller_radius")
+        steep = kin.steepest(self._lift, self.max_v)
+        rim = roller / kin.reach if kin.swings else 0.0
+        moves = friction * (steep + rim * np.sqrt(1 + steep * steep)) < 1
+        # What this does not prove is sought: few of the cams that one would build.
+        (doubtful,) = np.nonzero(~moves & ~np.isnan(steep))
+        if friction and doubtful.size:
+            some = Chunk(self.designs.part(doubtful), self.limits, self.swept)
+            moves[doubtful] = friction * some._greatest_force(Rubbing) < 1
+        return moves
+
+    @property
+    def _dwells(self) -> tuple[tuple[Floats, Floats], ...]:
+        """The displacements and the angles of the dwells."""
+        return (self._lift, self.designs.column("dwell_angle")), (0 * self._lift, self.designs.low_dwell)
 
     @cached_property
     def max_pressure_angle_rise(self) -> Floats:
@@ -73,10 +121,7 @@ class Chunk:
         """The least radius of curvature of the convex parts of the pitch curve [mm]; signed under a flat face."""
         sharpest = self._over_legs(self._sharpness, self._rises)
         sharpest = np.maximum(sharpest, self._over_legs(self._sharpness, self._returns))
-        for level, angle in (
-            (self._lift, self.designs.column("dwell_angle")),
-            (0 * self._lift, self.designs.low_dwell),
-        ):
+        for level, angle in self._dwells:
             still = np.zeros_like(level)
             resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
             sharpest = np.maximum(sharpest, resting)

@@ -20,7 +20,7 @@ def load_of(said: LoadTable) -> Load:
     ------
     DesignError : the rows do not cover the turn, are out of order or do not close
 
-    >>> load_of(25.0), float(load_of(((0, 10), (180, 20), (360, 10)))(np.pi / 2))
+    >>> load_of(25.0), float(load_of(((0, 10), (180, 20), (360, 10)))(math.pi / 2))
     (25.0, 15.0)
     """
     if not isinstance(said, tuple):

@@ -66,8 +66,8 @@ def test_the_drawn_forces_converge_to_the_exact_ones_with_second_order(law, quar
 
 
 def test_the_scatter_is_what_the_pencil_explains():
-    """Linear propagation in N: the length of Q, and the two that set off the friction, err by the dividers, the normal's
-    direction by the protractor."""
+    """Linear propagation in N: Q, and the lengths that set off the friction, err by the dividers, the normal by the
+    protractor."""
     angles, k = measured(), 5
     perfect = friction_plan(angles, LOAD, Pencil(), MU, station=k)
     alpha, load = float(angles.readings["alpha"].paper[k]), float(perfect.readings["load"].paper)

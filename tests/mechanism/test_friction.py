@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import graphcam as gc
-from graphcam.mechanism.forces import transmission
+from graphcam.mechanism.jamming import transmission
 from graphcam.mechanism.stationary import places_in, smooth_pieces
 
 DEG = math.pi / 180

@@ -28,8 +28,6 @@ NOT_REACHED = {
     "number of points": "only an export asks for a number of points",
     "pencil samples": "one hand draws in the studio",
     "pencil seed": "one hand draws in the studio",
-    "acceleration": "a speed that changes stands in Python only",
-    "friction": "a guide with friction stands in Python only",
     "overhang": "a guide stands in Python only",
     "length": "a guide stands in Python only",
     "built-in task": "the page has the tasks themselves",
@@ -136,10 +134,27 @@ def test_fields_are_in_the_form():
     shown = {field["path"] for name in BUILT_IN for field in form_of(solved(name), str)}
     of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation"}
     materials = {f"material.{key.name}" for key in fields(MaterialTable)}
-    springs = {"spring.mass", "spring.stiffness", "spring.preload"}
+    spring = {"mass", "stiffness", "preload", "acceleration", "friction", "load"}
+    springs = {f"spring.{name}" for name in (*spring, "inertia", "at.arm", "at.anchor[0]")}
     assert set(FIELDS.values()) - shown == of_no_field | springs | {"material.width"}
     sprung = changed(plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}, "material": {"width": 15.0}})
-    assert springs | materials <= {field["path"] for field in form_of(gc.solve(rebuilt(sprung)), str)}
+    at = {"arm": 60.0, "anchor": [120.0, -60.0]}
+    arm = changed(
+        plain_task("arm"),
+        {"speed_rpm": 200.0, "spring": {"inertia": 900.0, "stiffness": 2.0, "friction": 0.1, "at": at}},
+    )
+    there = {field["path"] for task in (sprung, arm) for field in form_of(gc.solve(rebuilt(task)), str)}
+    assert springs | materials <= there
+
+
+@pytest.mark.parametrize(
+    ("at", "units"), [(None, ["N·mm/rad", "N·mm"]), ({"arm": 60.0, "anchor": [120.0, -60.0]}, ["N/mm", "N"])]
+)
+def test_the_units_of_an_arm_s_spring_are_those_of_its_kind(at, units):
+    spring = {"inertia": 900.0, "stiffness": 2.0, **({"at": at} if at else {})}
+    task = changed(plain_task("arm"), {"speed_rpm": 200.0, "spring": spring})
+    shown = {field["path"]: field for field in form_of(gc.solve(rebuilt(task)), str)}
+    assert [shown[f"spring.{name}"]["unit"] for name in ("stiffness", "preload")] == units
 
 
 SPRING = {"mass": 0.5, "stiffness": 2.0}
@@ -165,6 +180,17 @@ WRONG = [
     ("coursework", {"spring": SPRING, "material": {"width": -15.0}}, "material.width"),
     ("coursework", {"spring": SPRING, "material": {"width": 15.0, "poisson_cam": 0.7}}, "material.poisson_cam"),
     ("coursework", {"spring": SPRING, "material": {"width": 15.0, "young_follower": 0.0}}, "material.young_follower"),
+    ("coursework", {"spring": {"mass": 1.0, "stiffness": 2.0, "friction": -1.0}}, "spring.friction"),
+    ("coursework", {"spring": {"mass": 1.0, "stiffness": 2.0, "friction": 1.9}}, "spring.friction"),
+    ("coursework", {"spring": {"mass": 1.0, "stiffness": 2.0, "load": [[0, 1], [270, 1]]}}, "spring.load"),
+    ("coursework", {"spring": {"inertia": 1.0, "stiffness": 2.0}}, "spring.inertia"),
+    ("arm", {"speed_rpm": 90.0, "spring": {"inertia": -1.0, "stiffness": 2.0}}, "spring.inertia"),
+    ("arm", {"speed_rpm": 90.0, "spring": {"mass": 1.0, "stiffness": 2.0}}, "spring.mass"),
+    (
+        "arm",
+        {"speed_rpm": 90.0, "spring": {"inertia": 1.0, "stiffness": 2.0, "at": {"arm": 9.0, "anchor": [81.4, 41.1]}}},
+        "spring.at.anchor[0]",
+    ),
     ("coursework", {"follower.kind": "magnetic"}, "follower.kind"),
     (
         "coursework",

@@ -1,0 +1,196 @@
+"""The forces of many cams under one load: greatest and least normal force, torque, least preload, jamming."""
+
+from dataclasses import dataclass, replace
+from typing import Any, Self
+
+import numpy as np
+
+from graphcam.errors import DesignError
+from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
+from graphcam.given.follower_load import FollowerLoad
+from graphcam.given.laws import Floats
+from graphcam.given.load_curve import LoadCurve
+from graphcam.given.spring_load import SpringLoad
+from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
+from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
+from graphcam.sweeps.greatest import Numbers, Sought
+
+
+@dataclass(frozen=True)
+class SweptLoad:
+    """What presses the followers of all cams of a sweep, and the friction between cam and follower.
+
+    Raises
+    ------
+    DesignError : the load depends on the cam angle, does not fit the follower, or the friction is negative
+    """
+
+    load: SpringLoad | ArmLoad
+    friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_friction(self.friction)
+        if isinstance(self.load.load, LoadCurve):
+            raise DesignError("load", "a table over the turn", "a number in a sweep", "the cams have other phases")
+
+    def check(self, follower: str) -> None:
+        """That the load fits a kind of follower."""
+        arm = follower == "oscillating"
+        if arm != isinstance(self.load, ArmLoad):
+            fitting = "an ArmLoad, for the followers swing" if arm else "a SpringLoad, for the followers slide"
+            raise DesignError("load", f"of the kind {type(self.load).__name__}", fitting)
+
+    def beside(self, kin: Kinematics) -> FollowerLoad:
+        """The load beside each of many cams."""
+        if isinstance(self.load, ArmLoad):
+            sizes: Any = kin
+            return PlacedArmLoad(self.load, sizes.arm, sizes.distance, sizes.psi0)
+        return self.load
+
+
+@dataclass(frozen=True, eq=False)
+class SoughtForce(Sought):
+    """A quantity of the forces, of many cams with rollers [mm], on rises (direction 1) or returns (-1)."""
+
+    swept: SweptLoad
+    roller: Any
+    direction: int
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The same of some of the cams."""
+        return replace(self, kin=self.kin.part(which), roller=self.roller[which])
+
+    def at_rest(self, level: Floats) -> Floats:
+        """The quantity in a dwell at a displacement, (n,), without the friction in the guide."""
+        still = np.zeros_like(level)
+        return replace(self, direction=0).reading((level, still, still, still))
+
+    def _load(self, values: Values) -> tuple[Floats, Floats]:
+        """The load, and its slope by phi."""
+        load = self.swept.beside(self.kin)
+        return load.force(values, self.direction), load.slope(values)
+
+    def _moved(self, values: Values) -> tuple[Floats, Floats]:
+        """What a unit of normal force moves, and its slope; NaN where the follower jams."""
+        moved, slope = transmitted(self.kin, values, self.swept.friction, self.roller)
+        return self.kin.reach * np.where(moved > 0, moved, np.nan), self.kin.reach * slope
+
+    def _part(self, values: Values) -> tuple[Floats, Floats]:
+        """What a unit of normal force moves, times |q|, and |q|: one root for each place."""
+        along, across = self.kin.seen(values)
+        lean = self.kin.leaning * self.swept.friction
+        size = np.sqrt(along * along + across * across)
+        moved = along - lean * across if self.swept.friction else along
+        if self.kin.swings:
+            moved = self.kin.reach * moved + lean * self.roller * size
+        return moved, size
+
+    def _normal(self, values: Values) -> Floats:
+        """The normal force [N], without its slope; NaN where the follower jams."""
+        moved, size = self._part(values)
+        force = self.swept.beside(self.kin).force(values, self.direction)
+        return force * size / np.where(moved > 0, moved, np.nan)
+
+
+class GreatestNormal(SoughtForce):
+    """The normal force [N]."""
+
+    def reading(self, values: Values) -> Floats:
+        """N."""
+        return self._normal(values)
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """N = Q/D, and what has the sign of N'."""
+        (q, q_slope), (d, d_slope) = self._load(values), self._moved(values)
+        return q / d, q_slope * d - q * d_slope
+
+
+class LeastNormal(GreatestNormal):
+    """The negative normal force [N], which is greatest where the force is least."""
+
+    def reading(self, values: Values) -> Floats:
+        """-N."""
+        return -self._normal(values)
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """-N, and what has the sign of its slope."""
+        value, slope = super().with_slope(values)
+        return -value, -slope
+
+
+class GreatestTorque(SoughtForce):
+    """The torque that drives the cam [N mm]."""
+
+    def reading(self, values: Values) -> Floats:
+        """M = Q v + mu N w, with w the speed of sliding."""
+        passed = self.swept.beside(self.kin).force(values, self.direction) * values[1]
+        if not self.swept.friction:
+            return passed
+        return passed + self.swept.friction * self._normal(values) * self.kin.sliding(values, self.roller)[0]
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """M, and its slope."""
+        (q, q_slope), (d, d_slope) = self._load(values), self._moved(values)
+        lever, lever_slope = lever_about_cam(self.kin, values, self.swept.friction, self.roller)
+        normal = q / d
+        return normal * lever, (q_slope - normal * d_slope) / d * lever + normal * lever_slope
+
+
+class NeededPreload(SoughtForce):
+    """The preload that is needed at a place [N, or N mm of a torsion spring]."""
+
+    def reading(self, values: Values) -> Floats:
+        """F0 less the load over its lever."""
+        load = self.swept.beside(self.kin)
+        return load.preload - load.force(values, self.direction) / load.leverage(values)[0]
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The same, and what has the sign of its slope."""
+        (q, q_slope), (w, w_slope) = self._load(values), self.swept.beside(self.kin).leverage(values)
+        return self.swept.load.preload - q / w, q * w_slope - q_slope * w
+
+
+class Jamming(SoughtForce):
+    """The negative transmission coefficient, which is greatest where it is least."""
+
+    def reading(self, values: Values) -> Floats:
+        """mu sin(alpha) - cos(alpha)."""
+        moved, size = self._part(values)
+        return -moved / (self.kin.reach * size)
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The same, and what has the sign of its slope, (sin(alpha) + mu cos(alpha)) alpha'."""
+        q, q1 = self.kin.pressure(values)
+        return self.reading(values), (q[1] + self.kin.leaning * self.swept.friction * q[0]) * pair_cross(q, q1)
+
+
+class Rubbing(SoughtForce):
+    """tan(alpha), of an arm (sin(alpha) - r/l)/cos(alpha) with the sign of the friction: the follower jams at 1/mu."""
+
+    def reading(self, values: Values) -> Floats:
+        """The friction over the force that moves, for mu = 1."""
+        along, across = self.kin.seen(values)
+        if not self.kin.swings:
+            return across / along
+        rim = self.roller / self.kin.reach * np.sqrt(along * along + across * across)
+        return self.kin.leaning * (across - rim) / along
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The same, and what has the sign of its slope, alpha' (1 - r/l sin(alpha))."""
+        q, q1 = self.kin.pressure(values)
+        slope = self.kin.leaning * pair_cross(q, q1)
+        if self.kin.swings:
+            slope = slope * (np.sqrt(q[0] * q[0] + q[1] * q[1]) - self.roller / self.kin.reach * q[1])
+        return self.reading(values), slope
+
+
+SOUGHT: dict[str, tuple[type[SoughtForce], int]] = {
+    "max_normal_force": (GreatestNormal, 1),
+    "min_normal_force": (LeastNormal, -1),
+    "max_torque": (GreatestTorque, 1),
+    "least_preload": (NeededPreload, 1),
+    "jamming_margin": (Jamming, -1),
+}
+"""What is sought for each of :data:`FORCES`, and the sign with which its greatest value is the quantity."""
+FORCES = tuple(SOUGHT)
+"""What a sweep can find under a load."""
