@@ -20,12 +20,14 @@
 # minutes, 15 of them with the pencil.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-from math import inf, pi, sqrt
+from math import degrees, inf, pi, sqrt
 
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, chart, explore, picture_of, table
+from graphcam.notebooks import Question, Slider, changed, chart, explore, picture_of, show_steps, table
+from graphcam.tasks.material_table import MaterialTable
+from graphcam.tasks.spring_tables import SpringTable
 
 # %% [markdown]
 # ## Background
@@ -119,6 +121,32 @@ def fields(found, names=("greatest_shear", "von_mises")):
 
 picture_of(fields(meshes[1]), "Two maps of the stress about the contact, roller above and cam below: both are greatest below the surface on the common normal, the shear stress at three quarters of the "
            "half-width, and small at the surface beside the contact.", "Stresses in the roller (above) and in the cam (below)")
+
+# %% [markdown]
+# ## Where on the cam
+#
+# Over the turn the force changes, and so does the curvature of the profile. A task says the materials in a table `[material]`; then the stress stands on the sheet as a diagram, beside what is permitted. Here
+# a follower of 2 kg on a cam with a preload of 1500 N, at 300 rpm:
+
+# %%
+task = changed(gc.builtin_task(), {
+    "speed_rpm": 300.0, "spring": SpringTable(mass=2, stiffness=20, preload=1500),
+    "material": MaterialTable(width=15, permitted_stress=1000),
+})
+solution = gc.solve(task)
+show_steps(solution.stress.drawn["contact_stress"], within=solution)
+
+# %%
+at, most = solution.stress.contact, solution.stress.greatest
+print(f"{most.value:.0f} MPa at {degrees(most.phi):.1f} degrees: {float(at.force):.0f} N on a profile of radius {float(at.profile_radius):.1f} mm")
+
+# %% [markdown]
+# The stress is not greatest where the force is: it grows with the root of the force, and with the root of the relative curvature $1/\varrho + 1/r$. On a sharp, convex place a small force does more harm than a great one in
+# a hollow. A knife edge has no radius at all, and by Hertz an infinite stress.
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(most.value - gc.hertz_line_contact(float(at.force), 15, float(at.profile_radius), solution.cam.roller_radius).peak_pressure) < 1e-6
+assert degrees(abs(most.phi - solution.spring.greatest_normal.phi)) > 1
 
 # %% [markdown]
 # ## Try it yourself
