@@ -11,7 +11,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.ink import Construction, say
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.units import unit
 from graphcam.mechanism.forces import CamForces
@@ -41,6 +41,12 @@ JUDGED = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
     "profile and follower, at {mu:g} MPa/mm. The level line is the permitted stress; {verdict}."
 )
+BEYOND = say(
+    "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
+    "profile and follower, at {mu:g} MPa/mm. The permitted stress of {limit:g} MPa lies beyond the diagram."
+)
+FAR = 3.0
+"""A permitted stress of more than so many times the greatest would leave no room for the curve."""
 KEPT = say("the curve nowhere passes it")
 PASSED = say("where the curve passes it the axis is marked")
 ENLARGED = {True: say("the roller and the prime radius"), False: say("the prime radius")}
@@ -158,13 +164,27 @@ class StressDesign:
             "MPa",
             self.forces.cam.motion,
             curve,
-            STRESS if limit is None else JUDGED.where(verdict=KEPT if self.permitted else PASSED),
+            self._said,
             why=say("Because surfaces pit where they are pressed too hard too often."),
             marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
-            limit=None if limit is None else (limit, with_unit(limit, "MPa")),
+            limit=None if limit is None or self._far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_above(curve, limit)),
         )
         return turn_diagrams(STRESS_MEANING, [diagram], self.chain.pencil)
+
+    @property
+    def _far(self) -> bool:
+        """Whether the permitted stress lies far above the greatest."""
+        limit = self.material.permitted_stress
+        return limit is not None and self.greatest is not None and limit > FAR * self.greatest.value
+
+    @property
+    def _said(self) -> Caption:
+        """What is said of the diagram."""
+        limit = self.material.permitted_stress
+        if limit is None:
+            return STRESS
+        return BEYOND.where(limit=limit) if self._far else JUDGED.where(verdict=KEPT if self.permitted else PASSED)
 
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: MPa, N, mm and degrees."""

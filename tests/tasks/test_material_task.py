@@ -296,3 +296,13 @@ def test_where_the_stress_is_exceeded_the_axis_is_marked(tmp_path, permitted):
     phi = np.linspace(0, 2 * math.pi, 20001)
     above = np.interp(phi, diagram.curve.phi, diagram.curve.values) > permitted
     assert marked == pytest.approx(above.mean() * 2 * math.pi, abs=1e-3)
+
+
+@pytest.mark.parametrize(("permitted", "drawn"), [(3000, True), (4000, False)])
+def test_a_permitted_stress_far_above_the_curve_is_told_and_not_drawn(tmp_path, permitted, drawn):
+    """Else the curve would have no height on the paper."""
+    solution = solved(tmp_path, TRANSLATING + MATERIAL + f"permitted_stress = {permitted}\n")
+    (diagram,) = solution.stress.drawn["contact_stress"].givens.diagrams
+    assert (diagram.limit is not None) == drawn
+    (step,) = solution.stress.drawn["contact_stress"].steps()
+    assert (f"The permitted stress of {permitted} MPa lies beyond the diagram." in str(step.caption)) != drawn
