@@ -1,24 +1,26 @@
 """The oscillating follower on the drawing board: an arm with a knife edge or a roller."""
 
 import cmath
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 
+from graphcam.constructions.arm_force_plan import arm_force_plan
 from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_limit_lines import PRODUCED
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import turning
-from graphcam.constructions.board import DrawnFollower, FollowerSize, Values, roller_given
+from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_given
 from graphcam.constructions.sketch import bearing, edge, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Oscillating, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -73,6 +75,13 @@ class DrawnOscillating(DrawnFollower):
     ) -> Construction:
         """About the pivots on their circle."""
         return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
+
+    def force_plan(
+        self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
+    ) -> Construction | None:
+        """At the station of the velocity plan; none with friction, which acts at the rim of a roller beside the pin."""
+        assert isinstance(load, ArmLoad)
+        return None if friction else arm_force_plan(drawn["pressure_angle"], load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
         """The distances at which no line of the region cuts the cam centre off."""

@@ -13,8 +13,13 @@ Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREES = "°"
-UNITS = {"rpm": say("rpm"), "kg": say("kg"), "N/mm": say("N/mm"), "N": say("N"), "mm": say("mm"), "MPa": say("MPa")}
-UNITS |= {"kg·mm²": say("kg·mm²"), "rad/s²": say("rad/s²"), "N·mm": say("N·mm"), "N·mm/rad": say("N·mm/rad")}
+UNITS = {
+    str(unit): unit
+    for unit in (
+        *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa")),
+        *(say("kg·mm²"), say("rad/s²"), say("N·mm"), say("N·mm/rad")),
+    )
+}
 
 NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),

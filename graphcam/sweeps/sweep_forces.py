@@ -80,7 +80,7 @@ class SoughtForce(Sought):
         along, across = self.kin.seen(values)
         lean = self.kin.leaning * self.swept.friction
         size = np.sqrt(along * along + across * across)
-        moved = along - lean * across if self.swept.friction else along
+        moved = np.subtract(along, lean * across)
         if self.kin.swings:
             moved = self.kin.reach * moved + lean * self.roller * size
         return moved, size
@@ -171,7 +171,7 @@ class Rubbing(SoughtForce):
         """The friction over the force that moves, for mu = 1."""
         along, across = self.kin.seen(values)
         if not self.kin.swings:
-            return across / along
+            return np.divide(across, along)
         rim = self.roller / self.kin.reach * np.sqrt(along * along + across * across)
         return self.kin.leaning * (across - rim) / along
 

@@ -32,16 +32,17 @@ from graphcam.drafting.marks import (
     Segments,
 )
 from graphcam.errors import DesignError
-from graphcam.tasks.spring_tables import SpringTable
+from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
 HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
 RUBBING = replace(BUILT_IN["coursework"], speed_rpm=120.0, spring=SpringTable(0.5, 2.0, 150.0, friction=0.15, load=9.0))
-TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING}
+SPRUNG = replace(BUILT_IN["arm"], speed_rpm=90.0, spring=ArmSpringTable(900.0, 4000.0, 3000.0, load=9.0))
+TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING, "an arm's spring": SPRUNG}
 EVERY = pytest.mark.parametrize("name", TASKS)
-SHOWN = pytest.mark.parametrize("name", [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam"])
+SHOWN = pytest.mark.parametrize("name", [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam", "an arm's spring"])
 
 
 @cache

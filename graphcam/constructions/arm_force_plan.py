@@ -1,0 +1,294 @@
+"""The force plan of an arm at a station: the load reduced to the arm's end, the contact force and the reaction.
+
+All that turns the arm towards the cam is the torque M about the pivot C.  Reduced to the arm's end B it is the force
+Q = M/l square to the arm.  Of the contact force F the direction is known from the arm positions: the normal is parallel
+to the line from the cam centre A to D, the end of l v laid off along the arm.  Both act at B and balance about C, so
+the reaction R to both passes through B and through C: it lies along the arm.  Three directions and one size are known:
+a triangle, drawn parallel to lines that lie on the board.
+
+R is the reaction to F and to the reduced load; what the pivot bears besides, the arm's weight and the forces of its
+inertia and of a spring that do not turn it, depends on their places and does not enter F.
+
+Source: reduction of a torque to a point of its link, as in force plans of linkages; the normal as in
+:mod:`graphcam.constructions.arm_pressure_angle`.
+"""
+
+import cmath
+import math
+from dataclasses import dataclass, replace
+from functools import partial
+from operator import itemgetter
+
+import numpy as np
+
+from graphcam.constructions.arm_pressure_angle import ArmAngles
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.force_plan import BEYOND, LEAST_LOAD, LOAD_LENGTH, READABLE_FORCE, round_scale
+from graphcam.constructions.pressure_angle import moving_up, shown_station
+from graphcam.constructions.views import FORCES
+from graphcam.drafting.euclid import NOWHERE, unit
+from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import Scale
+from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
+from graphcam.given.laws import Floats
+from graphcam.plane import dot
+from graphcam.words import sequence
+
+
+@dataclass(frozen=True, eq=False)
+class ArmForcePlanGivens:
+    """What lies on the board; see :func:`arm_force_plan`."""
+
+    measured: ArmAngles
+    load: ArmLoad
+    station: int
+    mu_force: Scale
+
+
+MEANING = Meaning(
+    "force_plan",
+    say("Force plan"),
+    say(
+        "The torque about the pivot, reduced to the arm's end, the contact force and the reaction along the arm are in "
+        "balance. Three directions and one size are known: a triangle."
+    ),
+    {
+        "load": ReadingMeaning(say("reduced load Q"), "Q", "N"),
+        "normal": ReadingMeaning(say("contact force F"), "F", "N"),
+        "along": ReadingMeaning(say("F cos α"), "F cos α", "N"),
+        "side": ReadingMeaning(say("F sin α"), "F sin α", "N"),
+        "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
+    },
+)
+
+
+def arm_force_plan(
+    measured: ArmAngles, load: ArmLoad, pencil: Pencil, station: int | None = None, mu_force: Scale | None = None
+) -> Construction[ArmForcePlanGivens]:
+    """Draw the force plan of an arm at a station, without friction.
+
+    station : None for the one of the velocity plan, or where the load is greatest if hardly any is left there
+    mu_force : scale of forces [N/mm]; None for a round one
+
+    Readings are NaN where the load does not press.
+    """
+    hand, k = Hand(pencil, MEANING), _plan_station(measured, load) if station is None else station
+    givens, integrated = measured.givens, measured.givens.integrated
+    stations = integrated.givens.stations
+    direction, phi = integrated.givens.motion.phases[stations.phase[k]].direction, float(stations.phi[k])
+    read = (integrated.readings[name] for name in ("s", "v", "a"))
+    s, v, a = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
+    psi0 = hand.carry(measured.readings["psi0"])
+    force = reckoned(partial(_reduced, load, givens.arm, givens.distance, direction, phi), s, v, a, psi0)
+    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
+
+    # Of the arm positions: the arm C B, and A D.
+    pivot, centre = hand.given("pivot"), hand.found(measured, "centre")
+    arm = hand.join("arm", pivot, hand.found(measured, "ends")[k])
+    ray = hand.join("AD", centre, hand.found(measured, "tips")[k])
+    origin = hand.given("origin")
+    down = hand.perpendicular("line of Q", arm, origin)
+    foot = hand.lay_off("foot", origin, down, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
+    normal = hand.parallel("line of F", ray, foot)
+    along_arm = hand.parallel("line of R", arm, origin)
+    meeting = hand.cross("meeting", normal, along_arm)
+    pushes = (dot(foot.points, down.directions) > 0) & (dot(meeting.points - foot.points, normal.directions) > 0)
+    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
+    corner = found[0]
+    hand.join("F", foot, corner)
+    hand.join("R", corner, origin)
+    lengths = {
+        "load": between(origin, foot, down),
+        "normal": between(foot, corner),
+        "along": between(corner, foot, down),
+        "side": reckoned(np.abs, between(foot, corner, arm)),
+        "reaction": between(origin, corner),
+    }
+    for name, length in lengths.items():
+        hand.read(name, length, mu.per_mm)
+    directions = {"contact_normal": normal.directions, "across": along_arm.directions}
+    return hand.finished(
+        ArmForcePlanGivens(measured, load, k, mu), _draw, {"foot": foot, "corner": corner, **directions}
+    )
+
+
+def _reduced(
+    load: ArmLoad,
+    arm: float,
+    distance: float,
+    direction: int,
+    phi: Floats | float,
+    s: Floats,
+    v: Floats,
+    a: Floats,
+    psi0: Floats | float,
+) -> Floats:
+    """The torque about the pivot over the arm's length [N], from the displacement and its derivatives."""
+    return PlacedArmLoad(load, arm, distance, psi0).force((s, v, a, np.zeros_like(s)), direction, phi) / arm
+
+
+def _plan_station(measured: ArmAngles, load: ArmLoad) -> int:
+    """The station of the velocity plan, if the load presses there."""
+    givens, integrated = measured.givens, measured.givens.integrated
+    s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
+    phi, psi0 = integrated.givens.stations.phi, float(measured.first("psi0"))
+    force = _reduced(load, givens.arm, givens.distance, 1, phi, s, v, a, psi0)
+    force, k = np.where(moving_up(measured), force, 0.0), shown_station(measured)
+    return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+STROKE = 30.0
+"""The line of the reaction is drawn so long at least [mm]."""
+
+
+def _draw(plan: Construction[ArmForcePlanGivens]) -> list[Step]:
+    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
+    last = _not_pressed if math.isnan(float(plan.first("normal"))) else _closed
+    return [draw(plan, view) for draw in (_load, _line_of_force, _line_of_reaction, last)]
+
+
+def _name(plan: Construction[ArmForcePlanGivens]) -> str:
+    return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
+
+
+def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]]:
+    """What the torque consists of, term by term [N mm]."""
+    givens, load = plan.givens.measured.givens, plan.givens.load
+    integrated, k = givens.integrated, plan.givens.station
+    s, v, a = (np.array(float(integrated.value(name)[k])) for name in ("s", "v", "a"))
+    phi, psi0 = float(integrated.givens.stations.phi[k]), float(plan.givens.measured.first("psi0"))
+    none = replace(load, inertia=0.0, stiffness=0.0, preload=0.0, load=0.0)
+    alone = (
+        (say("inertia {torque:.0f} N·mm"), replace(none, inertia=load.inertia)),
+        (say("preload {torque:.0f} N·mm"), replace(none, preload=load.preload)),
+        (say("spring {torque:.0f} N·mm"), replace(none, stiffness=load.stiffness)),
+        (say("load P {torque:.0f} N·mm"), replace(none, load=load.load)),
+    )
+    reduced = partial(
+        _reduced, arm=givens.arm, distance=givens.distance, direction=1, phi=phi, s=s, v=v, a=a, psi0=psi0
+    )
+    return [(said, givens.arm * float(reduced(part))) for said, part in alone]
+
+
+def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+    """The load, reduced to the arm's end, square to the arm."""
+    foot, givens, mu = plan.acts["foot"].first, plan.givens.measured.givens, plan.givens.mu_force.per_mm
+    terms, integrated, k = _terms(plan), givens.integrated, plan.givens.station
+    s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
+    torque = sum(each for _, each in terms)
+    told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= READABLE_FORCE * givens.arm])
+    values = {"name": _name(plan), "s": math.degrees(s), "a": a, "torque": torque, "terms": told, "arm": givens.arm}
+    values |= {"load": torque / givens.arm, "mu": mu, "paper": abs(torque) / givens.arm / mu}
+    values["way"] = say("against the rise") if torque > 0 else say("in the sense of the rise")
+    said = say(
+        "At station {name} the drawn s = {s:.2f}° and a = {a:.3f} rad/rad² give the torque M = {torque:.0f} N·mm about "
+        "C: {terms}. Reduced to the arm's end it is Q = M/l = {torque:.0f}/{arm:g} = {load:.1f} N. At μF = {mu:g} N/mm "
+        "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
+    )
+    label = Label(foot.place / 2, "Q", towards=-_beside(plan), of=foot.act, index=foot.index)
+    ends = Dots(np.array([0j, foot.place]), of=foot.act, index=foot.index.repeat(2))
+    return Step(
+        say("Force plan at station {name}: the load", name=_name(plan)),
+        *(said.where(**values), view, (foot.arrow(0j, Role.CURVE), label, ends)),
+        reads=("load",),
+        why=say("Because a torque about the pivot does the same as a force at the arm's end, square to the arm."),
+    )
+
+
+def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
+    """The direction from the load to the third corner."""
+    across, normal = (complex(unit(plan.acts[name].first.directions)) for name in ("line of R", "line of F"))
+    return across if (normal * across.conjugate()).real >= 0 else -across
+
+
+def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+    """The line of the contact force through the head of the load."""
+    normal, length, down = plan.acts["line of F"].first, float(plan.first("normal")), plan.acts["line of Q"].first
+    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
+    foot, along, up = normal.place, complex(unit(normal.directions)), -complex(unit(down.directions))
+    reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
+    radius = 0.4 * min(reach, LOAD_LENGTH)
+    said = say(
+        "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the head "
+        "of Q and draw the line of the contact force F there; it leans by α = {alpha:.1f}° from Q.",
+        name=_name(plan),
+        alpha=abs(math.degrees(alpha)),
+    )
+    start = cmath.phase(up)
+    marks = (
+        Line(np.array([foot, foot + reach * along]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)),
+        Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
+        angle_at(
+            foot,
+            start,
+            start + cmath.phase(along / up),
+            radius,
+            say("α = {alpha:.1f}°", alpha=math.degrees(alpha)),
+            normal.act,
+        ),
+    )
+    why = say("Because the contact normal passes through the centre of relative rotation, and A D is parallel to it.")
+    return Step(say("The line of the contact force"), said, view, marks, why=why)
+
+
+def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+    """The line of the reaction, along the arm."""
+    line, side = plan.acts["line of R"].first, _beside(plan)
+    size = float(plan.first("reaction"))
+    reach = STROKE if math.isnan(size) else max(STROKE, size + BEYOND)
+    ends = line.place + side * np.array([-0.3 * STROKE, reach])
+    said = say(
+        "With the set squares draw the line of the reaction R through the tail of Q, parallel to the arm CB of station "
+        "{name}.",
+        name=_name(plan),
+    )
+    why = say("Because F and Q act at B and balance about C, so the reaction to both passes through B and through C.")
+    mark = Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
+    return Step(say("The line of the pivot's reaction"), said, view, (mark,), why=why)
+
+
+def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+    """The last step where there is no third corner."""
+    said = say("The two lines do not meet where the cam could push: the load does not press the arm on the cam.")
+    why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
+    return Step(say("The triangle does not close"), said, view, (), why=why)
+
+
+def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+    """The triangle, and what is measured on it."""
+    foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
+    corner, side, down = corner[0], _beside(plan), complex(unit(plan.acts["line of Q"].first.directions))
+    values = {name: float(plan.value(name)) for name in plan.readings} | {"mu": plan.givens.mu_force.per_mm}
+    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings}
+    told = (
+        (say("Mark where the two lines cross: the third corner."), corner),
+        (say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N."), force),
+        (
+            say(
+                "R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N. "
+                "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F "
+                "sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
+            ),
+            reaction,
+        ),
+    )
+    parts = tuple(Part(said.where(**values), (left,)) for said, left in told)
+    marks: tuple[Mark, ...] = (
+        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
+        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
+        corner.dots(),
+        Label((foot.place + corner.place) / 2, "F", towards=side + down / 2, of=force.act, index=force.index),
+        Label(corner.place / 2, "R", towards=-down, of=reaction.act, index=reaction.index),
+    )
+    return Step(
+        say("The triangle of forces"),
+        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
+        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        parts=parts,
+    )
