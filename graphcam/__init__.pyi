@@ -1,4 +1,5 @@
 # The public names.  Each stands here once: type checkers read this file, and so does graphcam when a name is used.
+from .comparison.contact_elements import ElementContact as ElementContact, contact_by_elements as contact_by_elements
 from .drafting.ink import Construction as Construction, Reading as Reading, Step as Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
@@ -15,6 +16,7 @@ from .given.measured import (
 )
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
+from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
@@ -36,7 +38,6 @@ from .mechanism.forces import CamForces as CamForces
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
-    RollerContact as RollerContact,
     hertz_line_contact as hertz_line_contact,
 )
 from .mechanism.jamming import jamming_margin as jamming_margin

@@ -87,6 +87,11 @@ class FlatFacedKinematics(Kinematics):
         s, _, a, _ = values
         return self.prime_radius + s + a
 
+    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
+        """rho: a face is not curved."""
+        _, v, _, j = values
+        return self.convex_radius(values), v + j
+
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:
         """rho [mm]."""

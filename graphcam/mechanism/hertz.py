@@ -1,4 +1,4 @@
-"""Contact stress between roller and cam: Hertz's line contact, for one place and over the revolution.
+"""Contact stress between follower and cam: Hertz's line contact, for one place and over the revolution.
 
 With 1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 and 1/R = 1/R1 + 1/R2, a force F over the width w flattens a strip of the
 half-width sqrt(4 F R/(pi w E')) under the peak pressure sqrt(F E'/(pi w R)).
@@ -15,46 +15,12 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, Side
+from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.kinematics import Kinematics
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of
+from graphcam.mechanism.kinematics import Kinematics, Values
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
+from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.showing import by_parts
-
-STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
-"""Young's modulus [MPa] and Poisson's ratio of steel."""
-
-
-@dataclass(frozen=True)
-class RollerContact:
-    """Roller and cam as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
-
-    Raises
-    ------
-    DesignError : a value cannot be
-
-    >>> import graphcam as gc
-    >>> round(gc.RollerContact(width=15).modulus, 3)
-    113186.813
-    """
-
-    width: float
-    young1: float = STEEL_YOUNG
-    young2: float = STEEL_YOUNG
-    poisson1: float = STEEL_POISSON
-    poisson2: float = STEEL_POISSON
-
-    def __post_init__(self) -> None:
-        for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
-            if not 0 < getattr(self, name) < math.inf:
-                raise DesignError(name, getattr(self, name), f"a finite number greater than 0 {unit}")
-        for name in ("poisson1", "poisson2"):
-            if not 0 <= getattr(self, name) <= 0.5:
-                raise DesignError(name, getattr(self, name), "from 0 to 0.5")
-
-    @property
-    def modulus(self) -> float:
-        """E' [MPa]."""
-        return 1 / ((1 - self.poisson1**2) / self.young1 + (1 - self.poisson2**2) / self.young2)
 
 
 class LineContact(NamedTuple):
@@ -121,7 +87,7 @@ class Stresses:
 
     phi : rad;  force : normal [N]
     profile_radius : rho - roller radius of the working profile [mm]: positive convex, negative concave, inf flat
-    peak_pressure : MPa, 0 without contact;  half_width : mm; both NaN where the roller undercuts the profile
+    peak_pressure : MPa, 0 without contact;  half_width : mm; both NaN where the follower undercuts the profile
     """
 
     phi: Floats
@@ -133,14 +99,15 @@ class Stresses:
 
 @dataclass(frozen=True)
 class ContactStress:
-    """The stress between the roller and the working profile of a cam under forces.
+    """The stress between the follower and the working profile of a cam under forces.
 
-    The profile's radius is rho - r, so 1/R = 1/(rho - r) + 1/r = 1/(r (1 - kappa r)) on convex, flat and concave
-    profiles alike.  The hollows that a roller leaves are wider than itself.
+    The profile's radius under a roller is rho - r, so 1/R = 1/(rho - r) + 1/r = 1/(r (1 - kappa r)) on convex, flat and
+    concave profiles alike.  The hollows that a roller leaves are wider than itself.  A flat face is not curved, so R is
+    the profile's radius r0 + s + a.
 
     Raises
     ------
-    DesignError : the follower has no roller
+    DesignError : the follower has a knife edge
 
     >>> from math import degrees, radians
     >>> import graphcam as gc
@@ -158,39 +125,53 @@ class ContactStress:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
-        if not self.forces.cam.roller_radius > 0:
-            reason = "a knife edge has no line contact"
-            raise DesignError("roller radius", self.forces.cam.roller_radius, "greater than 0 mm", reason)
+        if self._kinematics.takes_roller and not self._roller > 0:
+            reason = "a knife edge has no line contact: the pressure on it is infinite"
+            raise DesignError("roller radius", self._roller, "greater than 0 mm", reason)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
         """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
-        forces = self.forces.at(phase, u, side)
-        kappa = self._kinematics.curvature(self.forces.cam.motion.at(phase, u, side))
-        room, r = 1 - kappa * self._roller, self._roller
-        sound = np.where(room > 0, room, np.nan)
-        load = np.maximum(forces.normal, 0) / self.contact.width / math.pi
-        with np.errstate(divide="ignore"):
-            radius = room / kappa
-        stiffness = self.contact.modulus
-        peak, half_width = np.sqrt(load * stiffness / (r * sound)), 2 * np.sqrt(load * r * sound / stiffness)
-        return Stresses(forces.phi, forces.normal, radius, peak, half_width)
+        return self.of(places_in(self.forces.cam.motion, phase, u, side))
+
+    def of(self, places: Places) -> Stresses:
+        """The contact at places that belong to phases."""
+        force, modulus = self.forces.normal(places), self.contact.modulus
+        relative, _ = self._kinematics.relative_radius(places.values, self._roller)
+        sound = np.where(relative > 0, relative, np.nan)
+        load = np.maximum(force, 0) / self.contact.width / math.pi
+        peak, half_width = np.sqrt(load * modulus / sound), 2 * np.sqrt(load * sound / modulus)
+        return Stresses(places.phi, force, self._profile_radius(places.values), peak, half_width)
+
+    def curve(self, parts: int = 60) -> TurnCurve:
+        """The peak pressure over the turn [MPa], with ``parts`` points on every smooth piece and both its ends."""
+        knots = self.forces.pressing.knots
+        return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots, parts)
 
     def greatest(self) -> ValueAt:
         """The greatest peak pressure over the turn [MPa], both sides of every jump included.
 
         Raises
         ------
-        DesignError : the roller undercuts the profile, the guide jams, or nothing presses
+        DesignError : the follower undercuts the profile, the guide jams, or nothing presses
         """
         cam = self.forces.cam
         rho, _ = cam.extremes().min_convex_radius
         if not self._roller < rho:
-            limit = f"less than the least radius of curvature of {rho:.6g} mm"
-            raise DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")
+            raise self._undercut(rho)
         if self.forces.greatest_normal().value <= 0:
             raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
         squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
+
+    def contact_at(self, found: ValueAt) -> Stresses:
+        """The contact at the place of a peak pressure, such as the greatest: arrays of the shape ()."""
+        values = self.forces.cam.motion(found.phi, found.side)
+        relative, _ = self._kinematics.relative_radius(values, self._roller)
+        # p = E' b/(2 R) and F = pi/2 p b w.
+        half_width = 2 * found.value * relative / self.contact.modulus
+        force = math.pi / 2 * found.value * half_width * self.contact.width
+        peak, phi = np.asarray(found.value), np.asarray(found.phi)
+        return Stresses(phi, force, self._profile_radius(values), peak, half_width)
 
     def least_width(self, permitted: float) -> float:
         """The width [mm] at which the greatest peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
@@ -199,11 +180,9 @@ class ContactStress:
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
     def slope(self, places: Places) -> Floats:
-        """Of the sign of the peak pressure's slope, that is of (F/(1 - kappa r))', at places inside phases."""
-        kin, r, values = self._kinematics, self._roller, places.values
-        kappa_slope = kin.curvature_slope(values) / kin.speed(values, inset=0.0) ** 5
-        room = 1 - kin.curvature(values) * r
-        return self.forces.normal_slope(places) * room + self.forces.normal(places) * r * kappa_slope
+        """Of the sign of the peak pressure's slope, that is of (F/R)', at places inside phases."""
+        relative, relative_slope = self._kinematics.relative_radius(places.values, self._roller)
+        return self.forces.normal_slope(places) * relative - self.forces.normal(places) * relative_slope
 
     @property
     def _roller(self) -> float:
@@ -213,6 +192,17 @@ class ContactStress:
     def _kinematics(self) -> Kinematics:
         return self.forces.cam.kinematics
 
+    def _profile_radius(self, values: Values) -> Floats:
+        with np.errstate(divide="ignore"):
+            return np.divide(1.0, self._kinematics.curvature(values)) - self._roller
+
     def _squared(self, places: Places) -> Floats:
-        room = 1 - self._kinematics.curvature(places.values) * self._roller
-        return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * self._roller * room)
+        relative, _ = self._kinematics.relative_radius(places.values, self._roller)
+        return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * relative)
+
+    def _undercut(self, rho: float) -> DesignError:
+        if not self._kinematics.takes_roller:
+            limit = f"so large that the least radius of curvature, {rho:.6g} mm, is greater than 0 mm"
+            return DesignError("prime radius", self.forces.cam.prime_radius, limit, "enlarge the prime radius")
+        limit = f"less than the least radius of curvature of {rho:.6g} mm"
+        return DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")

@@ -173,6 +173,13 @@ class Kinematics(ABC):
     def radius_of(sharpness: Floats) -> Floats:
         """That radius [mm]; inf where it does not matter, NaN for NaN."""
 
+    @abstractmethod
+    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
+        """R of Hertz's contact with the profile [mm], and R' by phi; not positive where the profile is undercut.
+
+        1/R is the sum of both curvatures.  roller : its radius [mm]
+        """
+
     def convex_radius(self, values: Values) -> Floats:
         """The radius of curvature [mm] that a design keeps from becoming too small; inf where it does not matter."""
         return self.radius_of(self.sharpness(values))
@@ -263,6 +270,11 @@ class RollerKinematics(Kinematics):
     def sharpness(self, values: Values) -> Floats:
         """kappa [1/mm]."""
         return self.curvature(values)
+
+    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
+        """r (1 - kappa r), whether the profile, of the radius 1/kappa - r, is convex, flat or concave."""
+        kappa, kappa_slope = self.curvature(values), self.curvature_slope(values) / self.speed(values, inset=0.0) ** 5
+        return roller * (1 - kappa * roller), -roller * roller * kappa_slope
 
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:

@@ -20,11 +20,12 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
+from graphcam.given.roller_contact import RollerContact
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact
 from graphcam.mechanism.forces import CamForces
-from graphcam.mechanism.hertz import ContactStress, RollerContact
+from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.sizing_limits import Sizes, SizingLimits, TurnPlaces, margins
 
 Range = tuple[float, float]

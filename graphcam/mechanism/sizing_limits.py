@@ -18,7 +18,8 @@ from graphcam.errors import DesignError
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.mechanism.hertz import ContactStress, RollerContact
+from graphcam.given.roller_contact import RollerContact
+from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, places_of, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics

@@ -105,24 +105,24 @@ def chapters_of(names: Iterable[str]) -> dict[str, int]:
 
 
 def all_drawn(solution: AnySolution) -> dict[str, Construction]:
-    """All constructions of a solution by name, in the order in which they are shown: its chain, what a spring adds."""
+    """All constructions of a solution by name, in the order in which they are shown: its chain, and what was added."""
     return {name: drawn_of(solution, name) for name in names_of(solution)}
 
 
 def names_of(solution: AnySolution) -> list[str]:
     """The names of all its constructions, in that order, none of which is drawn for it."""
-    return [*solution.drawn, *_spring(solution)]
+    return [*solution.drawn, *_added(solution)]
 
 
 def drawn_of(solution: AnySolution, name: str) -> Construction:
     """One of its constructions, of that name."""
-    return solution.drawn[name] if name in solution.drawn else _spring(solution)[name]
+    return solution.drawn[name] if name in solution.drawn else _added(solution)[name]
 
 
-def _spring(solution: AnySolution) -> Mapping[str, Construction]:
-    """What a spring adds."""
-    spring = solution.spring if isinstance(solution, Solution) else None
-    return spring.drawn if spring else {}
+def _added(solution: AnySolution) -> Mapping[str, Construction]:
+    """What a spring and the materials add."""
+    designs = (solution.spring, solution.stress) if isinstance(solution, Solution) else ()
+    return {name: drawn for design in designs if design for name, drawn in design.drawn.items()}
 
 
 def motion_contents(solution: Solution) -> Contents:
@@ -137,6 +137,8 @@ def motion_contents(solution: Solution) -> Contents:
     results = [comparison(solution.comparison.quantities)]
     if solution.spring:
         results.append(solution.spring.table())
+    if solution.stress:
+        results.append(solution.stress.table())
     title = title_block(solution.task.title, solution.tell)
     return Contents(
         solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)

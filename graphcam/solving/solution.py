@@ -19,6 +19,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
+from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.warnings import Caution, less_round, warnings_of
 from graphcam.tasks.part_table import PartTable
@@ -63,7 +64,7 @@ class Solution(ShownSolution):
     def cautions(self) -> list[Caution]:
         """The same with the places where it is seen."""
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
-        return [*found, *less_round(self.chain)]
+        return [*found, *(self.stress.cautions if self.stress else ()), *less_round(self.chain)]
 
     @property
     def tell(self) -> Tell:
@@ -77,6 +78,13 @@ class Solution(ShownSolution):
         if spring is None or speed is None:
             return None
         return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None, spring.friction)
+
+    @cached_property
+    def stress(self) -> StressDesign | None:
+        """The stress between cam and follower, if the task has materials."""
+        if self.task.material is None or self.spring is None:
+            return None
+        return StressDesign(self.chain, self.spring.forces, self.task.material)
 
     @cached_property
     def profile_spline(self) -> ProfileSpline:
@@ -107,6 +115,7 @@ class Solution(ShownSolution):
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
+            **({"contact_stress": self.stress.to_dict()} if self.stress else {}),
             "files": dict.fromkeys(FILES),
         }
 

@@ -27,7 +27,7 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "rounding"]
+    of: Literal["profile", "pressure angle", "prime radius", "contact stress", "rounding"]
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 

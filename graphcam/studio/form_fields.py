@@ -11,12 +11,12 @@ from graphcam.words import Caption, Tell, Words, say
 
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
-LIMITS, SPRING, DRAWING = say("Limits"), say("Spring"), say("Drawing")
+LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREES = "°"
 UNITS = {
     str(unit): unit
     for unit in (
-        *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm")),
+        *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa")),
         *(say("kg·mm²"), say("rad/s²"), say("N·mm"), say("N·mm/rad")),
     )
 }
@@ -42,6 +42,12 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "spring.at.arm": (SPRING, say("Spring from the pivot"), "mm"),
     "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x"), "mm"),
     "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y"), "mm"),
+    "material.width": (MATERIAL, say("Width of the contact"), "mm"),
+    "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam"), "MPa"),
+    "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower"), "MPa"),
+    "material.poisson_cam": (MATERIAL, say("Poisson's ratio ν₁, cam"), ""),
+    "material.poisson_follower": (MATERIAL, say("Poisson's ratio ν₂, follower"), ""),
+    "material.permitted_stress": (MATERIAL, say("Permitted contact stress"), "MPa"),
     "drawing.divisions": (DRAWING, say("Divisions of a phase"), ""),
     "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise"), "mm"),
     "drawing.poles[0]": (DRAWING, say("Pole distance H₁"), "mm"),

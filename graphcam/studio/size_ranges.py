@@ -9,6 +9,7 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.task_paths import value_at
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.sheet_tables import plain
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.task import Task
 
@@ -17,6 +18,8 @@ PARTS = 60
 ROUND = 1.0, 2.0, 5.0
 LIMITS = 15.0, 60.0
 """Permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
+USUAL_STRESS = 1200.0
+"""Permitted of hardened steel [MPa]; a slider begins there where no stress is judged."""
 MOST_PHASES = 36
 CLEAR = 4
 """So many steps a triangle stays from a flat one."""
@@ -107,6 +110,10 @@ def _(solution: Solution) -> dict[str, SizeRange]:
     found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
     if (spring := solution.task.spring) is not None:
         found |= _of_spring(solution, spring)
+    if (material := solution.task.material) is not None:
+        sized = {"permitted_stress": USUAL_STRESS} | {key: value for key, value in plain(material).items() if value}
+        found |= {f"material.{name}": _about(value) for name, value in sized.items()}
+        found |= {f"material.poisson_{body}": SizeRange(0.0, 0.5, 0.01) for body in ("cam", "follower")}
     if solution.task.motion.table is not None:
         found["motion.tolerance"] = SizeRange(0.002, 0.2, 0.001)
     return _wide_enough(found, solution.task)

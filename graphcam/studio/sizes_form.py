@@ -143,7 +143,7 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """What the cam must keep to, and the spring if there is one."""
+    """What the cam must keep to, and the spring and the material if there are such."""
     if not has_angles(solution.task):
         yield make.open_number("limits.min_curvature_radius", None)
     else:
@@ -152,6 +152,10 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.choice("limits.rest", LIMITS, say("Angle at the low dwell"), AT_REST.items())
     if solution.spring is not None:
         yield from _spring(make, solution.spring)
+    if solution.task.material is not None:
+        for name in ("width", "young_cam", "young_follower", "poisson_cam", "poisson_follower"):
+            yield make.number(f"material.{name}")
+        yield make.open_number("material.permitted_stress", None)
 
 
 def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:

@@ -24,7 +24,7 @@ from graphcam.words import Caption, Tell, say
 DESIGNS, MOST_DESIGNS = 200, 400
 MOST_MEASURED = 60
 """Of a measured motion, whose extremes take ten times as long."""
-UNMOVED = "motion.tolerance", "speed_rpm", *(path for path in NUMBERS if path.startswith("spring."))
+UNMOVED = "motion.tolerance", "speed_rpm", *(path for path in NUMBERS if path.startswith(("spring.", "material.")))
 """Sizes that change none of the curves, or too slowly."""
 LARGEST = 1e6
 TIMES = 2.5

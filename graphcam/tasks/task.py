@@ -19,6 +19,7 @@ from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.showing import WIDTH, in_lines
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
+from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
@@ -226,6 +227,7 @@ class Task:
 
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
+    material : what the contact stress depends on beside the spring's force; None is no stress
     part : what the workshop must know; None is a part that follows from the cam
 
     Raises
@@ -248,6 +250,7 @@ class Task:
     cam: CamTable = field(default_factory=CamTable)
     limits: LimitsTable = field(default_factory=LimitsTable)
     spring: Annotated[SpringTable | ArmSpringTable, ByKeys()] | None = None
+    material: MaterialTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
 
@@ -266,6 +269,9 @@ class Task:
         if self.cam.prime_radius is not None:
             self.follower.check(self.cam.prime_radius)
         self._check_spring()
+        if self.material is not None and self.spring is None:
+            reason = "without a force there is no contact stress"
+            raise DesignError("spring", "missing", "given where there is a material", reason)
 
     def _check_spring(self) -> None:
         if self.spring is None:

@@ -25,6 +25,7 @@ from graphcam.tasks.dataclass_reader import (
     WrongType,
     read_dataclass,
 )
+from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 
@@ -48,6 +49,7 @@ _CLASSES: Classes = {
     ("limits",): tables.LimitsTable,
     ("spring",): spring_tables.SpringTable,
     ("spring", "at"): spring_tables.ArmSpringPlace,
+    ("material",): MaterialTable,
     ("drawing",): tables.DrawingTable,
     ("part",): PartTable,
 }

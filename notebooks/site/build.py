@@ -42,7 +42,7 @@ SHEET_DPI = 60
 COLOURS = 32
 GROUPS = {
     "motion": ("Motions, followers, loads", ("given",)),
-    "exact": ("Exact values", ("mechanism",)),
+    "exact": ("Exact values", ("mechanism", "comparison")),
     "drawn": ("The drawing board", ("drafting", "constructions")),
     "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "sweeps", "studio")),
     "errors": ("Errors", ("errors",)),

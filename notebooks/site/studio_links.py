@@ -25,6 +25,7 @@ TASKS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
     "08_three_arcs": ("arcs", "acceleration", {}),
     "09_keeping_contact": ("coursework", "forces", {"speed_rpm": 300, "spring": {"mass": 0.5, "stiffness": 3}}),
     "10_coursework": ("coursework", "profile", {}),
+    "11_stress_below_the_surface": ("coursework", "profile", {}),
     "12_cycloidal_at_speed": ("coursework", "acceleration", SMOOTH),
 }  # fmt: skip
 """For each notebook the built-in task, the view that it is about, and what it changes of the task."""

@@ -328,3 +328,9 @@ def test_what_a_sweep_takes_follows_from_what_a_design_takes():
         for told, each in ((size, most), (size_feasible, few)):
             assert told == each
         assert {cell.split()[1] for cell in cells if " " in cell} == {"GB" if unit == 1 else "TB"}
+
+
+def test_the_stress_of_the_page_is_permitted_and_the_elements_agree(tmp_path):
+    most, by_elements = followed("how-to/check-the-contact-stress.md", tmp_path).splitlines()
+    assert 500 < float(most.split()[0]) < 1000
+    assert float(by_elements.split()[0]) == pytest.approx(float(most.split()[0]), rel=0.005)

@@ -31,6 +31,7 @@ FURTHER = {
     "drawing": ["divisions", "ordinate", "poles", "rounding", "format", "frame", "orientation"],
     "limits": ["pressure_angle_rise", "pressure_angle_return", "rest", "min_curvature_radius"],
     "spring": ["mass", "stiffness"],
+    "material": ["width", "permitted_stress"],
     "": ["speed_rpm", "pencil", "junk"],
 }
 """Keys that a task need not have, by their tables."""

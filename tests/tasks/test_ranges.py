@@ -22,7 +22,8 @@ EDGES = ["1e-3", "1e8", "-1e8", "1", "-1", "0"]
 """On the edge of what is sensible, or of no size at all."""
 NUMBER = re.compile(r"(?<![\w.\"-])-?\d+(\.\d+)?(?![\w\"])")
 WITH_MORE = {
-    "coursework": "\n[spring]\nmass = 0.5\nstiffness = 3.0\npreload = 50.0\n[cam]\nprime_radius = 50\n",
+    "coursework": "\n[spring]\nmass = 0.5\nstiffness = 3.0\npreload = 50.0\n[cam]\nprime_radius = 50\n"
+    "[material]\nwidth = 15\npermitted_stress = 900\n",
     **dict.fromkeys(("arm", "flat", "measured", "arcs"), ""),
 }
 SPACES = {

@@ -7,7 +7,7 @@ function sizesOf(at, acts) {
   let shape = "", errorAt = null;
 
   // What is seldom moved is closed at first.
-  const SELDOM = /^(drawing|pencil|spring)/;
+  const SELDOM = /^(drawing|pencil|spring|material)/;
   // What is moved most stands first: on a phone it lies under the thumb.
   const FIRST = /^(follower\.(offset|arm)|arcs)/;
   const idOf = (path) => `size-${path.replace(/\W+/g, "-")}`;

@@ -4,7 +4,7 @@
 // So many designs make a curve; they are asked for in pieces, between which a picture can be asked for.
 const DESIGNS = 200, PIECE = 25;
 // Sizes that move no curve.
-const UNMOVED = /^(speed_rpm|spring|pencil|drawing|motion\.tolerance)/;
+const UNMOVED = /^(speed_rpm|spring|material|pencil|drawing|motion\.tolerance)/;
 
 function whatIfOf(element, words, { ask, state, change, decimal }) {
   const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });

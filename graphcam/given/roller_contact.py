@@ -1,0 +1,44 @@
+"""What cam and follower are made of where they touch: a strip of a certain width, between two elastic bodies."""
+
+import math
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+
+STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
+"""Young's modulus [MPa] and Poisson's ratio of steel."""
+
+
+@dataclass(frozen=True)
+class RollerContact:
+    """Cam and follower as they touch: the width of the contact [mm], moduli [MPa] and Poisson's ratios; 1 is the cam.
+
+    2 is the roller, or the follower's flat face.
+
+    Raises
+    ------
+    DesignError : a value cannot be
+
+    >>> import graphcam as gc
+    >>> round(gc.RollerContact(width=15).modulus, 3)
+    113186.813
+    """
+
+    width: float
+    young1: float = STEEL_YOUNG
+    young2: float = STEEL_YOUNG
+    poisson1: float = STEEL_POISSON
+    poisson2: float = STEEL_POISSON
+
+    def __post_init__(self) -> None:
+        for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
+            if not 0 < getattr(self, name) < math.inf:
+                raise DesignError(name, getattr(self, name), f"a finite number greater than 0 {unit}")
+        for name in ("poisson1", "poisson2"):
+            if not 0 <= getattr(self, name) <= 0.5:
+                raise DesignError(name, getattr(self, name), "from 0 to 0.5")
+
+    @property
+    def modulus(self) -> float:
+        """E' [MPa]."""
+        return 1 / ((1 - self.poisson1**2) / self.young1 + (1 - self.poisson2**2) / self.young2)

@@ -1,0 +1,45 @@
+"""The table ``[material]`` of a task file: cam and follower where they touch, and what stress is permitted there."""
+
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+from graphcam.given.ranges import positive
+from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
+
+
+@dataclass(frozen=True)
+class MaterialTable:
+    """``[material]``: what the contact stress depends on beside the force; it needs a ``[spring]``.
+
+    width : mm, of the contact along the axes
+    young_cam, young_follower : MPa, moduli of elasticity of the cam, and of the roller or the flat face
+    poisson_cam, poisson_follower : their Poisson's ratios
+    permitted_stress : MPa, of the pressure in the middle of the contact; None judges no stress
+
+    Raises
+    ------
+    DesignError : a value that cannot be
+
+    >>> MaterialTable(width=15)()
+    RollerContact(width=15, young1=206000.0, young2=206000.0, poisson1=0.3, poisson2=0.3)
+    """
+
+    width: float
+    young_cam: float = STEEL_YOUNG
+    young_follower: float = STEEL_YOUNG
+    poisson_cam: float = STEEL_POISSON
+    poisson_follower: float = STEEL_POISSON
+    permitted_stress: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("width", self.width, "mm")
+        for name in ("young_cam", "young_follower", "permitted_stress"):
+            positive(name, getattr(self, name), "MPa")
+        for name in ("poisson_cam", "poisson_follower"):
+            if not 0 <= getattr(self, name) <= 0.5:
+                raise DesignError(name, getattr(self, name), "from 0 to 0.5", "metals have about 0.3")
+
+    def __call__(self) -> RollerContact:
+        """The contact."""
+        bodies = self.young_cam, self.young_follower, self.poisson_cam, self.poisson_follower
+        return RollerContact(self.width, *bodies)
