@@ -68,6 +68,11 @@ _WHOLE: dict[str, Callable[[Number], Number]] = {
     "2-3": lambda u: 3 * u**2 - 2 * u**3,
     "3-4-5": lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
     "4-5-6-7": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
+    "double-harmonic": lambda u: (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8,
+    "eighth-degree": lambda u: (
+        mpf("6.09755") * u**3 - mpf("20.7804") * u**5 + mpf("26.73155") * u**6 - mpf("13.60965") * u**7
+        + mpf("2.56095") * u**8
+    ),
 }
 
 
@@ -83,6 +88,8 @@ def displacement(motion, phi: Number) -> Number:
     if phase.direction == 0:
         return level - lowest
     u = (phi - start) / mpf(phase.angle)
+    if phase.direction < 0 and phase.law in ("double-harmonic", "eighth-degree"):  # the rise, seen backwards
+        return level - lowest - mpf(phase.lift) * (1 - lift(phase.law, 1 - u))
     return level - lowest + phase.direction * mpf(phase.lift) * lift(phase.law, u, phase.ratio)
 
 

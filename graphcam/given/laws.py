@@ -1,24 +1,34 @@
-"""The ten normalised motion laws.
+"""The twelve normalised motion laws.
 
 Every law is written as it looks from the nearer end of the phase: the first half as a function of the distance
 x = u from the start, the second half as a function of the distance x = w = 1 - u from the end.  The formulas are
 factored, because a product costs less than a power and rounds less than a sum.
 
+Two of them are for a rise and a fall without a dwell between: the acceleration they end with is no jump where the fall
+begins with the same.
+
 Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapters 2 and 3; R. L. Norton, *Cam Design and
-Manufacturing Handbook* (2009), chapters 2 to 4.
+Manufacturing Handbook* (2009), chapters 2 to 4; M. Kloomok and R. V. Muffley, *Plate Cam Design*, Product Engineering
+26 (February 1955), the eighth-degree polynomial.
 """
 
 import math
+from fractions import Fraction
 from functools import lru_cache, partial
 
 import numpy as np
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.boundary_parts import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
+from graphcam.given.polynomial_law import leg_law
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
+_PI = math.pi
+RISE_FALL = "double-harmonic", "eighth-degree"
+"""The laws of a rise without a dwell behind it; a return by them runs backwards, from the same acceleration to rest."""
 MOST_UNEQUAL = 1e12
 """Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
 
@@ -109,6 +119,30 @@ def _poly_4_5_6_7(x: Floats):
     return f, 140 * p * square, 420 * square * (1 - 2 * x), 840 * p * (1 - 5 * p)
 
 
+def _double_harmonic(x: Floats):
+    """f = (1 - cos(pi x))/2 - (1 - cos(2 pi x))/8 is the fourth power of the sine s of half the angle pi x."""
+    s, c = sine_cosine(_PI / 2 * x)
+    square, product = s * s, s * c
+    return (
+        square * square,
+        2 * _PI * square * product,
+        _PI**2 * square * (3 - 4 * square),
+        _PI**3 * product * (3 - 8 * square),
+    )
+
+
+def _double_harmonic_end(x: Floats):
+    """1 - f at the distance x from the end is 1 - (1 - s^2)^2."""
+    s, c = sine_cosine(_PI / 2 * x)
+    square, product = s * s, s * c
+    return (
+        square * (2 - square),
+        2 * _PI * (1 - square) * product,
+        _PI**2 * (1 - square) * (1 - 4 * square),
+        _PI**3 * product * (8 * square - 5),
+    )
+
+
 _SINE_SERIES = tuple(1 / math.factorial(n) for n in range(17, 1, -2))
 """t - sin(t) = t^3 (1/3! - t^2 (1/5! - t^2 (1/7! - ...))), from the last term that counts for t < 1."""
 
@@ -151,6 +185,11 @@ def _fourth_3_4_5(x: Floats) -> tuple[Floats, float]:
 
 def _fourth_4_5_6_7(x: Floats) -> tuple[Floats, float]:
     return 840 * (1 - 2 * x) * (1 - 10 * x * (1 - x)), 10080.0
+
+
+def _fourth_of_double_harmonic(x: Floats, *, sign: int) -> tuple[Floats, float]:
+    """From the start with the sign -1, from the end +1: of what is missing there only the second wave changes sign."""
+    return _PI**4 * (-np.cos(_PI * x) / 2 - sign * 2 * np.cos(2 * _PI * x)), 4.5 * _PI**5
 
 
 # --- the tangents ----------------------------------------------------------------------------------------------------
@@ -202,7 +241,6 @@ def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[f
 
 # --- the laws --------------------------------------------------------------------------------------------------------
 
-_PI = math.pi
 _MODIFIED_TRAPEZOIDAL = 8 * _PI / (2 + _PI)
 _MODIFIED_SINE = 4 * _PI / (4 + _PI)
 
@@ -226,6 +264,9 @@ _MODIFIED_SINE_PIECES = partial(_sine_up, **_SINES_UP), partial(_sine_down, **_S
 _TANGENT_2_3 = partial(_polynomial_tangent, n=1, rest=(3, -4, 2))
 _TANGENT_3_4_5 = partial(_polynomial_tangent, n=2, rest=(10, -20, 18, -6))
 _TANGENT_4_5_6_7 = partial(_polynomial_tangent, n=3, rest=(35, -98, 126, -80, 20))
+
+_EIGHTH_DEGREE = tuple(map(Fraction, ("0", "0", "0", "6.09755", "0", "-20.7804", "26.73155", "-13.60965", "2.56095")))
+"""The coefficients of the eighth-degree polynomial, as they were published."""
 
 
 def _sines(*pieces: tuple[Formula, dict[str, float]]) -> tuple[Fourth, ...]:
@@ -262,7 +303,9 @@ _MIRRORED = {
     "4-5-6-7": (_poly_4_5_6_7, (), (2.1875, 84 / (5 * math.sqrt(5))), _TANGENT_4_5_6_7),
 }
 
-LAWS: tuple[str, ...] = ("rectangular", *_MIRRORED)
+BETWEEN_DWELLS: tuple[str, ...] = ("rectangular", *_MIRRORED)
+"""The laws that look the same from both ends."""
+LAWS: tuple[str, ...] = (*BETWEEN_DWELLS, *RISE_FALL)
 
 
 def law(name: str | Law, ratio: float = 1.0) -> Law:
@@ -300,9 +343,26 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     return name if own else _built(name, ratio)
 
 
+def law_of_return(name: str | Law, ratio: float = 1.0) -> Law:
+    """The law of a return, of that name: one of :data:`RISE_FALL` runs backwards there.
+
+    >>> law_of_return("eighth-degree")(0.0)[2].item(), law_of_return("cosine") == law("cosine")
+    (5.2683, True)
+    """
+    found = law(name, ratio)
+    return found.reversed if name in RISE_FALL else found
+
+
 @lru_cache(maxsize=256)
 def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
+    if name == "eighth-degree":
+        _, made = leg_law(name, [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_DEGREE)])
+        return made
+    if name == "double-harmonic":
+        formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
+        fourths = tuple(partial(_fourth_of_double_harmonic, sign=sign) for sign in (-1, 1))
+        return Law(name, formulas, (0.5,), middle=0.5, peaks=peaks, fourths=fourths, trusted=True, seams=(0.5,))
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
         tangents = tangent, tangent

@@ -85,6 +85,8 @@ LEAST_RADIUS = {
     "2-3": (60.1, range(12, 97, 3)),
     "3-4-5": (146.0, range(12, 97, 3)),
     "4-5-6-7": (20.0, range(12, 97, 3)),
+    "double-harmonic": (40.4, range(12, 97, 3)),
+    "eighth-degree": (42.3, range(12, 97, 3)),
 }
 
 

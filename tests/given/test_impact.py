@@ -7,7 +7,7 @@ from math import pi
 import pytest
 
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
-from graphcam.given.laws import LAWS, law
+from graphcam.given.laws import BETWEEN_DWELLS, RISE_FALL, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 
 SOFT = {"rectangular", "cosine", "2-3"}
@@ -20,7 +20,7 @@ def motion_of(name: str) -> Motion:
     return Motion([Rise(30, 1.4, name), Dwell(0.8), Return(30, 1.1, name), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", BETWEEN_DWELLS)
 def test_kind_of_impact_between_dwells(name):
     motion = motion_of(name)
     assert velocity_jumps(motion) == []
