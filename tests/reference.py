@@ -27,6 +27,13 @@ def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     return _WHOLE[name](u)
 
 
+def lift_of(phase, u: Number) -> Number:
+    """The normalised way of a phase, up or down; a return without a dwell before it is the rise seen backwards."""
+    if phase.direction < 0 and phase.law in ("double-harmonic", "eighth-degree"):
+        return 1 - lift(phase.law, 1 - mpf(u))
+    return lift(phase.law, u, phase.ratio)
+
+
 def _triangular(u: Number) -> Number:
     return 16 * u**3 / 3 if u <= mpf(1) / 4 else mpf(1) / 6 - 2 * u + 8 * u**2 - 16 * u**3 / 3
 
@@ -88,9 +95,7 @@ def displacement(motion, phi: Number) -> Number:
     if phase.direction == 0:
         return level - lowest
     u = (phi - start) / mpf(phase.angle)
-    if phase.direction < 0 and phase.law in ("double-harmonic", "eighth-degree"):  # the rise, seen backwards
-        return level - lowest - mpf(phase.lift) * (1 - lift(phase.law, 1 - u))
-    return level - lowest + phase.direction * mpf(phase.lift) * lift(phase.law, u, phase.ratio)
+    return level - lowest + phase.direction * mpf(phase.lift) * lift_of(phase, u)
 
 
 def _lowest_level(motion) -> Number:
@@ -192,7 +197,7 @@ def _tallest(motion, direction: int, slope: Number) -> Number:
             h, angle = mpf(phase.lift), mpf(phase.angle)
 
             def s(u, phase=phase, level=level, h=h):
-                return level + phase.direction * h * lift(phase.law, u, phase.ratio)
+                return level + phase.direction * h * lift_of(phase, u)
 
             def height(u, s=s, angle=angle):
                 return abs(diff(s, u)) / angle - slope * s(u)

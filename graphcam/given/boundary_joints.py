@@ -35,10 +35,10 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
         return
     if abs(s[1] - s[0]) > SAME * size:
         limit = f"{float(s[0]):.10g}, as the part before ends"
-        raise DesignError(f"s where parts[{number}] begins", f"{float(s[1]):.10g}", limit, f"give one s at {where}")
+        raise DesignError(f"parts[{number}] (s where it begins)", f"{float(s[1]):.10g}", limit, f"give one s at {where}")
     if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
         limit, remedy = f"{float(v[0]):.10g}, as the part before ends", f"give v, the same in both, at {where}"
-        raise DesignError(f"v where parts[{number}] begins", f"{float(v[1]):.10g}", limit, remedy)
+        raise DesignError(f"parts[{number}] (v where it begins)", f"{float(v[1]):.10g}", limit, remedy)
 
 
 def _check_gap(
@@ -46,10 +46,10 @@ def _check_gap(
 ) -> None:
     if abs(s[1] - s[0]) > SAME * size:
         found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower rests {where}"
-        raise DesignError(f"s before parts[{number}]", found, limit, "give a part that leads from one to the other")
+        raise DesignError(f"parts[{number}] (s before it)", found, limit, "give a part that leads from one to the other")
     if max(map(abs, v)) > SAME * size:
         found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower rests {where}"
-        raise DesignError(f"v before parts[{number}]", found, limit, "give v = 0 there, or a part that fills the gap")
+        raise DesignError(f"parts[{number}] (v before it)", found, limit, "give v = 0 there, or a part that fills the gap")
 
 
 def greatest_lift(parts: Sequence[Part]) -> Fraction:
@@ -100,10 +100,10 @@ def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
     if abs(s[1] - s[0]) > SAME * size:
         limit = f"{float(s[1]):.10g}, as the first part begins"
         remedy = "lead the follower back to where it was a turn before"
-        raise DesignError("s where the parts end", f"{float(s[0]):.10g}", limit, remedy)
+        raise DesignError("parts (s at their end)", f"{float(s[0]):.10g}", limit, remedy)
     gap = turn < TURN - SAME
     off = max(map(abs, v)) if gap else abs(v[1] - v[0])
     if off > SAME * (size + abs(v[0])):
         found = f"{float(v[0]):.10g}, and {float(v[1]):.10g} where they begin"
         limit = "0 at both: the follower rests between them" if gap else "the same at both"
-        raise DesignError("v where the parts end", found, limit, "give v at the first and at the last point")
+        raise DesignError("parts (v at their end)", found, limit, "give v at the first and at the last point")

@@ -181,14 +181,14 @@ class _Part:
             remedy = "give a point there or fewer conditions, take a spline, or part the motion"
             if len(between) > MOST_TURNS:
                 value_ = f"{len(between)} {where}"
-                raise DesignError(f"turns after points[{k}]", value_, f"at most {MOST_TURNS}; the part swings", remedy)
+                raise DesignError(f"points[{k}] (turns behind it)", value_, f"at most {MOST_TURNS}; the part swings", remedy)
             if before.s is None or after.s is None or not span:
                 continue
             least, most = min(before.s, after.s) - WILD * span, max(before.s, after.s) + WILD * span
             for place, piece in between:
                 if not least <= (s := float(piece.at(place))) <= most:
                     limit = f"from {least:.6g} to {most:.6g}; the part swings"
-                    raise DesignError(f"s after points[{k}]", f"{s:.6g} {where}", limit, remedy)
+                    raise DesignError(f"points[{k}] (s behind it)", f"{s:.6g} {where}", limit, remedy)
 
     def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
         nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])

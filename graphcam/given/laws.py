@@ -22,7 +22,7 @@ from graphcam.errors import DesignError, nearest
 from graphcam.given.boundary_parts import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
-from graphcam.given.polynomial_law import leg_law
+from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
@@ -313,7 +313,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
 
     Parameters
     ----------
-    name : one of :data:`LAWS`, or a :class:`~graphcam.given.motion_law.Law`
+    name : one of :data:`LAWS`, or "constant-velocity" with blends of a quarter, or a
+        :class:`~graphcam.given.motion_law.Law`
     ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one.  It is kept
         as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
@@ -330,9 +331,12 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """
+    if name == CONSTANT_VELOCITY:
+        name = constant_velocity_law()
     own = isinstance(name, Law)
     if not own and name not in LAWS:
-        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", LAWS)
+        known = (*LAWS, CONSTANT_VELOCITY)
+        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", known)
         raise DesignError("law", name, "a motion law that graphcam knows", remedy)
     if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
         limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -153,6 +153,7 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
     return leg_law(name, pieces, trusted=False)[1]
 
 
+@lru_cache(maxsize=64)  # so that phases of the same law share their formulas and are computed together
 def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 2) -> Law:
     """The law of constant velocity between two blends, which lead from rest to it and back to rest.
 

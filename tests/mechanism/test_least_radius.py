@@ -141,7 +141,8 @@ def test_the_tangent_point_is_where_f_prime_less_f_over_k_is_greatest(name, k):
     around = u + np.array([-1e-4, -1e-6, 0, 1e-6, 1e-4]) * min(u, 0.1)
     f, df = the_law(around, derivatives=1)
     assert np.argmax(df - f / k) == 2
-    assert 0 < u <= the_law.middle
+    fastest = {"double-harmonic": 2 / 3, "eighth-degree": 0.5327}.get(name, the_law.middle)
+    assert 0 < u <= fastest
 
 
 @pytest.mark.parametrize("name", ["rectangular", "cosine", "cycloidal", "2-3", "3-4-5", "4-5-6-7"])
