@@ -77,7 +77,10 @@ _WHOLE: dict[str, Callable[[Number], Number]] = {
     "4-5-6-7": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
     "double-harmonic": lambda u: (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8,
     "eighth-degree": lambda u: (
-        mpf("6.09755") * u**3 - mpf("20.7804") * u**5 + mpf("26.73155") * u**6 - mpf("13.60965") * u**7
+        mpf("6.09755") * u**3
+        - mpf("20.7804") * u**5
+        + mpf("26.73155") * u**6
+        - mpf("13.60965") * u**7
         + mpf("2.56095") * u**8
     ),
 }

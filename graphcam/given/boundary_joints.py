@@ -7,8 +7,10 @@ from fractions import Fraction
 from itertools import pairwise
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_parts import ExactPiece, Part, told
+from graphcam.given.boundary_parts import Part
+from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.exact_polynomials import PI
+from graphcam.given.motion_point import told
 
 TURN = 2 * PI
 SAME = Fraction(1, 10**9)
@@ -35,7 +37,9 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
         return
     if abs(s[1] - s[0]) > SAME * size:
         limit = f"{float(s[0]):.10g}, as the part before ends"
-        raise DesignError(f"parts[{number}] (s where it begins)", f"{float(s[1]):.10g}", limit, f"give one s at {where}")
+        raise DesignError(
+            f"parts[{number}] (s where it begins)", f"{float(s[1]):.10g}", limit, f"give one s at {where}"
+        )
     if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
         limit, remedy = f"{float(v[0]):.10g}, as the part before ends", f"give v, the same in both, at {where}"
         raise DesignError(f"parts[{number}] (v where it begins)", f"{float(v[1]):.10g}", limit, remedy)
@@ -46,10 +50,14 @@ def _check_gap(
 ) -> None:
     if abs(s[1] - s[0]) > SAME * size:
         found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower rests {where}"
-        raise DesignError(f"parts[{number}] (s before it)", found, limit, "give a part that leads from one to the other")
+        raise DesignError(
+            f"parts[{number}] (s before it)", found, limit, "give a part that leads from one to the other"
+        )
     if max(map(abs, v)) > SAME * size:
         found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower rests {where}"
-        raise DesignError(f"parts[{number}] (v before it)", found, limit, "give v = 0 there, or a part that fills the gap")
+        raise DesignError(
+            f"parts[{number}] (v before it)", found, limit, "give v = 0 there, or a part that fills the gap"
+        )
 
 
 def greatest_lift(parts: Sequence[Part]) -> Fraction:

@@ -9,19 +9,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
 
 import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.boundary_joints import SAME, TURN, joined_turn
-from graphcam.given.boundary_parts import ExactPiece, Part, SplinePart
+from graphcam.given.boundary_parts import Part, SplinePart
+from graphcam.given.exact_pieces import ExactPiece, between
 from graphcam.given.exact_polynomials import derivative, sign_changes
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.measured import from_zero
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.pieces import Floats, Side
-from graphcam.given.polynomial_law import between, leg_law
+from graphcam.given.polynomial_law import leg_law
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BoundaryMotion(Motion):
@@ -47,7 +48,9 @@ class BoundaryMotion(Motion):
         object.__setattr__(self, "starts", self._begin)
 
     def _said(self) -> str:
-        degrees = ", ".join(f"{part.name} of degree {max(len(piece.p) for piece in part.pieces) - 1}" for part in self.parts)
+        degrees = ", ".join(
+            f"{part.name} of degree {max(len(piece.p) for piece in part.pieces) - 1}" for part in self.parts
+        )
         return f"{super()._said()}, by conditions: {degrees}"
 
     @property
@@ -131,7 +134,9 @@ def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase
     if not sign:
         return Dwell(float(end - start))
     splined = any(
-        part.start < end and part.end > start or part.start + TURN < end for part in parts if isinstance(part, SplinePart)
+        (part.start < end and part.end > start) or part.start + TURN < end
+        for part in parts
+        if isinstance(part, SplinePart)
     )
     lift, law = leg_law("spline" if splined else "polynomial", leg)
     return (Rise if sign > 0 else Return)(abs(float(lift)), float(end - start), law)

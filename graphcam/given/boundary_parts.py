@@ -7,16 +7,17 @@ Splines* (rev. ed., 2001), chapters IX and XIII.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
 
 from graphcam.errors import DesignError
-from graphcam.given.exact_polynomials import PI, Exact, derivative, moved, rounded, shortest, sign_changes, solved, value
+from graphcam.given.exact_pieces import ExactPiece, turning_places
+from graphcam.given.exact_polynomials import Exact, derivative, rounded, shortest, solved, value
+from graphcam.given.motion_point import MotionPoint, exact_angle, told
 
 MOST_DEGREE = 31
 """Of a polynomial, and of a spline."""
@@ -24,81 +25,12 @@ LEAST_SPLINE_DEGREE = 2
 """Of a spline: its velocity is continuous."""
 MOST_POINTS = 100
 """Of a part."""
-ORDERS = "s", "v", "a", "j"
 LAST_DIGITS = 1e-9
 """Of the part's greatest displacement: what the last digits of the given numbers may change it by."""
 MOST_TURNS = 2
 """So often a part may turn between neighbouring points."""
 WILD = 0.5
 """Of the span of the given displacements: so far a part may pass the two of neighbouring points."""
-
-
-@dataclass(frozen=True)
-class MotionPoint:
-    """What is asked of a motion at one cam angle; what is left out is free there.
-
-    Parameters
-    ----------
-    angle : the cam angle [rad], of a law the fraction of the phase; within rounding of a round number of degrees it is
-        that number
-    s, v, a, j : displacement [mm; of an arm rad] and its derivatives by the angle in radians
-
-    Raises
-    ------
-    DesignError : a number is not finite, or nothing is asked
-
-    >>> import graphcam as gc
-    >>> gc.MotionPoint(0.5, s=10, v=0).given
-    {0: 10, 1: 0}
-    """
-
-    angle: float
-    s: float | None = None
-    v: float | None = None
-    a: float | None = None
-    j: float | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("angle", *ORDERS):
-            number = getattr(self, name)
-            if number is not None and not math.isfinite(number):
-                raise DesignError(name, number, "a finite number")
-        if not self.given:
-            remedy = "give s, v, a or j there, or leave the point out"
-            raise DesignError("s", f"missing at {told(self.angle)}", "given with v, a or j, or one of these", remedy)
-
-    @property
-    def given(self) -> dict[int, float]:
-        """What is asked, by the order of the derivative."""
-        values = (getattr(self, name) for name in ORDERS)
-        return {order: number for order, number in enumerate(values) if number is not None}
-
-
-@dataclass(frozen=True)
-class ExactPiece:
-    """One polynomial of a motion: s at start + width y for y in [0, 1], in rational numbers.
-
-    start, width : cam angle [rad], of a law fractions of the phase
-    """
-
-    start: Fraction
-    width: Fraction
-    p: Exact
-
-    @property
-    def end(self) -> Fraction:
-        """Where the piece ends."""
-        return self.start + self.width
-
-    def at(self, place: Fraction, order: int = 0) -> Fraction:
-        """A derivative by the angle."""
-        return value(derivative(self.p, order) if order else self.p, (place - self.start) / self.width) / (
-            self.width**order
-        )
-
-    def about(self, place: Fraction, scale: Fraction) -> Exact:
-        """The coefficients in y of s at place + scale y; a negative scale looks back."""
-        return moved(self.p, (place - self.start) / self.width, scale / self.width)
 
 
 class _Part:
@@ -112,7 +44,7 @@ class _Part:
         if not 2 <= len(points) <= MOST_POINTS:
             raise DesignError("points", len(points), f"2 to {MOST_POINTS} points", "a part leads from one to another")
         for k, (before, after) in enumerate(pairwise(points), 1):
-            if not _angle(after) > _angle(before):
+            if not after.place > before.place:
                 limit = f"greater than {told(before.angle)}, the angle of the point before"
                 remedy = "sort the points by the angle, and give each one once"
                 raise DesignError(f"points[{k}].angle", told(after.angle), limit, remedy)
@@ -120,12 +52,12 @@ class _Part:
     @cached_property
     def start(self) -> Fraction:
         """Where the part begins [rad]."""
-        return _angle(self.points[0])
+        return self.points[0].place
 
     @cached_property
     def end(self) -> Fraction:
         """Where the part ends [rad]."""
-        return _angle(self.points[-1])
+        return self.points[-1].place
 
     @property
     def _count(self) -> int:
@@ -136,7 +68,7 @@ class _Part:
         """Where, as a fraction of the part, which derivative by that fraction, and its value."""
         width = self.end - self.start
         return [
-            ((_angle(point) - self.start) / width, order, shortest(number) * width**order)
+            ((point.place - self.start) / width, order, shortest(number) * width**order)
             for point in self.points
             for order, number in point.given.items()
         ]
@@ -148,9 +80,7 @@ class _Part:
         if found is None:
             raise self._open()
         width = self.end - self.start
-        return tuple(
-            ExactPiece(self.start + width * low, width * (high - low), p) for (low, high), p in found
-        )
+        return tuple(ExactPiece(self.start + width * low, width * (high - low), p) for (low, high), p in found)
 
     def _solved(
         self, conditions: Sequence[tuple[Fraction, int, Fraction]]
@@ -175,13 +105,15 @@ class _Part:
         given = [point.s for point in self.points if point.s is not None]
         span = max(given) - min(given) if given else 0.0
         for k, (before, after) in enumerate(pairwise(self.points)):
-            low, high = _angle(before), _angle(after)
+            low, high = before.place, after.place
             between = [(place, piece) for place, piece in turns if low < place < high]
             where = f"between {told(before.angle)} and {told(after.angle)}"
             remedy = "give a point there or fewer conditions, take a spline, or part the motion"
             if len(between) > MOST_TURNS:
                 value_ = f"{len(between)} {where}"
-                raise DesignError(f"points[{k}] (turns behind it)", value_, f"at most {MOST_TURNS}; the part swings", remedy)
+                raise DesignError(
+                    f"points[{k}] (turns behind it)", value_, f"at most {MOST_TURNS}; the part swings", remedy
+                )
             if before.s is None or after.s is None or not span:
                 continue
             least, most = min(before.s, after.s) - WILD * span, max(before.s, after.s) + WILD * span
@@ -324,7 +256,7 @@ class SplinePart(_Part):
             p = self.degree
             return [sum(places[k + 1 : k + p + 1], Fraction(0)) / p for k in range(len(places) - p - 1)]
         width = self.end - self.start
-        return [(_angle(MotionPoint(knot, s=0)) - self.start) / width for knot in self.knots]
+        return [(exact_angle(knot) - self.start) / width for knot in self.knots]
 
     def _solved(
         self, conditions: Sequence[tuple[Fraction, int, Fraction]]
@@ -377,57 +309,8 @@ def _combined(factors: Sequence[Fraction], splines: Sequence[Exact]) -> list[Fra
 Part = PolynomialPart | SplinePart
 
 
-def turning_places(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, ExactPiece]]:
-    """Where the velocity changes its sign, with the piece that the place lies in, or ends."""
-    found: list[tuple[Fraction, ExactPiece]] = []
-    before = 0
-    for piece in pieces:
-        sign, places = sign_changes(derivative(piece.p))
-        if before * sign < 0:
-            found.append((piece.start, piece))
-        found += [(piece.start + piece.width * y, piece) for y in places]
-        if sign:
-            before = sign * (-1) ** len(places)
-    return found
-
-
-def _angle(point: MotionPoint) -> Fraction:
-    """The cam angle of a point [rad], exact where it is a round one in radians or in degrees."""
-    return exact_angle(point.angle)
-
-
-def exact_angle(angle: float) -> Fraction:
-    """A cam angle [rad]: exact where it is round in radians, or within rounding of what is round in degrees.
-
-    >>> exact_angle(0.25), exact_angle(math.pi / 2) == PI / 2
-    (Fraction(1, 4), True)
-    """
-    plain = shortest(angle)
-    if plain != Fraction(angle) or plain.denominator <= 1024:
-        return plain
-    degrees = shortest(round(math.degrees(angle), 12))
-    if abs(math.radians(float(degrees)) - angle) <= math.ulp(angle):
-        return degrees * PI / 180
-    return plain
-
-
 def _nudged(k: int, place: Fraction, order: int, right: Fraction) -> tuple[Fraction, int, Fraction]:
     """A condition with other last digits."""
     off = Fraction(1 if k % 2 else -1, 1 << 52)
     moved_place = place if place in (0, 1) else place * (1 + off)
     return moved_place, order, right * (1 - off)
-
-
-def told(angle: float) -> str:
-    """A cam angle in the words of a message.
-
-    >>> told(math.pi)
-    '180 degrees'
-    """
-    return f"{math.degrees(angle):.10g} degrees"
-
-
-def with_unit(point: MotionPoint, unit: float) -> MotionPoint:
-    """The point with displacements in another unit."""
-    scaled = {name: None if (given := getattr(point, name)) is None else given * unit for name in ORDERS}
-    return replace(point, **scaled)

@@ -126,8 +126,7 @@ def sign_changes(p: Exact) -> tuple[int, list[Fraction]]:
     whole = [int(c * shared) for c in p]
     factor = math.lcm(*(math.comb(n, k) for k in range(n + 1)))
     coefficients = [
-        sum(math.comb(i, k) * (factor // math.comb(n, k)) * whole[k] for k in range(i + 1))
-        for i in range(n + 1)
+        sum(math.comb(i, k) * (factor // math.comb(n, k)) * whole[k] for k in range(i + 1)) for i in range(n + 1)
     ]
     if not any(coefficients):
         return 0, []

@@ -19,7 +19,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.boundary_parts import ExactPiece
+from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law

@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.boundary_parts import ExactPiece
+from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.exact_polynomials import Exact, derivative
 from graphcam.given.pieces import Floats, Side
 
@@ -88,8 +88,8 @@ class _Cutter:
     way: int
 
     def cells(self) -> list[Cell]:
-        ends = sorted((self._from_origin(self.piece.start), self._from_origin(self.piece.end)))
-        return self._cut(*ends, 0)
+        low, high = sorted((self._from_origin(self.piece.start), self._from_origin(self.piece.end)))
+        return self._cut(low, high, 0)
 
     def _from_origin(self, place: Fraction) -> Fraction:
         return self.way * (place - self.origin)
@@ -148,12 +148,12 @@ class LocalPolynomials:
 
     cells: Sequence[Cell]
 
-    def __call__(self, t: Floats) -> Floats:
-        """(4, ...) the values at t of any shape; where cells meet, those of the one behind."""
+    def __call__(self, t: Floats) -> list[Floats]:
+        """The function and its derivatives at t of any shape; where cells meet, those of the one behind."""
         t = np.asarray(t, dtype=np.float64)
         out = np.empty((ORDERS, t.size))
         self.fill(t.ravel(), "right", out)
-        return out.reshape(ORDERS, *t.shape)
+        return list(out.reshape(ORDERS, *t.shape))
 
     def fill(self, t: Floats, side: Side, out: Floats) -> None:
         """Write the values at t, (n,), into ``out``, (4, n); NaN stays NaN.

@@ -8,14 +8,14 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
-import numpy as np
-
 from graphcam.errors import DesignError
 from graphcam.given.boundary_joints import check_joint, greatest_lift
-from graphcam.given.boundary_parts import ExactPiece, MotionPoint, Part, PolynomialPart
+from graphcam.given.boundary_parts import Part, PolynomialPart
+from graphcam.given.exact_pieces import ExactPiece, between
 from graphcam.given.exact_polynomials import derivative, rounded, shortest
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.motion_law import Fourth, Law
+from graphcam.given.motion_point import MotionPoint
 from graphcam.given.pieces import Floats
 
 CONSTANT_VELOCITY = "constant-velocity"
@@ -29,23 +29,6 @@ SMOOTHEST = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
 LEAST_BLEND = 1e-6
 """Of the phase: a shorter blend is a blow."""
-
-
-def between(pieces: Sequence[ExactPiece], start: Fraction, end: Fraction) -> list[ExactPiece]:
-    """The pieces, or the parts of them, from one place to another.
-
-    >>> line = ExactPiece(Fraction(0), Fraction(1), (Fraction(0), Fraction(1)))
-    >>> [(str(piece.start), str(piece.end)) for piece in between([line], Fraction(1, 4), Fraction(1, 2))]
-    [('1/4', '1/2')]
-    """
-    found: list[ExactPiece] = []
-    for piece in pieces:
-        low, high = max(piece.start, start), min(piece.end, end)
-        if (low, high) == (piece.start, piece.end):
-            found.append(piece)
-        elif low < high:
-            found.append(ExactPiece(low, high - low, rounded(piece.about(low, high - low))))
-    return found
 
 
 def leg_law(name: str, pieces: Sequence[ExactPiece], *, trusted: bool = True) -> tuple[Fraction, Law]:
@@ -83,7 +66,9 @@ def _without_slivers(pieces: Sequence[ExactPiece]) -> list[ExactPiece]:
     kept = [piece for piece in pieces if piece.width > SLIVER * (end - start)]
     cuts = [start, *(piece.start for piece in kept[1:]), end]
     return [
-        piece if (low, high) == (piece.start, piece.end) else ExactPiece(low, high - low, rounded(piece.about(low, high - low)))
+        piece
+        if (low, high) == (piece.start, piece.end)
+        else ExactPiece(low, high - low, rounded(piece.about(low, high - low)))
         for piece, (low, high) in zip(kept, pairwise(cuts), strict=True)
     ]
 
@@ -95,7 +80,7 @@ def _scaled(piece: ExactPiece, start: Fraction, angle: Fraction, low: Fraction, 
 
 @dataclass(frozen=True)
 class _FourthDerivative:
-    """f'''' of a piece as a function of the distance from an end, with a bound on |f'''''|; made when it is asked for."""
+    """f'''' of a piece by the distance from an end, and a bound on |f'''''|; made when it is asked for."""
 
     piece: ExactPiece
     origin: Fraction
@@ -110,9 +95,7 @@ class _FourthDerivative:
     @cached_property
     def _bound(self) -> float:
         # Within a cell |x| is 1 at most.
-        return max(
-            sum(k * abs(c) for k, c in enumerate(cell.coefficients)) / cell.scale for cell in self._series.cells
-        )
+        return max(sum(k * abs(c) for k, c in enumerate(cell.coefficients)) / cell.scale for cell in self._series.cells)
 
     def __call__(self, x: Floats) -> tuple[Floats, float]:
         return self._series(x)[0], self._bound

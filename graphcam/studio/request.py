@@ -145,7 +145,10 @@ def _check_size(data: Data) -> None:
     sizes = {
         "drawing.divisions": (divisions if isinstance(divisions, int) else 0, MOST_DIVISIONS),
         "motion.phases": (_length(motion.get("phases")), MOST_PHASES),
-        "motion.parts": (sum(map(_points, parts)) if isinstance(parts := motion.get("parts"), list) else 0, MOST_POINTS),
+        "motion.parts": (
+            sum(map(_points, parts)) if isinstance(parts := motion.get("parts"), list) else 0,
+            MOST_POINTS,
+        ),
         "motion.table.rows": (_length(table.get("rows")), MOST_ROWS),
     }
     for name, (size, most) in sizes.items():

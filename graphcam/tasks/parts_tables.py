@@ -6,7 +6,8 @@ from functools import lru_cache
 from typing import Annotated, Literal
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_parts import ORDERS, MotionPoint, PolynomialPart, SplinePart
+from graphcam.given.boundary_parts import PolynomialPart, SplinePart
+from graphcam.given.motion_point import ORDERS, MotionPoint
 from graphcam.given.ranges import bounded
 from graphcam.tasks.dataclass_reader import ByKind
 
