@@ -97,8 +97,8 @@ class _Part:
     def _check_sound(self) -> None:
         """Refuse what swings, and what the last digits of the given numbers decide."""
         pieces = self.pieces
-        self._check_swings(pieces)
         self._check_last_digits(pieces)
+        self._check_swings(pieces)
 
     def _check_swings(self, pieces: Sequence[ExactPiece]) -> None:
         turns = turning_places(pieces)

@@ -23,12 +23,14 @@ from graphcam.given.pieces import Floats, Side
 
 ORDERS = 4
 """s, v, a, j."""
-CANCELLED = 3.0
+CANCELLED = 2.0
 """The terms of a series come to so many times the greatest value at most."""
 NEGLIGIBLE = 2.0**-56
 """Terms that all together are smaller, as a fraction of the greatest value, are left out."""
 AT_REST = 2.0**-55
 """Of the greatest displacement: a piece that moves by less over its width, at the speed of its end, rests there."""
+LEADING = 1e-12
+"""Of all terms of a series: the first that is no smaller leads, where the motion leaves its rest."""
 DEEPEST = 20
 """So often a piece is halved at most: a cell of a millionth is as good as it gets."""
 SAMPLES = 33
@@ -125,7 +127,7 @@ class _Cutter:
         """How many terms a derivative asks for, and whether they do not cancel within ``part`` of the scale."""
         row = np.array([float(c / Fraction(scale) ** order) for c in derivative(p, order)])
         terms = np.abs(row) * part ** np.arange(row.size)
-        varying = np.flatnonzero(row[1:] if order == 0 else row)
+        varying = np.flatnonzero((terms[1:] if order == 0 else terms) > LEADING * terms.sum())
         size, fits = self.greatest[order], terms.sum() <= CANCELLED * self.greatest[order]
         if rests and order < 2 and varying.size:
             # The first power that varies leads near the rest; the others come to no more.
