@@ -48,9 +48,7 @@ class BoundaryMotion(Motion):
         object.__setattr__(self, "starts", self._begin)
 
     def _said(self) -> str:
-        degrees = ", ".join(
-            f"{part.name} of degree {max(len(piece.p) for piece in part.pieces) - 1}" for part in self.parts
-        )
+        degrees = ", ".join(f"{part.name} of degree {part.highest_power}" for part in self.parts)
         return f"{super()._said()}, by conditions: {degrees}"
 
     @property

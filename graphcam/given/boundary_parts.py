@@ -60,6 +60,11 @@ class _Part:
         return self.points[-1].place
 
     @property
+    def highest_power(self) -> int:
+        """The degree of the part's polynomials."""
+        return max(len(piece.p) for piece in self.pieces) - 1
+
+    @property
     def _count(self) -> int:
         return sum(len(point.given) for point in self.points)
 
