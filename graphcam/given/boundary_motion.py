@@ -23,6 +23,9 @@ from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.pieces import Floats, Side
 from graphcam.given.polynomial_law import leg_law
 
+LOWEST = Fraction(1, 1 << 60)
+"""Of the lift: a lowest displacement nearer to 0 is 0, and was rounded."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BoundaryMotion(Motion):
@@ -97,6 +100,8 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
     ordered, zero_ = from_zero(phases)
     zero = Fraction(zero_) if abs(zero_) > SAME else Fraction(0)
     lowest = min(levels)
+    if abs(lowest) <= LOWEST * (max(levels) - lowest):
+        lowest = Fraction(0)
     turn = between(_around(round_, zero), zero, zero + TURN)
     lowered = [replace(piece, p=(piece.p[0] - lowest, *piece.p[1:])) for piece in turn]
     series = LocalPolynomials([cell for cut in cells(lowered, zero) for cell in cut])

@@ -226,6 +226,21 @@ def _less_atan(q: float) -> float:
     return q**3 * series
 
 
+def _double_harmonic_tangent(k: float) -> tuple[float, float]:
+    q = _PI * k
+    root = math.sqrt(1 + 3 * q * q)
+    t = 3 * q / (1 + root)  # the tangent of pi u/2
+    square = t * t / (1 + t * t)
+    return 2 * math.atan(t) / _PI, square * square * (2 * root - 1) / (3 * k)
+
+
+def _double_harmonic_tangent_back(k: float) -> tuple[float, float]:
+    q = _PI * k
+    t = q / (1 + math.sqrt(1 + 3 * q * q))
+    c2 = 1 / (1 + t * t)
+    return 2 * math.atan(t) / _PI, t * c2 * (2 * _PI * c2 - t * (1 + c2) / k)
+
+
 def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[float, float]:
     """Of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
 
@@ -366,7 +381,8 @@ def _built(name: str, ratio: float) -> Law:
     if name == "double-harmonic":
         formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
         fourths = tuple(partial(_fourth_of_double_harmonic, sign=sign) for sign in (-1, 1))
-        return Law(name, formulas, (0.5,), middle=0.5, peaks=peaks, fourths=fourths, trusted=True, seams=(0.5,))
+        tangents, seams = (_double_harmonic_tangent, _double_harmonic_tangent_back), (0.5,)
+        return Law(name, formulas, seams, False, 0.5, 1.0, peaks, tangents, fourths, trusted=True, seams=seams)
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
         tangents = tangent, tangent
