@@ -20,9 +20,9 @@ from graphcam.given.exact_polynomials import Exact, derivative, rounded, shortes
 from graphcam.given.motion_point import MotionPoint, exact_angle, told
 
 MOST_DEGREE = 31
-"""Of a polynomial, and of a spline."""
-LEAST_SPLINE_DEGREE = 2
-"""Of a spline: its velocity is continuous."""
+"""Of a polynomial."""
+SPLINE_DEGREES = 2, 9
+"""Of a spline: from 2 on its velocity is continuous; of a high degree it swings as a polynomial does."""
 MOST_POINTS = 100
 """Of a part."""
 LAST_DIGITS = 1e-9
@@ -214,7 +214,7 @@ class SplinePart(_Part):
     Parameters
     ----------
     points : two or more in the order of their angles; the part leads from the first to the last
-    degree : 2 to 31; all derivatives below it are continuous at the knots, where the pieces join
+    degree : 2 to 9; all derivatives below it are continuous at the knots, where the pieces join
     knots : the angles [rad] of the inner knots; None has them chosen
 
     Raises
@@ -234,8 +234,9 @@ class SplinePart(_Part):
 
     def __post_init__(self) -> None:
         self._check_points()
-        if not LEAST_SPLINE_DEGREE <= self.degree <= MOST_DEGREE:
-            raise DesignError("degree", self.degree, f"{LEAST_SPLINE_DEGREE} to {MOST_DEGREE}")
+        least, most = SPLINE_DEGREES
+        if not least <= self.degree <= most:
+            raise DesignError("degree", self.degree, f"{least} to {most}", "take 5 for a jerk without jumps")
         inner = self._count - self.degree - 1
         if inner < 0:
             limit = f"{self.degree + 1} or more for a degree of {self.degree}"
