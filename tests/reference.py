@@ -63,6 +63,11 @@ def _modified_sine(u: Number) -> Number:
     return (4 + pi * u - sin(4 * pi * u) / 4) / (4 + pi)
 
 
+def _double_harmonic(u: Number) -> Number:
+    with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power cancels
+        return (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8
+
+
 _FIRST_HALF: dict[str, Callable[[Number], Number]] = {
     "triangular": _triangular,
     "trapezoidal": _trapezoidal,
@@ -75,7 +80,7 @@ _WHOLE: dict[str, Callable[[Number], Number]] = {
     "2-3": lambda u: 3 * u**2 - 2 * u**3,
     "3-4-5": lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
     "4-5-6-7": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
-    "double-harmonic": lambda u: (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8,
+    "double-harmonic": _double_harmonic,
     "eighth-degree": lambda u: (
         mpf("6.09755") * u**3
         - mpf("20.7804") * u**5
