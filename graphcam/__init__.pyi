@@ -5,6 +5,8 @@ from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
 from .given.arm_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring
+from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_motion as boundary_motion
+from .given.boundary_parts import PolynomialPart as PolynomialPart, SplinePart as SplinePart
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
 from .given.laws import LAWS as LAWS, law as law
 from .given.load_curve import LoadCurve as LoadCurve
@@ -16,6 +18,8 @@ from .given.measured import (
 )
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
+from .given.motion_point import MotionPoint as MotionPoint
+from .given.polynomial_law import boundary_law as boundary_law, constant_velocity_law as constant_velocity_law
 from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad

@@ -27,6 +27,13 @@ def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     return _WHOLE[name](u)
 
 
+def lift_of(phase, u: Number) -> Number:
+    """The normalised way of a phase, up or down; a return without a dwell before it is the rise seen backwards."""
+    if phase.direction < 0 and phase.law in ("double-harmonic", "eighth-degree"):
+        return 1 - lift(phase.law, 1 - mpf(u))
+    return lift(phase.law, u, phase.ratio)
+
+
 def _triangular(u: Number) -> Number:
     return 16 * u**3 / 3 if u <= mpf(1) / 4 else mpf(1) / 6 - 2 * u + 8 * u**2 - 16 * u**3 / 3
 
@@ -56,6 +63,11 @@ def _modified_sine(u: Number) -> Number:
     return (4 + pi * u - sin(4 * pi * u) / 4) / (4 + pi)
 
 
+def _double_harmonic(u: Number) -> Number:
+    with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power cancels
+        return (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8
+
+
 _FIRST_HALF: dict[str, Callable[[Number], Number]] = {
     "triangular": _triangular,
     "trapezoidal": _trapezoidal,
@@ -68,6 +80,14 @@ _WHOLE: dict[str, Callable[[Number], Number]] = {
     "2-3": lambda u: 3 * u**2 - 2 * u**3,
     "3-4-5": lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
     "4-5-6-7": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
+    "double-harmonic": _double_harmonic,
+    "eighth-degree": lambda u: (
+        mpf("6.09755") * u**3
+        - mpf("20.7804") * u**5
+        + mpf("26.73155") * u**6
+        - mpf("13.60965") * u**7
+        + mpf("2.56095") * u**8
+    ),
 }
 
 
@@ -83,7 +103,7 @@ def displacement(motion, phi: Number) -> Number:
     if phase.direction == 0:
         return level - lowest
     u = (phi - start) / mpf(phase.angle)
-    return level - lowest + phase.direction * mpf(phase.lift) * lift(phase.law, u, phase.ratio)
+    return level - lowest + phase.direction * mpf(phase.lift) * lift_of(phase, u)
 
 
 def _lowest_level(motion) -> Number:
@@ -185,7 +205,7 @@ def _tallest(motion, direction: int, slope: Number) -> Number:
             h, angle = mpf(phase.lift), mpf(phase.angle)
 
             def s(u, phase=phase, level=level, h=h):
-                return level + phase.direction * h * lift(phase.law, u, phase.ratio)
+                return level + phase.direction * h * lift_of(phase, u)
 
             def height(u, s=s, angle=angle):
                 return abs(diff(s, u)) / angle - slope * s(u)

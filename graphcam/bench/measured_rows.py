@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.bench.rows import Gauge, Row, Section
-from graphcam.given.laws import LAWS, Floats
+from graphcam.given.laws import BETWEEN_DWELLS, Floats
 from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
 
@@ -238,7 +238,7 @@ def random_motion(random: np.random.Generator) -> Motion:
 def _phase(random: np.random.Generator, kind: int, lift: float, angle: float) -> Phase:
     if not kind:
         return Dwell(angle)
-    law = str(random.choice(list(LAWS)))
+    law = str(random.choice(list(BETWEEN_DWELLS)))
     ratio = float(random.uniform(*RATIOS)) if law == "rectangular" else 1.0
     return (Rise if kind > 0 else Return)(lift, angle, law, ratio)
 

@@ -53,6 +53,8 @@ FIFTH = {
     "2-3": ((0.0,), ()),
     "3-4-5": ((720.0,), ()),
     "4-5-6-7": ((10080.0,), ()),
+    "double-harmonic": ((4.5 * _PI**5,), ()),
+    "eighth-degree": ((2493.648,), ()),
 }
 """The greatest |f'''''| of each piece of the first half, and by how much f'''' jumps between them; so in the second."""
 
@@ -93,7 +95,7 @@ def known(law: Law) -> bool:
     >>> known(law_of("cosine"))
     True
     """
-    return law.name in FIFTH and law == law_of(law.name, law.ratio)
+    return law.name in FIFTH and law in ((named := law_of(law.name, law.ratio)), named.reversed)
 
 
 def chords(law: Law, u: Floats) -> Chords:

@@ -11,6 +11,7 @@ LAW_TITLES: Mapping[str, Caption] = {
     for title in (
         *(say("rectangular"), say("triangular"), say("cosine"), say("cycloidal")),
         *(say("trapezoidal"), say("modified-trapezoidal"), say("modified-sine"), say("measured")),
+        *(say("double-harmonic"), say("eighth-degree"), say("constant-velocity"), say("polynomial"), say("spline")),
         # Polynomials are called by their powers; not every language leaves it at that.
         *(say("2-3"), say("3-4-5"), say("4-5-6-7")),
     )

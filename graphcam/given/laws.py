@@ -1,24 +1,34 @@
-"""The ten normalised motion laws.
+"""The twelve normalised motion laws.
 
 Every law is written as it looks from the nearer end of the phase: the first half as a function of the distance
 x = u from the start, the second half as a function of the distance x = w = 1 - u from the end.  The formulas are
 factored, because a product costs less than a power and rounds less than a sum.
 
+Two of them are for a rise and a fall without a dwell between: the acceleration they end with is no jump where the fall
+begins with the same.
+
 Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapters 2 and 3; R. L. Norton, *Cam Design and
-Manufacturing Handbook* (2009), chapters 2 to 4.
+Manufacturing Handbook* (2009), chapters 2 to 4; M. Kloomok and R. V. Muffley, *Plate Cam Design*, Product Engineering
+26 (February 1955), the eighth-degree polynomial.
 """
 
 import math
+from fractions import Fraction
 from functools import lru_cache, partial
 
 import numpy as np
 
 from graphcam.errors import DesignError, nearest
+from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
+from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
+_PI = math.pi
+RISE_FALL = "double-harmonic", "eighth-degree"
+"""The laws of a rise without a dwell behind it; a return by them runs backwards, from the same acceleration to rest."""
 MOST_UNEQUAL = 1e12
 """Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
 
@@ -109,6 +119,30 @@ def _poly_4_5_6_7(x: Floats):
     return f, 140 * p * square, 420 * square * (1 - 2 * x), 840 * p * (1 - 5 * p)
 
 
+def _double_harmonic(x: Floats):
+    """f = (1 - cos(pi x))/2 - (1 - cos(2 pi x))/8 is the fourth power of the sine s of half the angle pi x."""
+    s, c = sine_cosine(_PI / 2 * x)
+    square, product = s * s, s * c
+    return (
+        square * square,
+        2 * _PI * square * product,
+        _PI**2 * square * (3 - 4 * square),
+        _PI**3 * product * (3 - 8 * square),
+    )
+
+
+def _double_harmonic_end(x: Floats):
+    """1 - f at the distance x from the end is 1 - (1 - s^2)^2."""
+    s, c = sine_cosine(_PI / 2 * x)
+    square, product = s * s, s * c
+    return (
+        square * (2 - square),
+        2 * _PI * (1 - square) * product,
+        _PI**2 * (1 - square) * (1 - 4 * square),
+        _PI**3 * product * (8 * square - 5),
+    )
+
+
 _SINE_SERIES = tuple(1 / math.factorial(n) for n in range(17, 1, -2))
 """t - sin(t) = t^3 (1/3! - t^2 (1/5! - t^2 (1/7! - ...))), from the last term that counts for t < 1."""
 
@@ -153,6 +187,11 @@ def _fourth_4_5_6_7(x: Floats) -> tuple[Floats, float]:
     return 840 * (1 - 2 * x) * (1 - 10 * x * (1 - x)), 10080.0
 
 
+def _fourth_of_double_harmonic(x: Floats, *, sign: int) -> tuple[Floats, float]:
+    """From the start with the sign -1, from the end +1: of what is missing there only the second wave changes sign."""
+    return _PI**4 * (-np.cos(_PI * x) / 2 - sign * 2 * np.cos(2 * _PI * x)), 4.5 * _PI**5
+
+
 # --- the tangents ----------------------------------------------------------------------------------------------------
 # Each takes k and returns the place u where f' - f/k is greatest, the root of k f'' = f', and that value; with
 # k = cot(A)/F it is where the line at the permitted pressure angle A touches the s - v diagram, and its height there.
@@ -187,6 +226,21 @@ def _less_atan(q: float) -> float:
     return q**3 * series
 
 
+def _double_harmonic_tangent(k: float) -> tuple[float, float]:
+    q = _PI * k
+    root = math.sqrt(1 + 3 * q * q)
+    t = 3 * q / (1 + root)  # the tangent of pi u/2
+    square = t * t / (1 + t * t)
+    return 2 * math.atan(t) / _PI, square * square * (2 * root - 1) / (3 * k)
+
+
+def _double_harmonic_tangent_back(k: float) -> tuple[float, float]:
+    q = _PI * k
+    t = q / (1 + math.sqrt(1 + 3 * q * q))
+    c2 = 1 / (1 + t * t)
+    return 2 * math.atan(t) / _PI, t * c2 * (2 * _PI * c2 - t * (1 + c2) / k)
+
+
 def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[float, float]:
     """Of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
 
@@ -202,7 +256,6 @@ def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[f
 
 # --- the laws --------------------------------------------------------------------------------------------------------
 
-_PI = math.pi
 _MODIFIED_TRAPEZOIDAL = 8 * _PI / (2 + _PI)
 _MODIFIED_SINE = 4 * _PI / (4 + _PI)
 
@@ -226,6 +279,9 @@ _MODIFIED_SINE_PIECES = partial(_sine_up, **_SINES_UP), partial(_sine_down, **_S
 _TANGENT_2_3 = partial(_polynomial_tangent, n=1, rest=(3, -4, 2))
 _TANGENT_3_4_5 = partial(_polynomial_tangent, n=2, rest=(10, -20, 18, -6))
 _TANGENT_4_5_6_7 = partial(_polynomial_tangent, n=3, rest=(35, -98, 126, -80, 20))
+
+_EIGHTH_DEGREE = tuple(map(Fraction, ("0", "0", "0", "6.09755", "0", "-20.7804", "26.73155", "-13.60965", "2.56095")))
+"""The coefficients of the eighth-degree polynomial, as they were published."""
 
 
 def _sines(*pieces: tuple[Formula, dict[str, float]]) -> tuple[Fourth, ...]:
@@ -262,7 +318,9 @@ _MIRRORED = {
     "4-5-6-7": (_poly_4_5_6_7, (), (2.1875, 84 / (5 * math.sqrt(5))), _TANGENT_4_5_6_7),
 }
 
-LAWS: tuple[str, ...] = ("rectangular", *_MIRRORED)
+BETWEEN_DWELLS: tuple[str, ...] = ("rectangular", *_MIRRORED)
+"""The laws that look the same from both ends."""
+LAWS: tuple[str, ...] = (*BETWEEN_DWELLS, *RISE_FALL)
 
 
 def law(name: str | Law, ratio: float = 1.0) -> Law:
@@ -270,7 +328,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
 
     Parameters
     ----------
-    name : one of :data:`LAWS`, or a :class:`~graphcam.given.motion_law.Law`
+    name : one of :data:`LAWS`, or "constant-velocity" with blends of a quarter, or a
+        :class:`~graphcam.given.motion_law.Law`
     ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one.  It is kept
         as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
@@ -287,9 +346,12 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """
+    if name == CONSTANT_VELOCITY:
+        name = constant_velocity_law()
     own = isinstance(name, Law)
     if not own and name not in LAWS:
-        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", LAWS)
+        known = (*LAWS, CONSTANT_VELOCITY)
+        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", known)
         raise DesignError("law", name, "a motion law that graphcam knows", remedy)
     if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
         limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"
@@ -300,9 +362,27 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     return name if own else _built(name, ratio)
 
 
+def law_of_return(name: str | Law, ratio: float = 1.0) -> Law:
+    """The law of a return, of that name: one of :data:`RISE_FALL` runs backwards there.
+
+    >>> law_of_return("eighth-degree")(0.0)[2].item(), law_of_return("cosine") == law("cosine")
+    (5.2683, True)
+    """
+    found = law(name, ratio)
+    return found.reversed if name in RISE_FALL else found
+
+
 @lru_cache(maxsize=256)
 def _built(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
+    if name == "eighth-degree":
+        _, made = leg_law(name, [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_DEGREE)])
+        return made
+    if name == "double-harmonic":
+        formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
+        fourths = tuple(partial(_fourth_of_double_harmonic, sign=sign) for sign in (-1, 1))
+        tangents, seams = (_double_harmonic_tangent, _double_harmonic_tangent_back), (0.5,)
+        return Law(name, formulas, seams, False, 0.5, 1.0, peaks, tangents, fourths, trusted=True, seams=seams)
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED[name]
         tangents = tangent, tangent

@@ -259,7 +259,7 @@ def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
         phases.append((start, (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)))
         if leg.to_rest:
             phases.append((end, Dwell(following - end)))
-    return *_from_zero(phases), min(float(fitted.spline(start)) for start in starts)
+    return *from_zero(phases), min(float(fitted.spline(start)) for start in starts)
 
 
 def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
@@ -271,7 +271,7 @@ def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
     return float(roots(v, *fastest))
 
 
-def _from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:
+def from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:
     """The phases from the cam angle 0 on, or from the nearest end of a phase to it, if the follower moves at 0.
 
     phases : with the cam angles at which they begin [rad], in order over one turn

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.laws import Floats, Side, law
+from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
 from graphcam.showing import Shown, in_lines
@@ -110,11 +110,17 @@ class Rise(Moving):
 class Return(Moving):
     """A phase that lowers the follower by ``lift`` over ``angle`` radians: s = lift (1 - f(u)).
 
-    ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.
+    ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.  By the name of a law without a
+    dwell, "double-harmonic" or "eighth-degree", it mirrors the rise.
     """
 
     kind: ClassVar[str] = "return"
     direction: ClassVar[int] = -1
+
+    @cached_property
+    def normalised(self) -> Law:
+        """The phase's law on [0, 1] of the way down: the one of that name, or the given one."""
+        return law_of_return(self.law, self.ratio)
 
 
 Phase = Rise | Dwell | Return
@@ -238,9 +244,13 @@ class Motion(Shown):
             turned = wrap(flat[here])
             if side == "left":
                 turned = np.where(turned == 0, FULL_TURN, turned)
-            self._piecewise.fill(turned, side, out[:, here])
+            self._fill(turned, side, out[:, here])
         s, v, a, j = out.reshape(4, *phi.shape)
         return s, v, a, j
+
+    def _fill(self, turned: Floats, side: Side, out: Floats) -> None:
+        """Write the values at angles in [0, 2 pi], (n,), into ``out``, (4, n)."""
+        self._piecewise.fill(turned, side, out)
 
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
         """(s, v, a, j) at the fraction u in [0, 1] of a phase, so that both its ends belong to it; NaN outside.

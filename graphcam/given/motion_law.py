@@ -57,6 +57,7 @@ class Law:
     fourths : for each formula a function that returns f'''' at an array, and a bound on |f'''''| over the piece; with
         them it is proved where a quantity is greatest.  Left out, f'''' is estimated, and nothing is proved
     trusted : it is known to be a law, so it is not checked, which takes some milliseconds
+    seams : those edges at which no derivative jumps: the formulas of either side only look from different ends
 
     Raises
     ------
@@ -83,6 +84,7 @@ class Law:
     tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
     fourths: Sequence[Fourth] = field(default=(), repr=False)
     trusted: InitVar[bool] = False
+    seams: tuple[float, ...] = field(default=(), repr=False)
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
     """the pieces between 0, the edges and 1"""
 
@@ -188,7 +190,7 @@ class Law:
         # Where a formula meets its own mirror image, only the acceleration can jump.
         met = zip(self.edges, pairwise(self.pieces), strict=True)
         mirrors = [u for u, (a, b) in met if a.formula is b.formula and a.length != b.length]
-        return tuple(u for u in self.edges if u not in mirrors or u in self.jumps)
+        return tuple(u for u in self.edges if u not in self.seams and (u not in mirrors or u in self.jumps))
 
     @cached_property
     def jumps(self) -> tuple[float, ...]:
@@ -218,7 +220,8 @@ class Law:
             return self
         ahead, back = self.tangents
         turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
-        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), self.fourths[::-1], trusted=True)
+        seams = tuple(1 - u for u in self.seams)
+        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), self.fourths[::-1], trusted=True, seams=seams)
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 

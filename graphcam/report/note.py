@@ -14,6 +14,7 @@ from graphcam.given.angular_velocity import omega_of
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.budget_table import budget_table
+from graphcam.report.conditions_table import conditions
 from graphcam.report.markdown import blocks, formula, number, printed, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
@@ -119,6 +120,7 @@ def task_data(solution: Solution) -> str:
     return blocks(
         MOVED[solution.task.follower.kind][roller],
         markdown_table(phases(solution), tell),
+        *([asked.title, markdown_table(asked, tell)] if (asked := conditions(solution)) else []),
         say("These are the data."),
         markdown_table(Table(given.title, given.header[:2], rows), tell),
         tell=tell,

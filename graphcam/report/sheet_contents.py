@@ -14,6 +14,7 @@ from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
+from graphcam.report.conditions_table import on_sheet
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
 from graphcam.sheets.layout import Numbered, SheetPart
 from graphcam.sheets.tables import Table
@@ -140,9 +141,8 @@ def motion_contents(solution: Solution) -> Contents:
     if solution.stress:
         results.append(solution.stress.table())
     title = title_block(solution.task.title, solution.tell)
-    return Contents(
-        solution, title, drawn, scaled_steps(drawn), (data(solution), phases_at_speed(solution)), tuple(results)
-    )
+    given = data(solution), phases_at_speed(solution), *on_sheet(solution)
+    return Contents(solution, title, drawn, scaled_steps(drawn), given, tuple(results))
 
 
 def _check_drawable(cam: Cam) -> None:

@@ -7,6 +7,7 @@ from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, turning
 from graphcam.constructions.law_names import law_title
 from graphcam.drafting.units import unit
+from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.measured import MeasuredMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
@@ -57,6 +58,7 @@ def data(solution: Solution) -> Table:
         *sizes(solution),
         *_limits(solution),
         *_measured(solution),
+        *_by_conditions(solution),
     ]
     return data_table(rows, (ADOPTED, ""))
 
@@ -86,6 +88,18 @@ def _measured(solution: Solution) -> list[Row]:
         (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN),
         (say("residual"), residual, ""),
         *([(say("cam angle 0 of the table at"), degrees(-motion.zero), "")] if motion.zero else []),
+    ]
+
+
+def _by_conditions(solution: Solution) -> list[Row]:
+    """From where the cam angle of a motion by conditions is counted, and its displacement, where not from 0."""
+    motion = solution.chain.board.motion
+    if not isinstance(motion, BoundaryMotion):
+        return []
+    lowest = motion.lowest / solution.task.motion.lift_unit
+    return [
+        *([(say("cam angle 0 of the conditions at"), degrees(-motion.zero), "")] if motion.zero else []),
+        *([(say("lowest s of the conditions"), say("{s:.6g}", s=lowest), "")] if motion.lowest else []),
     ]
 
 

@@ -11,7 +11,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
 
-MOST_DIVISIONS, MOST_PHASES, MOST_ROWS = 200, 36, 2000
+MOST_DIVISIONS, MOST_PHASES, MOST_ROWS, MOST_POINTS = 200, 36, 2000, 60
 """Of a task in the studio: more take too long to be drawn while a size is moved."""
 MOST_VIEWS = 20
 """In one request."""
@@ -145,11 +145,20 @@ def _check_size(data: Data) -> None:
     sizes = {
         "drawing.divisions": (divisions if isinstance(divisions, int) else 0, MOST_DIVISIONS),
         "motion.phases": (_length(motion.get("phases")), MOST_PHASES),
+        "motion.parts": (
+            sum(map(_points, parts)) if isinstance(parts := motion.get("parts"), list) else 0,
+            MOST_POINTS,
+        ),
         "motion.table.rows": (_length(table.get("rows")), MOST_ROWS),
     }
     for name, (size, most) in sizes.items():
         if size > most:
             raise DesignError(name, size, f"at most {most} in the studio")
+
+
+def _points(part: Any) -> int:
+    """Of a part by conditions; what is no part counts too."""
+    return max(1, _length(part.get("points"))) if isinstance(part, dict) else 1
 
 
 def _length(value: Any) -> int:

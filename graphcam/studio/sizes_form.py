@@ -8,6 +8,7 @@ from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.laws import LAWS
 from graphcam.given.load_curve import LoadCurve
+from graphcam.given.polynomial_law import CONSTANT_VELOCITY
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
@@ -81,9 +82,9 @@ def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
 
 
 def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    if solution.task.motion.phases is None:
+    if solution.task.motion.table is not None:
         yield make.number("motion.tolerance")
-    else:
+    elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
     yield make.choice("rotation", MOTION, say("Rotation of the cam"), TURNING.items())
     yield make.open_number("speed_rpm", None)
@@ -110,7 +111,7 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "name": tell(say("Phases")),
         "kind": "phases",
         "phases": rows,
-        "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in LAWS],
+        "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
         # Only this law has parts whose accelerations differ.
         "ratio": RATIO.plain() | {"law": "rectangular"},
         "angle": SizeRange(LEAST_ANGLE, 360.0 - LEAST_ANGLE * (len(rows) - 1), 1.0).plain() | {"unit": DEGREES},

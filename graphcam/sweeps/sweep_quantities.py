@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from graphcam.given.arm_load import PlacedArmLoad
 from graphcam.given.follower import FOLLOWERS
-from graphcam.given.laws import Floats, law
+from graphcam.given.laws import Floats, law, law_of_return
 from graphcam.given.limits import Limits
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.followers import EXACT
@@ -187,7 +187,7 @@ class Chunk:
     @cached_property
     def _laws(self) -> dict[str, list[tuple[Law, Numbers | slice]]]:
         """Of rises and returns the laws that occur, as seen from the low end, and whose they are."""
-        rises, returns = (_by_law(laws) for laws in (self.designs.rise_law, self.designs.return_law))
+        rises, returns = _by_law(self.designs.rise_law, law), _by_law(self.designs.return_law, law_of_return)
         return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 
     def _peak(self, coefficient: Callable[[Law], float], power: int) -> Floats:
@@ -198,8 +198,8 @@ class Chunk:
         return peaks.max(axis=0)
 
 
-def _by_law(laws: NDArray[Any]) -> list[tuple[Law, Numbers | slice]]:
+def _by_law(laws: NDArray[Any], named: Callable[[str | Law], Law]) -> list[tuple[Law, Numbers | slice]]:
     """The laws, and which of the designs follow each."""
     if laws.ndim == 0:
-        return [(law(laws.item()), slice(None))]
-    return [(law(each), np.flatnonzero(laws == each)) for each in dict.fromkeys(laws.tolist())]
+        return [(named(laws.item()), slice(None))]
+    return [(named(each), np.flatnonzero(laws == each)) for each in dict.fromkeys(laws.tolist())]

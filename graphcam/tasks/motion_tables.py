@@ -1,4 +1,4 @@
-"""The table ``[motion]`` of a task file: phases in degrees and mm, or a measured motion."""
+"""The table ``[motion]`` of a task file: phases in degrees and mm, parts by conditions, or a measured motion."""
 
 import math
 from dataclasses import dataclass, field
@@ -6,11 +6,14 @@ from functools import lru_cache
 from typing import Annotated, ClassVar, Literal
 
 from graphcam.errors import DesignError
+from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
+from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
+from graphcam.tasks.parts_tables import PartOfMotion
 
 ANGLE_CLOSURE = 1e-9
 """How far the phase angles of a file may miss 360 degrees."""
@@ -37,22 +40,30 @@ class _MovingTable:
     lift: float
     law: Annotated[str | Law, ByName()]
     ratio: float = 1.0
+    blends: tuple[float, float] | None = None
 
     moves: ClassVar[type[Rise] | type[Return]]
 
     def __post_init__(self) -> None:
         positive("angle", self.angle, "degrees")
         positive("lift", self.lift, "(mm; degrees for an arm)")
+        if self.blends is not None and self.law != CONSTANT_VELOCITY:
+            left_out = f"left out for the law '{getattr(self.law, 'name', self.law)}'"
+            raise DesignError("blends", list(self.blends), left_out, f"they are those of '{CONSTANT_VELOCITY}'")
         self()
 
     def __call__(self, unit: float = 1.0) -> Rise | Return:
         """The phase in radians, its lift times ``unit`` (radians per degree for an arm, else 1)."""
-        return self.moves(self.lift * unit, math.radians(self.angle), self.law, self.ratio)
+        law = constant_velocity_law(*self.blends) if self.blends else self.law
+        return self.moves(self.lift * unit, math.radians(self.angle), law, self.ratio)
 
 
 @dataclass(frozen=True)
 class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own."""
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own.
+
+    blends : of the law "constant-velocity", the fractions of the phase that its blends take; None is a quarter each
+    """
 
     kind: Literal["rise"] = "rise"
     moves = Rise
@@ -60,7 +71,7 @@ class RiseTable(_MovingTable):
 
 @dataclass(frozen=True)
 class ReturnTable(_MovingTable):
-    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own."""
+    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law; ``blends`` as of a rise."""
 
     kind: Literal["return"] = "return"
     moves = Return
@@ -71,9 +82,10 @@ PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
 
 @dataclass(frozen=True)
 class MotionTable:
-    """``[motion]``: the phases of one revolution, in order, or the table of a measured motion.
+    """``[motion]``: the phases of one revolution, in order, or parts by conditions, or the table of a measured motion.
 
     phases : their angles sum to 360 degrees, their lifts to 0
+    parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
     table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
     tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
 
@@ -84,16 +96,20 @@ class MotionTable:
     phases: tuple[PhaseTable, ...] | None = None
     table: CurveTable | None = None
     tolerance: float | None = None
+    parts: tuple[PartOfMotion, ...] | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if self.phases is None and self.table is None:
+        ways = {"phases": self.phases, "table": self.table and self.table.file, "parts": self.parts}
+        given = [name for name, value in ways.items() if value is not None]
+        if not given:
             raise DesignError("phases", "missing", "given")
-        if self.phases is not None and self.table is not None:
-            raise DesignError("table", self.table.file, "left out where there are phases", "give one of the two")
+        if len(given) > 1:
+            limit = f"left out where there {'is a table' if given[0] == 'table' else 'are phases'}"
+            raise DesignError(given[1], ways[given[1]], limit, "give one of the two")
         if self.tolerance is not None and self.table is None:
             left_out = "left out where there is no table"
-            raise DesignError("tolerance", self.tolerance, left_out, "phases are kept exactly")
+            raise DesignError("tolerance", self.tolerance, left_out, f"{given[0]} are kept exactly")
         bounded("tolerance", self.tolerance, "(mm; degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
@@ -107,6 +123,8 @@ class MotionTable:
         """The motion, in radians and mm (an arm's lift in radians too)."""
         if self.table is not None:
             return self.table(self.tolerance, self.lift_unit)
+        if self.parts is not None:
+            return _by_conditions(self.parts, self.lift_unit)
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
@@ -114,3 +132,8 @@ class MotionTable:
 def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
     phases: list[Phase] = [table(unit) for table in tables]
     return Motion(phases)
+
+
+@lru_cache(maxsize=16)
+def _by_conditions(tables: tuple[PartOfMotion, ...], unit: float) -> BoundaryMotion:
+    return boundary_motion([table(unit) for table in tables])

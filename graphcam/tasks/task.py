@@ -255,10 +255,11 @@ class Task:
     part: PartTable | None = None
 
     def __repr__(self) -> str:
-        measured = f"measured, {self.motion.table.file}" if self.motion.table else ""
+        other = f"measured, {self.motion.table.file}" if self.motion.table else ""
+        other = other or ", ".join(f"{part.kind} of {len(part.points)} points" for part in self.motion.parts or ())
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
         turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
-        rows = f"{turns}, {self.follower.kind} follower", shorten(measured or phases, WIDTH, placeholder=" ...")
+        rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, WIDTH, placeholder=" ...")
         return in_lines(f"Task {self.title.name!r}", rows, "gc.solve(task) designs the cam; .to_dict() tells all")
 
     def __post_init__(self) -> None:

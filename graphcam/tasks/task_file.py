@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 from graphcam.errors import DesignError, TaskError, nearest
 from graphcam.given.table_file import read_table
-from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
+from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
     Fault,
@@ -42,6 +42,10 @@ _CLASSES: Classes = {
     ("motion", "phases", "rise"): motion_tables.RiseTable,
     ("motion", "phases", "dwell"): motion_tables.DwellTable,
     ("motion", "phases", "return"): motion_tables.ReturnTable,
+    ("motion", "parts", "polynomial"): parts_tables.PolynomialTable,
+    ("motion", "parts", "polynomial", "points"): parts_tables.PointTable,
+    ("motion", "parts", "spline"): parts_tables.SplineTable,
+    ("motion", "parts", "spline", "points"): parts_tables.PointTable,
     ("follower", "translating"): tables.TranslatingTable,
     ("follower", "oscillating"): tables.OscillatingTable,
     ("follower", "flat-faced"): tables.FlatFacedTable,

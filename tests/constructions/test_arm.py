@@ -124,6 +124,8 @@ CONSTANTS = {
     "2-3": (23.7, 44.3, 18.8, 21.7),
     "3-4-5": (21.8, 38.0, 22.5, 23.3),
     "4-5-6-7": (30.1, 53.8, 30.7, 20.4),
+    "double-harmonic": (29.0, 54.8, 17.0, 17.2),
+    "eighth-degree": (5.7, 11.9, 4.2, 4.2),
     # Its s and v are drawn without error; the lines faired between the stations still err where they bind.
     "rectangular": (0.0, 0.4, 0.32, 1.25),
 }

@@ -7,7 +7,7 @@ from math import pi
 import pytest
 
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
-from graphcam.given.laws import LAWS, law
+from graphcam.given.laws import BETWEEN_DWELLS, RISE_FALL, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 
 SOFT = {"rectangular", "cosine", "2-3"}
@@ -20,7 +20,7 @@ def motion_of(name: str) -> Motion:
     return Motion([Rise(30, 1.4, name), Dwell(0.8), Return(30, 1.1, name), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", BETWEEN_DWELLS)
 def test_kind_of_impact_between_dwells(name):
     motion = motion_of(name)
     assert velocity_jumps(motion) == []
@@ -57,3 +57,13 @@ def test_unequal_harmonic_phases_meet_in_a_jump():
         pytest.approx((back, rise)),
         pytest.approx((-rise, -back)),
     ]
+
+
+@pytest.mark.parametrize("name", RISE_FALL)
+def test_a_rise_and_a_fall_without_a_dwell_between_are_free_of_impact(name):
+    """Equal angles: what the rise's acceleration ends with, the fall's begins with."""
+    motion = Motion([Rise(30, 1.4, name), Return(30, 1.4, name), Dwell(FULL_TURN - 2.8)])
+    assert velocity_jumps(motion) == acceleration_jumps(motion) == []
+    assert motion(1.4)[2] == pytest.approx(30 / 1.4**2 * float(law(name)(1.0)[2]), rel=1e-14)
+    (jump,) = acceleration_jumps(Motion([Rise(30, 1.4, name), Return(30, 1.1, name), Dwell(FULL_TURN - 2.5)]))
+    assert jump.phi == 1.4

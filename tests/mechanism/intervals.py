@@ -109,7 +109,18 @@ _WHOLE: dict[str, Callable[[], list[Sum]]] = {
     "2-3": lambda: [Sum(mpf(1), (0, 0, 3, -2))],
     "3-4-5": lambda: [Sum(mpf(1), (0, 0, 0, 10, -15, 6))],
     "4-5-6-7": lambda: [Sum(mpf(1), (0, 0, 0, 0, 35, -84, 70, -20))],
+    "double-harmonic": lambda: [
+        Sum(mpf(1), (3 * _E,), ((-mpf(1) / 2, pi, pi / 2), (_E, 2 * pi, pi / 2))),
+    ],
+    "eighth-degree": lambda: [
+        Sum(mpf(1), tuple(map(mpf, ("0", "0", "0", "6.09755", "0", "-20.7804", "26.73155", "-13.60965", "2.56095"))))
+    ],
 }
+
+
+def backwards(law: list[Sum]) -> list[Sum]:
+    """1 - f(1 - u)."""
+    return _mirrored(law)[len(law) :]
 
 
 def law_of_polynomials(law) -> list[Sum]:

@@ -11,7 +11,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import acos, atan2, cos, diff, findroot, matrix, mpf, sin
-from reference import lift, maximum, turned
+from reference import lift_of, maximum, turned
 from scipy.optimize import minimize
 
 from graphcam.errors import DesignError
@@ -65,7 +65,7 @@ def velocity_and_lift(phase, level):
     """s and v of a phase as functions of its fraction u."""
 
     def s(u):
-        return level + phase.direction * mpf(phase.lift) * lift(phase.law, u, phase.ratio)
+        return level + phase.direction * mpf(phase.lift) * lift_of(phase, u)
 
     return s, lambda u: diff(s, u) / mpf(phase.angle)
 

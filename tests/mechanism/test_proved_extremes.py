@@ -7,11 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from intervals import Sum, greatest, law_of, law_of_polynomials, quantities
+from intervals import Sum, backwards, greatest, law_of, law_of_polynomials, quantities
 from mpmath import atan, mpf
 
 import graphcam as gc
-from graphcam.given.laws import LAWS, law
+from graphcam.given.laws import LAWS, RISE_FALL, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.spline_law import MEASURED
 from graphcam.mechanism.taylor import Taylor
@@ -27,6 +27,8 @@ def laws_of(motion: Motion, own: dict[str, list[Sum]] | None = None) -> list[lis
         here = phase.normalised
         if own and here.name in own:
             return own[here.name]
+        if here.name in RISE_FALL and phase.direction < 0:
+            return backwards(law_of(here.name))
         return law_of_polynomials(here) if here.name == MEASURED else law_of(here.name, here.middle)
 
     return [pieces(phase) for phase in motion.phases]

@@ -262,6 +262,15 @@ def test_least_radius_sweep_and_task_of_the_page_take_its_laws(cells):
     assert computed["sampled"](0.5)[0] == pytest.approx(0.5, abs=1e-12)
 
 
+def test_the_conditions_of_the_page_are_met(cells):
+    computed, _ = cells
+    assert computed["late"](0.52)[0] == pytest.approx(0.5, rel=1e-14)
+    assert computed["steady"].peak_velocity == pytest.approx(2 / 1.5, rel=1e-14)
+    s, v, *_ = computed["by_conditions"]([math.pi / 3, 3.4, 4.0])
+    assert (s.tolist(), float(v[0])) == (pytest.approx([15, 22, 8], rel=1e-14), pytest.approx(25, rel=1e-14))
+    assert [phase.kind for phase in computed["by_conditions"].phases] == ["rise", "dwell", "return", "dwell"]
+
+
 # --- many cams -------------------------------------------------------------------------------------------------------
 
 MANY = "how-to/sweep-many-cams.md"

@@ -50,6 +50,17 @@ NOT_REACHED = {
     "* of the law '*'": "a law of one's own stands in Python only",
     "samples * of the law '*'": "a law of one's own stands in Python only",
     "shapes of the samples of the law '*'": "a law of one's own stands in Python only",
+    **dict.fromkeys(
+        (
+            *("points", "points[*].angle", "points[*] (s behind it)", "points[*] (turns behind it)"),
+            *("knots", "knots[*]", "s", "parts[*].points[0].angle", "parts[0].points[0].angle", "parts (turn)"),
+            *("parts[*] (s where it begins)", "parts[*] (v where it begins)", "parts (s at their end)"),
+            *("parts[*] (s before it)", "parts[*] (v before it)", "parts (v at their end)", "parts"),
+        ),
+        "parts by conditions stand in files and in Python: the form does not change them",
+    ),
+    **dict.fromkeys(("blends", "blends[*]", "smooth"), "blends stand in files and in Python: the form keeps them"),
+    "lift of the law '*'": "a law of one's own stands in Python only",
 }
 """Quantities that no request of the studio meets, and why."""
 PARAMETERS = {

@@ -113,6 +113,8 @@ function phasesOf({ change, slide, release, word, decimal }) {
     // Only one law has parts whose ratio is chosen.
     select.addEventListener("change", () => change({
       [`${path}.law`]: select.value, ...(phase.ratio !== undefined && select.value !== ratio?.law ? { [`${path}.ratio`]: null } : {}),
+      // Only one has blends.
+      ...(phase.blends !== undefined && select.value !== "constant-velocity" ? { [`${path}.blends`]: null } : {}),
     }));
     return make("label", { class: "row" }, make("span", { class: "label", text: word("law") }), select);
   }

@@ -1,0 +1,117 @@
+"""Parts of a motion one behind the other: whether they join, and the turn that they make with dwells between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from graphcam.errors import DesignError
+from graphcam.given.boundary_parts import Part
+from graphcam.given.exact_pieces import ExactPiece
+from graphcam.given.exact_polynomials import PI
+from graphcam.given.motion_point import told
+
+TURN = 2 * PI
+SAME = Fraction(1, 10**9)
+"""Cam angles nearer to one another [rad], displacements and velocities (beside the greatest) are the same."""
+
+
+def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
+    """That a part begins where, and as fast as, the one before ends; with a gap between them the motion rests there.
+
+    number : of the part that begins;  size : the greatest lift, and what a velocity is compared with per radian
+
+    Raises
+    ------
+    DesignError : it does not
+    """
+    end, start = before.pieces[-1], after.pieces[0]
+    where = told(float(start.start))
+    if start.start < end.end - SAME:
+        limit = f"{told(float(end.end))} or more, where the part before ends"
+        raise DesignError(f"parts[{number}].points[0].angle", where, limit, "give the parts in order")
+    s, v = ((end.at(end.end, order), start.at(start.start, order)) for order in (0, 1))
+    if start.start > end.end + SAME:
+        _check_gap(number, f"from {told(float(end.end))} to {where}", s, v, size)
+        return
+    if abs(s[1] - s[0]) > SAME * size:
+        limit = f"{float(s[0]):.10g}, as the part before ends"
+        raise DesignError(
+            f"parts[{number}] (s where it begins)", f"{float(s[1]):.10g}", limit, f"give one s at {where}"
+        )
+    if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
+        limit, remedy = f"{float(v[0]):.10g}, as the part before ends", f"give v, the same in both, at {where}"
+        raise DesignError(f"parts[{number}] (v where it begins)", f"{float(v[1]):.10g}", limit, remedy)
+
+
+def _check_gap(
+    number: int, where: str, s: tuple[Fraction, Fraction], v: tuple[Fraction, Fraction], size: Fraction
+) -> None:
+    if abs(s[1] - s[0]) > SAME * size:
+        found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower rests {where}"
+        raise DesignError(
+            f"parts[{number}] (s before it)", found, limit, "give a part that leads from one to the other"
+        )
+    if max(map(abs, v)) > SAME * size:
+        found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower rests {where}"
+        raise DesignError(
+            f"parts[{number}] (v before it)", found, limit, "give v = 0 there, or a part that fills the gap"
+        )
+
+
+def greatest_lift(parts: Sequence[Part]) -> Fraction:
+    """The difference of the displacements at which pieces begin and end."""
+    pieces = [piece for part in parts for piece in part.pieces]
+    ends = [piece.at(place) for piece in pieces for place in (piece.start, (piece.start + piece.end) / 2, piece.end)]
+    return max(ends) - min(ends)
+
+
+def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:
+    """The pieces of one turn from the first part's beginning on, the gaps filled with rest.
+
+    Raises
+    ------
+    DesignError : the parts do not join, or do not close the turn
+    """
+    if not parts:
+        raise DesignError("parts", "empty", "one part or more", "give what leads the follower up and back")
+    size = greatest_lift(parts)
+    for k, (before, after) in enumerate(pairwise(parts), 1):
+        check_joint(before, after, k, size)
+    begun, ended = parts[0].start, parts[-1].end
+    if not 0 <= begun < TURN:
+        limit = "from 0 to less than 360 degrees"
+        raise DesignError("parts[0].points[0].angle", told(float(begun)), limit, "count the cam angle from 0")
+    _check_closed(parts, size)
+    pieces: list[ExactPiece] = []
+    for part in parts:
+        if pieces and part.start > pieces[-1].end + SAME:
+            pieces.append(_rest(pieces[-1], part.start))
+        pieces += part.pieces
+    if ended < begun + TURN - SAME:
+        pieces.append(_rest(pieces[-1], begun + TURN))
+    return pieces
+
+
+def _rest(before: ExactPiece, end: Fraction) -> ExactPiece:
+    return ExactPiece(before.end, end - before.end, (before.at(before.end),))
+
+
+def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
+    first, last = parts[0].pieces[0], parts[-1].pieces[-1]
+    turn = last.end - first.start
+    if turn > TURN + SAME:
+        remedy = "one turn of the cam is 360 degrees: shorten a part"
+        raise DesignError("parts (turn)", told(float(turn)), "360 degrees or less from first to last", remedy)
+    s, v = ((last.at(last.end, order), first.at(first.start, order)) for order in (0, 1))
+    if abs(s[1] - s[0]) > SAME * size:
+        limit = f"{float(s[1]):.10g}, as the first part begins"
+        remedy = "lead the follower back to where it was a turn before"
+        raise DesignError("parts (s at their end)", f"{float(s[0]):.10g}", limit, remedy)
+    gap = turn < TURN - SAME
+    off = max(map(abs, v)) if gap else abs(v[1] - v[0])
+    if off > SAME * (size + abs(v[0])):
+        found = f"{float(v[0]):.10g}, and {float(v[1]):.10g} where they begin"
+        limit = "0 at both: the follower rests between them" if gap else "the same at both"
+        raise DesignError("parts (v at their end)", found, limit, "give v at the first and at the last point")

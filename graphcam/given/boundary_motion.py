@@ -1,0 +1,151 @@
+"""A whole turn of motion by conditions: parts one behind the other, and dwells in the gaps between them.
+
+The motion is cut where it turns, so that it becomes one of rises, dwells and returns as any other, whose laws are the
+pieces of its polynomials.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from graphcam.errors import DesignError
+from graphcam.given.boundary_joints import SAME, TURN, joined_turn
+from graphcam.given.boundary_parts import Part, SplinePart
+from graphcam.given.exact_pieces import ExactPiece, between
+from graphcam.given.exact_polynomials import derivative, sign_changes
+from graphcam.given.local_polynomials import LocalPolynomials, cells
+from graphcam.given.measured import from_zero
+from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+from graphcam.given.pieces import Floats, Side
+from graphcam.given.polynomial_law import leg_law
+
+LOWEST = Fraction(1, 1 << 60)
+"""Of the lift: a lowest displacement nearer to 0 is 0, and was rounded."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundaryMotion(Motion):
+    """A motion whose parts meet conditions; made by :func:`boundary_motion`.
+
+    Attributes
+    ----------
+    parts : the polynomials and splines, as they were given
+    zero : the cam angle [rad] of the parts where this motion's begins: 0, unless the follower moves there
+    lowest : the displacement of the parts [mm] at which this motion's is 0
+    """
+
+    parts: tuple[Part, ...]
+    zero: float
+    lowest: float
+    joints: Floats
+    """(n,) cam angles at which phases begin and polynomials join"""
+    _begin: Floats
+    _series: LocalPolynomials
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "starts", self._begin)
+
+    def _said(self) -> str:
+        degrees = ", ".join(f"{part.name} of degree {part.highest_power}" for part in self.parts)
+        return f"{super()._said()}, by conditions: {degrees}"
+
+    @property
+    def breaks(self) -> Floats:
+        """The cam angles where a derivative may jump: where phases begin and where polynomials join."""
+        return self.joints
+
+    def _fill(self, turned: Floats, side: Side, out: Floats) -> None:
+        # From the given angles themselves: as a fraction of its phase the place within a tiny part keeps few digits.
+        self._series.fill(turned, side, out)
+
+
+def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
+    """The motion over one turn whose parts meet conditions; in the gaps between them the follower rests.
+
+    Parameters
+    ----------
+    parts : :class:`PolynomialPart` and :class:`SplinePart` in the order of their angles, from 0 to 2 pi [rad].  Where
+        two join, s and v are the same; the acceleration may jump, which is a soft impact
+
+    Raises
+    ------
+    DesignError : the parts are out of order, do not join, or do not close the turn
+
+    >>> import graphcam as gc
+    >>> from math import pi
+    >>> low, top = gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(pi / 2, s=30)
+    >>> motion = gc.boundary_motion([gc.PolynomialPart([low, top, gc.MotionPoint(pi, s=0, v=0, a=0)])])
+    >>> [phase.kind for phase in motion.phases], round(float(motion(pi / 2)[0]), 12)
+    (['rise', 'return', 'dwell'], 30.0)
+    """
+    given = tuple(parts)
+    pieces = joined_turn(given)
+    legs = _legs(pieces)
+    if len(legs) < 2:
+        value = f"at rest at {float(pieces[0].p[0]):g} over the whole turn"
+        raise DesignError("motion", value, "one with a rise and a return", "give different s")
+    # Twice round, so that a leg over the end of the turn is found whole.
+    round_ = [*pieces, *(replace(piece, start=piece.start + TURN) for piece in pieces)]
+    phases: list[tuple[float, Phase]] = []
+    levels: list[Fraction] = []
+    for start, end, sign in legs:
+        leg = between(round_, start, end)
+        levels.append(leg[0].at(start))
+        phases.append((float(start % TURN), _phase(given, leg, sign)))
+    ordered, zero_ = from_zero(phases)
+    zero = Fraction(zero_) if abs(zero_) > SAME else Fraction(0)
+    lowest = min(levels)
+    if abs(lowest) <= LOWEST * (max(levels) - lowest):
+        lowest = Fraction(0)
+    turn = between(_around(round_, zero), zero, zero + TURN)
+    lowered = [replace(piece, p=(piece.p[0] - lowest, *piece.p[1:])) for piece in turn]
+    series = LocalPolynomials([cell for cut in cells(lowered, zero) for cell in cut])
+    begin = {float((start - zero) % TURN) for start, _, _ in legs} | {0.0}
+    begun = np.array(sorted(begin))
+    inner = [place for piece in turn if np.abs(begun - (place := float(piece.start - zero))).min() > SAME]
+    joints = np.array(sorted({*begin, *inner}))
+    return BoundaryMotion(ordered, given, float(zero), float(lowest), joints, begun, series)
+
+
+def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:
+    """From where to where over one turn the motion rises (+1), rests (0) or falls (-1); the last may end behind it."""
+    found: list[tuple[Fraction, int]] = []
+    for piece in pieces:
+        sign, places = sign_changes(derivative(piece.p))
+        for k, place in enumerate([Fraction(0), *places]):
+            now = sign * (-1) ** k
+            if not found or found[-1][1] != now:
+                found.append((piece.start + piece.width * place, now))
+    ends = [*found[1:], (found[0][0] + TURN, 0)]
+    # What moves for less than a place is told from another one is rounding.
+    long = [(start, sign) for (start, sign), (end, _) in zip(found, ends, strict=True) if end - start > SAME]
+    merged = [leg for before, leg in zip([(0, None), *long], long, strict=False) if before[1] != leg[1]]
+    if len(merged) > 1 and merged[0][1] == merged[-1][1]:
+        del merged[0]
+    ends = [*merged[1:], (merged[0][0] + TURN, 0)]
+    return [(start, end, sign) for (start, sign), (end, _) in zip(merged, ends, strict=True)]
+
+
+def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase:
+    """The phase of a leg."""
+    start, end = leg[0].start, leg[-1].end
+    if not sign:
+        return Dwell(float(end - start))
+    splined = any(
+        (part.start < end and part.end > start) or part.start + TURN < end
+        for part in parts
+        if isinstance(part, SplinePart)
+    )
+    lift, law = leg_law("spline" if splined else "polynomial", leg)
+    return (Rise if sign > 0 else Return)(abs(float(lift)), float(end - start), law)
+
+
+def _around(pieces: Sequence[ExactPiece], zero: Fraction) -> list[ExactPiece]:
+    """The pieces, moved by a turn if the place lies before them."""
+    back = TURN if zero < pieces[0].start else Fraction(0)
+    return [replace(piece, start=piece.start - back) for piece in pieces]

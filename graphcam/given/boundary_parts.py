@@ -1,0 +1,322 @@
+"""Parts of a motion by conditions: polynomials and splines through points with given s, v, a, j.
+
+What is asked for at the points is as many linear equations for the coefficients, solved in rational numbers.  Sources:
+R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapters 4 and 5; C. de Boor, *A Practical Guide to
+Splines* (rev. ed., 2001), chapters IX and XIII.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar
+
+from graphcam.errors import DesignError
+from graphcam.given.exact_pieces import ExactPiece, turning_places
+from graphcam.given.exact_polynomials import Exact, derivative, rounded, shortest, solved, value
+from graphcam.given.motion_point import MotionPoint, exact_angle, told
+
+MOST_DEGREE = 31
+"""Of a polynomial."""
+SPLINE_DEGREES = 2, 9
+"""Of a spline: from 2 on its velocity is continuous; of a high degree it swings as a polynomial does."""
+MOST_POINTS = 100
+"""Of a part."""
+LAST_DIGITS = 1e-9
+"""Of the part's greatest displacement: what the last digits of the given numbers may change it by."""
+MOST_TURNS = 2
+"""So often a part may turn between neighbouring points."""
+WILD = 0.5
+"""Of the span of the given displacements: so far a part may pass the two of neighbouring points."""
+
+
+class _Part:
+    """What polynomials and splines have in common."""
+
+    points: Sequence[MotionPoint]
+
+    def _check_points(self) -> None:
+        points = tuple(self.points)
+        object.__setattr__(self, "points", points)
+        if not 2 <= len(points) <= MOST_POINTS:
+            raise DesignError("points", len(points), f"2 to {MOST_POINTS} points", "a part leads from one to another")
+        for k, (before, after) in enumerate(pairwise(points), 1):
+            if not after.place > before.place:
+                limit = f"greater than {told(before.angle)}, the angle of the point before"
+                remedy = "sort the points by the angle, and give each one once"
+                raise DesignError(f"points[{k}].angle", told(after.angle), limit, remedy)
+
+    @cached_property
+    def start(self) -> Fraction:
+        """Where the part begins [rad]."""
+        return self.points[0].place
+
+    @cached_property
+    def end(self) -> Fraction:
+        """Where the part ends [rad]."""
+        return self.points[-1].place
+
+    @property
+    def highest_power(self) -> int:
+        """The degree of the part's polynomials."""
+        return max(len(piece.p) for piece in self.pieces) - 1
+
+    @property
+    def _count(self) -> int:
+        return sum(len(point.given) for point in self.points)
+
+    @property
+    def _conditions(self) -> list[tuple[Fraction, int, Fraction]]:
+        """Where, as a fraction of the part, which derivative by that fraction, and its value."""
+        width = self.end - self.start
+        return [
+            ((point.place - self.start) / width, order, shortest(number) * width**order)
+            for point in self.points
+            for order, number in point.given.items()
+        ]
+
+    @cached_property
+    def pieces(self) -> tuple[ExactPiece, ...]:
+        """The polynomials that meet the conditions, in order."""
+        found = self._solved(self._conditions)
+        if found is None:
+            raise self._open()
+        width = self.end - self.start
+        return tuple(ExactPiece(self.start + width * low, width * (high - low), p) for (low, high), p in found)
+
+    def _solved(
+        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
+    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
+        raise NotImplementedError
+
+    def _open(self) -> DesignError:
+        if all(point.s is None for point in self.points):
+            return DesignError("points", "without any s", "points of which one gives s", "say how high the motion is")
+        limit = "conditions that determine the part: some of these leave it open or contradict each other"
+        remedy = "give s where only v, a or j is given"
+        return DesignError("points", f"{self._count} conditions that depend on each other", limit, remedy)
+
+    def _check_sound(self) -> None:
+        """Refuse what swings, and what the last digits of the given numbers decide."""
+        pieces = self.pieces
+        self._check_last_digits(pieces)
+        self._check_swings(pieces)
+
+    def _check_swings(self, pieces: Sequence[ExactPiece]) -> None:
+        turns = turning_places(pieces)
+        given = [point.s for point in self.points if point.s is not None]
+        span = max(given) - min(given) if given else 0.0
+        for k, (before, after) in enumerate(pairwise(self.points)):
+            low, high = before.place, after.place
+            between = [(place, piece) for place, piece in turns if low < place < high]
+            where = f"between {told(before.angle)} and {told(after.angle)}"
+            remedy = "give a point there or fewer conditions, take a spline, or part the motion"
+            if len(between) > MOST_TURNS:
+                value_ = f"{len(between)} {where}"
+                raise DesignError(
+                    f"points[{k}] (turns behind it)", value_, f"at most {MOST_TURNS}; the part swings", remedy
+                )
+            if before.s is None or after.s is None or not span:
+                continue
+            least, most = min(before.s, after.s) - WILD * span, max(before.s, after.s) + WILD * span
+            for place, piece in between:
+                if not least <= (s := float(piece.at(place))) <= most:
+                    limit = f"from {least:.6g} to {most:.6g}; the part swings"
+                    raise DesignError(f"points[{k}] (s behind it)", f"{s:.6g} {where}", limit, remedy)
+
+    def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
+        nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
+        if nudged is None:
+            raise self._open()
+        places = [Fraction(k, 8) for k in range(9)]
+        both = [(value(piece.p, y), value(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places]
+        off = max(abs(here - there) for here, there in both)
+        if off > LAST_DIGITS * max(abs(here) for here, _ in both):
+            found = f"decided by the last digits of the numbers: s changes by {float(off):.3g} with them"
+            remedy = "move the points apart, or give fewer conditions"
+            raise DesignError("points", found, f"conditions that keep s to {LAST_DIGITS:g} of its greatest", remedy)
+
+
+@dataclass(frozen=True)
+class PolynomialPart(_Part):
+    """A part of a motion: the polynomial that meets all conditions of its points.
+
+    Parameters
+    ----------
+    points : two or more in the order of their angles; the part leads from the first to the last
+    degree : one less than the conditions; None takes what they ask for, a number is checked
+
+    Raises
+    ------
+    DesignError : the points are out of order, the conditions too many, too few, or they determine no polynomial; it
+        swings, or the last digits of the numbers decide it
+
+    >>> import graphcam as gc
+    >>> rise = gc.PolynomialPart([gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)])
+    >>> [int(c) for c in rise.pieces[0].p]
+    [0, 0, 0, 10, -15, 6]
+    """
+
+    points: Sequence[MotionPoint]
+    degree: int | None = None
+    name: ClassVar[str] = "polynomial"
+
+    def __post_init__(self) -> None:
+        self._check_points()
+        degree = self._count - 1
+        if degree > MOST_DEGREE:
+            limit = f"at most {MOST_DEGREE + 1}, for a degree of {MOST_DEGREE}"
+            raise DesignError("points", f"{degree + 1} conditions", limit, "give fewer, or take a spline")
+        if self.degree is not None and self.degree != degree:
+            too = "many" if self.degree < degree else "few"
+            limit = f"{degree}, one less than the {degree + 1} conditions"
+            raise DesignError("degree", self.degree, limit, f"they are too {too}: leave the degree out, or change them")
+        self._check_sound()
+
+    def _solved(
+        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
+    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
+        # Newton's polynomials: of conditions that ask for s, v, a ... without a gap the equations are a triangle.
+        places = [place for place, _, _ in conditions]
+        rows = [_newton(places, place, order) for place, order, _ in conditions]
+        found = solved(rows, [right for _, _, right in conditions])
+        if found is None:
+            return None
+        found = rounded(found)
+        p = [found[-1]]
+        for place, coefficient in zip(places[-2::-1], found[-2::-1], strict=True):
+            p = [low - place * high for low, high in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
+            p[0] += coefficient
+        return [((Fraction(0), Fraction(1)), rounded(p))]
+
+
+def _newton(places: Sequence[Fraction], at: Fraction, order: int) -> list[Fraction]:
+    """A derivative at a place of 1, (x - x_0), (x - x_0)(x - x_1), ..."""
+    values = [Fraction(1), *[Fraction(0)] * order]
+    row = [values[order]]
+    for place in places[:-1]:
+        # (x - c) g has the derivatives (x - c) g^(m) + m g^(m - 1).
+        values = [(at - place) * g + m * values[m - 1] for m, g in enumerate(values)]
+        row.append(values[order])
+    return row
+
+
+@dataclass(frozen=True)
+class SplinePart(_Part):
+    """A part of a motion: the B-spline of a degree that meets all conditions of its points.
+
+    With n conditions a spline of degree p has n - p - 1 inner knots.  Left out, each is the mean of p neighbouring
+    places of conditions, so that every B-spline has its own; moved, they shift the peaks of the acceleration.
+
+    Parameters
+    ----------
+    points : two or more in the order of their angles; the part leads from the first to the last
+    degree : 2 to 9; all derivatives below it are continuous at the knots, where the pieces join
+    knots : the angles [rad] of the inner knots; None has them chosen
+
+    Raises
+    ------
+    DesignError : as for a polynomial; or there are too few or too many knots, or some B-spline is left without a point
+
+    >>> import graphcam as gc
+    >>> points = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(0.5, s=0.4), gc.MotionPoint(1, s=1, v=0, a=0)]
+    >>> len(gc.SplinePart(points, degree=4).pieces)
+    3
+    """
+
+    points: Sequence[MotionPoint]
+    degree: int = 5
+    knots: Sequence[float] | None = None
+    name: ClassVar[str] = "spline"
+
+    def __post_init__(self) -> None:
+        self._check_points()
+        least, most = SPLINE_DEGREES
+        if not least <= self.degree <= most:
+            raise DesignError("degree", self.degree, f"{least} to {most}", "take 5 for a jerk without jumps")
+        inner = self._count - self.degree - 1
+        if inner < 0:
+            limit = f"{self.degree + 1} or more for a degree of {self.degree}"
+            remedy = "give more points or conditions, or a lower degree"
+            raise DesignError("points", f"{self._count} conditions", limit, remedy)
+        if self.knots is not None:
+            self._check_knots(tuple(self.knots), inner)
+        self._check_sound()
+
+    def _check_knots(self, knots: tuple[float, ...], inner: int) -> None:
+        object.__setattr__(self, "knots", knots)
+        if len(knots) != inner:
+            limit = f"{inner}, one for each of {self._count} conditions but the degree and one"
+            raise DesignError("knots", len(knots), limit, "leave them out to have them chosen")
+        ends = self.points[0].angle, *knots, self.points[-1].angle
+        for k, (before, after) in enumerate(pairwise(ends)):
+            if not after > before:
+                limit = f"greater than {told(before)}, the one before, and inside the part"
+                raise DesignError(f"knots[{min(k, inner - 1)}]", told(after), limit, "sort them by the angle")
+
+    def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
+        if self.knots is None:
+            p = self.degree
+            return [sum(places[k + 1 : k + p + 1], Fraction(0)) / p for k in range(len(places) - p - 1)]
+        width = self.end - self.start
+        return [(exact_angle(knot) - self.start) / width for knot in self.knots]
+
+    def _solved(
+        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
+    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
+        p, n = self.degree, self._count
+        inner = self._inner_knots([place for place, _, _ in conditions])
+        knots = [*[Fraction(0)] * (p + 1), *inner, *[Fraction(1)] * (p + 1)]
+        spans = [(k, low, high) for k, (low, high) in enumerate(pairwise(knots)) if high > low]
+        splines = {k: _b_splines(knots, p, k) for k, _, _ in spans}
+        rows: list[list[Fraction]] = []
+        for place, order, _ in conditions:
+            k, low, high = next(span for span in spans if place <= span[2]) if place < 1 else spans[-1]
+            row = [Fraction(0)] * n
+            for number, spline in enumerate(splines[k], k - p):
+                row[number] = value(derivative(spline, order), (place - low) / (high - low)) / (high - low) ** order
+            rows.append(row)
+        found = solved(rows, [right for _, _, right in conditions])
+        if found is None:
+            return None
+        found = rounded(found)
+        return [((low, high), rounded(_combined(found[k - p : k + 1], splines[k]))) for k, low, high in spans]
+
+
+def _b_splines(knots: Sequence[Fraction], degree: int, k: int) -> list[Exact]:
+    """The B-splines that are not zero between knots k and k + 1, as polynomials of y from 0 to 1 there."""
+    low, width = knots[k], knots[k + 1] - knots[k]
+    found: list[Exact] = [(Fraction(1),)]
+    for p in range(1, degree + 1):
+        raised = [[Fraction(0)] * (p + 1) for _ in range(p + 1)]
+        for m, spline in enumerate(found):
+            # B-spline number k - p + 1 + m of the degree before is shared between this number and the one before it.
+            first = knots[k - p + 1 + m]
+            length = knots[k + 1 + m] - first
+            share = (low - first) / length, width / length
+            for power, c in enumerate(spline):
+                raised[m + 1][power] += share[0] * c
+                raised[m + 1][power + 1] += share[1] * c
+                raised[m][power] += (1 - share[0]) * c
+                raised[m][power + 1] -= share[1] * c
+        found = [tuple(spline) for spline in raised]
+    return found
+
+
+def _combined(factors: Sequence[Fraction], splines: Sequence[Exact]) -> list[Fraction]:
+    """The sum of polynomials of one degree, each times its factor."""
+    columns = zip(*splines, strict=True)
+    return [sum((c * q for c, q in zip(factors, column, strict=True)), Fraction(0)) for column in columns]
+
+
+Part = PolynomialPart | SplinePart
+
+
+def _nudged(k: int, place: Fraction, order: int, right: Fraction) -> tuple[Fraction, int, Fraction]:
+    """A condition with other last digits."""
+    off = Fraction(1 if k % 2 else -1, 1 << 52)
+    moved_place = place if place in (0, 1) else place * (1 + off)
+    return moved_place, order, right * (1 - off)
