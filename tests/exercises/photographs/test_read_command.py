@@ -6,12 +6,11 @@ import csv
 import json
 import os
 import shutil
-import signal
+import subprocess
 import sys
 import tomllib
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 
 import cv2
@@ -173,23 +172,41 @@ def test_what_is_no_photograph_is_told_and_the_rest_goes_on(course, scans, tmp_p
     assert all(line["why"] and line["remedy"] for line in lines_of(course) if line["status"] == "refused")
 
 
-def test_one_photograph_that_kills_its_worker_costs_only_itself(course, scans, tmp_path, monkeypatch):
-    really = photo_files.read_photograph
+DEADLY = """
+import json, os, signal, sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+import cv2
+from graphcam.exercises.photographs import course_photographs as run, photo_files
+from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course
+from graphcam.workers import WorkerPool
 
-    def deadly(sheets, exercise, photograph, digest, prefix):
-        if photograph.name == "IMG_66.jpg":
-            os.kill(os.getpid(), signal.SIGKILL)
-        return really(sheets, exercise, photograph, digest, prefix)
+cv2.setNumThreads(1)
+really = photo_files.read_photograph
 
-    monkeypatch.setattr(photo_files, "read_photograph", deadly)
-    forked = partial(ProcessPoolExecutor, 1, get_context("fork"))
-    monkeypatch.setattr(run, "processes", lambda *_, **__: WorkerPool(forked, 1))
-    files = [scans / "IMG_66.jpg", scans / "IMG_65.jpg"]
-    found = read_course(ReadingOrder(files, course.place, course.secret, workers=1))
-    why = {photo.name: photo.why for photo in found.photos}
-    assert why == {"IMG_65.jpg": "", "IMG_66.jpg": "the reader broke down over it"}
+def deadly(sheets, exercise, photograph, digest, prefix):
+    if photograph.name == "IMG_66.jpg":
+        os.kill(os.getpid(), signal.SIGKILL)
+    return really(sheets, exercise, photograph, digest, prefix)
+
+photo_files.read_photograph = deadly
+run.processes = lambda *_, **__: WorkerPool(partial(ProcessPoolExecutor, 1, get_context("fork")), 1)
+scans, place, secret = map(Path, sys.argv[1:])
+found = read_course(ReadingOrder([scans / "IMG_66.jpg", scans / "IMG_65.jpg"], place, secret, workers=1))
+print(json.dumps({photo.name: photo.why for photo in found.photos}))
+"""
+"""In a process of its own, from which workers can be forked as it is: it has no threads."""
+
+
+def test_one_photograph_that_kills_its_worker_costs_only_itself(course, scans):
+    command = [sys.executable, "-c", DEADLY, scans, course.place, course.secret]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout) == {"IMG_65.jpg": "", "IMG_66.jpg": "the reader broke down over it"}
     # It was not kept, so it is tried again.
-    monkeypatch.undo()
+    files = [scans / "IMG_66.jpg", scans / "IMG_65.jpg"]
     found = read_course(ReadingOrder(files, course.place, course.secret, workers=1))
     assert {photo.student for photo in found.photos} == {"Anna", "Boris"}
 
