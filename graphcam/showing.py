@@ -52,7 +52,7 @@ def by_parts(self: Any) -> str:
     >>> gc.Contact(gc.builtin_task().motion(), gc.SpringLoad(0.2, 550, 3))
     Contact
       motion: Motion with a lift of 30 (mm; of an arm, rad)
-      load: SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=0.0, acceleration=0.0, friction=0.0)
+      load: SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=0.0, acceleration=0.0, friction=0.0, ...
     """
     parts = {part.name: repr(getattr(self, part.name)).partition("\n")[0] for part in fields(self)}
     rows = (f"  {name}: {shorten(text, WIDTH, placeholder=' ...')}" for name, text in parts.items())

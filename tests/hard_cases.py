@@ -23,7 +23,7 @@ DIGITS = 30
 FULL_TURN = 2 * math.pi
 LAWS = (
     "rectangular", "triangular", "cosine", "cycloidal", "trapezoidal",
-    "modified-trapezoidal", "modified-sine", "2-3", "3-4-5", "4-5-6-7",
+    "modified-trapezoidal", "modified-sine", "2-3", "3-4-5", "4-5-6-7", "double-harmonic", "eighth-degree",
 )  # fmt: skip
 Row = dict[str, Any]
 
@@ -73,11 +73,11 @@ def law_ends() -> Iterator[Row]:
 
 def law_end(name: str, ratio: float, x: float) -> Row:
     """f, f', f'', f''' at the distance x from the start, and from the end the same with the missing lift for f."""
-    # The differences are far smaller than x, and their cubes are told from rounding.
-    with workdps(500):
+    # The differences are far smaller than x; their cubes are told from rounding, also beside the lift of 1, and what
+    # is zero is so as a float.
+    with workdps(500 - round(6 * math.log10(x))):
         start = [diff(lambda u: lift(name, u, ratio), mpf(x), n) for n in range(4)]
-        # The end of a law is the start of the law that runs backwards: of unequal parts the ratio is turned round.
-        end = [diff(lambda u: lift(name, u, 1 / mpf(ratio)), mpf(x), n) for n in range(4)]
+        end = [diff(lambda u: 1 - lift(name, 1 - u, ratio), mpf(x), n) for n in range(4)]
     return {"law": name, "ratio": ratio, "x": x, "start": digits(start), "end": digits(end)}
 
 
