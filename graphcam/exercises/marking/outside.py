@@ -12,13 +12,13 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.scatter import Drawn, answers_of
-from graphcam.given.laws import LAWS
+from graphcam.given.laws import BETWEEN_DWELLS
 
 
 def unlisted_names(exercise: Exercise) -> list[str]:
     """Every catalogued mistake that the exercise does not list, with every argument that has to do with its answers.
 
-    Another law is taken as often as there are laws.
+    Another law is taken as often as there are laws between dwells.
     """
     asked = exercise.answers
     diagrams = ["integration"] + ["differentiation"] * any(each.construction == "differentiation" for each in asked)
@@ -26,7 +26,7 @@ def unlisted_names(exercise: Exercise) -> list[str]:
     names: list[str] = []
     for name, entry in CATALOGUE.items():
         if entry.takes == A_LAW:
-            names += [f"{name}: {law}" for law in LAWS]
+            names += [f"{name}: {law}" for law in BETWEEN_DWELLS]
         elif entry.takes == A_READING:
             names += [f"{name}: {length}" for length in lengths]
         else:
