@@ -23,10 +23,10 @@ import numpy as np
 
 from graphcam.constructions.arm_pressure_angle import ArmAngles
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.force_plan import BEYOND, LEAST_LOAD, LOAD_LENGTH, READABLE_FORCE, round_scale
+from graphcam.constructions.force_plan import BEYOND, LEAST_LOAD, LOAD_LENGTH, READABLE_FORCE, round_scale, third_corner
 from graphcam.constructions.pressure_angle import moving_up, shown_station
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.euclid import NOWHERE, unit
+from graphcam.drafting.euclid import unit
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
@@ -95,10 +95,7 @@ def arm_force_plan(
     foot = hand.lay_off("foot", origin, down, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
     normal = hand.parallel("line of F", ray, foot)
     along_arm = hand.parallel("line of R", arm, origin)
-    meeting = hand.cross("meeting", normal, along_arm)
-    pushes = (dot(foot.points, down.directions) > 0) & (dot(meeting.points - foot.points, normal.directions) > 0)
-    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
-    corner = found[0]
+    corner = third_corner(hand, foot, normal, along_arm, dot(foot.points, down.directions) > 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     lengths = {

@@ -15,11 +15,13 @@ from functools import partial
 from operator import itemgetter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.graduation import round_up
 from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, shown_station
 from graphcam.constructions.views import FORCES
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
@@ -108,11 +110,7 @@ def force_plan(
         base = hand.lay_off("base", origin, -RIGHT, reckoned(partial(np.copysign, BASE), turn))
         incline = hand.lay_off("incline", base, UP, reckoned(partial(_incline, guide, direction), s))
         across = hand.join("line of R", origin, incline)
-    # Beyond the jamming angle the lines meet on the other side, where no force can push.
-    meeting = hand.cross("meeting", normal, across)
-    pushes = (foot.points.imag < 0) & (dot(meeting.points - foot.points, normal.directions) > 0)
-    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
-    corner = found[0]
+    corner = third_corner(hand, foot, normal, across, foot.points.imag < 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     beside = [reckoned(np.abs, between(origin, corner, way)) for way in (RIGHT, UP)]
@@ -122,6 +120,16 @@ def force_plan(
     directions = {"contact_normal": normal.directions, "across": across.directions}
     givens, points = ForcePlanGivens(measured, load, guide, k, mu), {"foot": foot, "corner": corner}
     return hand.finished(givens, _draw, {**points, **directions})
+
+
+def third_corner(hand: Hand, foot: Drawn, line: Drawn, across: Drawn, presses: NDArray[np.bool_]) -> Drawn:
+    """Where the line of the contact force from the foot meets that of the reaction; nowhere if no force can push so.
+
+    presses : whether the load does; beyond the jamming angle the lines meet on the other side of the foot
+    """
+    meeting = hand.cross("meeting", line, across)
+    pushes = presses & (dot(meeting.points - foot.points, line.directions) > 0)
+    return hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])[0]
 
 
 def force_at(load: SpringLoad, direction: int, phi: Floats | float, s: Floats, v: Floats, a: Floats) -> Floats:

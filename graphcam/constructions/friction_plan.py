@@ -30,11 +30,12 @@ from graphcam.constructions.force_plan import (
     reaction_step,
     round_scale,
     side_of,
+    third_corner,
     towards,
 )
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
+from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role, angle_at
@@ -43,7 +44,6 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
-from graphcam.plane import dot
 from graphcam.words import sequence
 
 
@@ -109,10 +109,7 @@ def friction_plan(
     incline = hand.lay_off("incline", base, normal.turned(sigma * UP), BASE * friction)
     line = hand.join("line of F", foot, incline)
     across = hand.erect("line of R", origin, RIGHT)
-    meeting = hand.cross("meeting", line, across)
-    pushes = (foot.points.imag < 0) & (dot(meeting.points - foot.points, line.directions) > 0)
-    found = hand.take("corner", meeting, hand.given("nowhere", NOWHERE), which=np.where(pushes, 0, 1)[..., None])
-    corner = found[0]
+    corner = third_corner(hand, foot, line, across, foot.points.imag < 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     tip = hand.cross("tip of N", normal, hand.perpendicular("square", normal, corner))
