@@ -119,7 +119,7 @@ assert abs(slope + 2) < 0.1
 # travels down this chain. The standard deviations of 400 sheets by a pencil of 0.2 mm, as parts of the value:
 
 # %%
-names = {"greatest v": ("integration", "max_v"), "least radius": ("minimum_radius", "prime_radius"),
+names = {"maximum v": ("integration", "max_v"), "least radius": ("minimum_radius", "prime_radius"),
          "least radius of curvature": ("curvature", "rho"), "roller radius": ("roller", "roller_radius")}
 hands = gc.solve(smooth, gc.Pencil.of(0.2, samples=400, seed=1))
 budget = []

@@ -52,11 +52,11 @@ def _note(axes: Axes, text: str, at: tuple[float, float], away: tuple[float, flo
 
 TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
 SHOWN = (
-    *("displacement", "velocity", "least prime radius", "pressure angle", "working profile"),
-    "least curvature radius",
+    *("displacement", "velocity", "minimum prime radius", "pressure angle", "working profile"),
+    "minimum radius of curvature",
 )
 OTHERS = (
-    ("rectangular", "least curvature radius", "curvature at a jump"),
+    ("rectangular", "minimum radius of curvature", "curvature at a jump"),
     ("rectangular", "working profile", "profile, rectangular"),
     ("cosine", "displacement", "displacement, cosine"),
 )
@@ -167,7 +167,7 @@ def spread(places: Floats, gap: float) -> Floats:
 
 QUESTIONS = {
     "displacement": "Displacement from acceleration",
-    "least radius": "Least prime radius",
+    "least radius": "Minimum prime radius",
     "profile": "Working profile",
 }
 SPOTS = {

@@ -103,7 +103,7 @@ def _mechanism(module: Any, timer: Timer) -> list[Peer]:
     return [
         Peer(name, "displacement", lift, "mm", slower, joined),
         Peer(name, "working profile", profile, "mm", slower, "no offset and no roller envelope"),
-        Peer(name, "least prime radius", radius, "mm", None, "30 degrees on both sides; its s0 is sqrt(r0^2 + e^2)"),
+        Peer(name, "minimum prime radius", radius, "mm", None, "30 degrees on both sides; its s0 is sqrt(r0^2 + e^2)"),
     ]
 
 

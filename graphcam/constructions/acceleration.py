@@ -64,11 +64,11 @@ MEANING = Meaning(
     "acceleration",
     say("Acceleration diagram"),
     say(
-        "The laws of the motion give the shape of the acceleration. Its scale stays open: the first ordinate is "
-        "chosen, the others follow so that the displacement comes back to the axis."
+        "The laws of the motion give the shape of the acceleration. Its scale is not known yet: the first "
+        "ordinate is chosen freely, and the others follow, so that the displacement returns to the axis."
     ),
     {
-        "greatest": ReadingMeaning(say("greatest ordinates"), "y", "mm of paper", over=phase_names),
+        "greatest": ReadingMeaning(say("maximum ordinates"), "y", "mm of paper", over=phase_names),
         "middles": ReadingMeaning(say("middle ordinates"), "yₘ", "mm of paper", over=part_titles),
         "base": ReadingMeaning(say("length of the axis"), "b", "rad"),
     },
@@ -168,10 +168,12 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
     told = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
     plotted = say(
-        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; where "
-        "they jump, the line stands upright."
+        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
+        "at a jump the line is vertical."
     ).where(laws=sequence(told))
-    shape = say("Because the law of a phase gives the shape of its acceleration, and its largest ordinate the height.")
+    shape = say(
+        "Because the law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height."
+    )
     parts = tuple(Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True))
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
@@ -187,11 +189,13 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     turn, ends = diagram.acts["turn"], phase_ends(motion, mu_phi)
     told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
     said = say(
-        "Draw a level line {length:.1f} mm long for one revolution, so 1 mm is {degree:.4g}° and μᵩ = {mu:.5f} rad/mm. "
-        "From its left end set off {ends} mm, where the phases end, and raise an upright at each."
+        "Draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is {degree:.4g}° and μᵩ = "
+        "{mu:.5f} rad/mm. From its left end set off {ends} mm, where the phases end, and draw a vertical at each."
     ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm, ends=told)
     level = say("With T-square and ruler draw the axis, {length:.1f} mm long.", length=ends[-1])
-    upright = say("From its left end set off {ends} mm with the ruler; raise uprights with the set square.", ends=told)
+    upright = say(
+        "From its left end set off {ends} mm with the ruler; draw verticals there with the set square.", ends=told
+    )
     cuts = diagram.acts["axis"].first[[k for span in stations.phases for k in (span.start, span.stop - 1)]]
     across, up, thin, *others = phi_axes(motion, mu_phi, heights, ordinate("a", diagram.givens.unit))
     # A thin line belongs to the cut that it stands on; that at the end of the turn goes with the last one.
@@ -199,7 +203,7 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     thin = replace(thin, of=cuts.act, index=cuts.index[nearest])
     axes = (across, up, thin, *others, turn.line_from(0j, Role.RESULT))
     title = say("Axis of the cam angle")
-    why = say("Because all diagrams stand over the cam angle, one axis with one scale serves them all.")
+    why = say("Because all diagrams are drawn over the cam angle, one axis with one scale serves them all.")
     parts = Part(level, (turn.first,)), Part(upright, (cuts,))
     under = degrees_below(ends[-1], mu_phi, reach(heights)[0])
     return Step(title, said, ACCELERATION, axes, ("base",), given=axes, why=why, parts=parts, under=under)
@@ -210,9 +214,9 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
     chosen = next(k for k, law in enumerate(laws) if law.phase.direction > 0)
     numbers = [say("{c:.5g} ({phase})", c=law.phase.normalised.peak_acceleration, phase=law.title) for law in laws]
     said = say(
-        "Choose {ordinate:.1f} mm for the largest ordinate of the first rise; its scale is found at the end. The "
-        "others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h of "
-        "its law, here {numbers}: {greatest} mm."
+        "Choose {ordinate:.1f} mm for the maximum ordinate of the first rise; its scale is found at the end. The "
+        "others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h "
+        "of its law, here {numbers}: {greatest} mm."
     ).where(
         ordinate=laws[chosen].greatest,
         numbers=sequence(numbers),
@@ -226,7 +230,7 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
         *(Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in others),
     )
     why = say(
-        "Because the lift of a phase is proportional to y·φ²/C, the displacement comes back to the axis only if the "
+        "Because the lift of a phase is proportional to y·φ²/C, the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
     return Step(say("Ordinates of the phases"), said, ACCELERATION, marks, ("greatest",), why=why, parts=parts)
@@ -301,13 +305,13 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     )
     parts, third = joined([f"{s.stop - s.start}" for s in stations.parts]), min(2, ordinates.size - 1)
     said = say(
-        "Divide the moving phases into {parts} parts, {equal}, and number the cuts; a part bears the number of the "
-        "cut at its end. At the middle of each part raise a thin line as far as the law: that of part {name} measures "
-        "{third:.1f} mm."
+        "Divide the moving phases into {parts} parts, {equal}, and number the cuts; each part has the number of "
+        "the cut at its end. At the middle of each part draw a thin ordinate up to the curve: that of part "
+        "{name} measures {third:.1f} mm."
     ).where(parts=parts, equal=equal_parts(stations), name=part_names(stations)[third], third=ordinates[third])
     why = say(
-        "Because a part's area is its width times its middle ordinate, exactly where the acceleration is straight, and "
-        "very nearly elsewhere."
+        "Because a part's area is its width times its middle ordinate, exactly where the acceleration is a "
+        "straight line, and very nearly elsewhere."
     )
     each = tuple(part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k))
     return Step(say("Middle ordinates"), said, ACCELERATION, marks, ("middles",), given=marks, why=why, parts=each)
@@ -342,7 +346,9 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
         else:
             heights.append([part])
     told = [say("{parts}: {y:z.1f}", parts=together(same, stations), y=ordinates[same[0]]) for same in heights]
-    raised = say("Over {phase} raise a thin line at the middle of each part with the set square, in mm: {ordinates}.")
+    raised = say(
+        "Over {phase} draw a thin ordinate at the middle of each part with the set square, in mm: {ordinates}."
+    )
     lines = tuple(diagram.acts[name].first[own] for name in ("middles of the parts", "middles"))
     yield Part(raised.where(phase=title, ordinates=sequence(told, "; ")), lines)
 

@@ -106,16 +106,19 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
     """
     said: list[Caption] = []
     if adopted.found is not None:
-        place = say("The place found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
+        place = say("The value found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
         said.append(place.where(symbol=symbol, found=adopted.found, place=adopted.place))
     said.append(_of_the_radius(adopted))
     on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
     said.append(on_paper.where(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu))
     why = say(
-        "Because a round size is easily made and measured, and a larger radius than the least one keeps the limits."
+        "Because a round size is easily made and measured, and a radius larger than the minimum stays within the "
+        "limits."
     )
     if adopted.given:
-        why = say("Because the limits are kept only if the given radius is not smaller than the least permitted one.")
+        why = say(
+            "Because the limits are satisfied only if the given radius is not smaller than the minimum permitted one."
+        )
     return Step(say("The adopted prime radius"), sequence(said, " "), view, (), why=why)
 
 
@@ -131,15 +134,16 @@ def _of_the_radius(adopted: Adoption) -> Caption:
     if math.isnan(least):
         told = say("The task gives r₀ = {r0:g} mm.") if adopted.given else say("Take r₀ = {r0:g} mm.")
     elif math.isclose(r0, least, rel_tol=SAME):
-        told = say("Take r₀ = {r0:g} mm, the least permitted radius itself.")
+        told = say("Take r₀ = {r0:g} mm, which is the minimum permitted radius itself.")
     elif adopted.given and r0 < least:
         told = say(
-            "The task gives r₀ = {r0:g} mm, smaller than the least permitted radius, {least:.5g} mm: a limit breaks."
+            "The task gives r₀ = {r0:g} mm, smaller than the minimum permitted radius, {least:.5g} mm: a limit "
+            "is exceeded."
         )
     elif adopted.given:
-        told = say("The task gives r₀ = {r0:g} mm, which is larger than the least permitted radius, {least:.5g} mm.")
+        told = say("The task gives r₀ = {r0:g} mm, which is larger than the minimum permitted radius, {least:.5g} mm.")
     elif math.isclose(r0, multiple(steps_up(least, adopted.rounding), adopted.rounding)):
-        told = say("Round the least radius, {least:.5g} mm, up to r₀ = {r0:g} mm.")
+        told = say("Round the minimum radius, {least:.5g} mm, up to r₀ = {r0:g} mm.")
     else:
-        told = say("Take r₀ = {r0:g} mm, a round radius that goes with it; the least one is {least:.5g} mm.")
+        told = say("Take r₀ = {r0:g} mm, a round value that goes with it; the minimum is {least:.5g} mm.")
     return told.where(r0=r0, least=least)

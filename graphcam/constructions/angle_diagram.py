@@ -32,18 +32,18 @@ class AngleDiagramGivens:
 
 MEANING = Meaning(
     "angle_diagram",
-    say("Greatest pressure angles"),
-    say("The angles of all stations over the cam angle; the greatest lie between stations, on the curve."),
+    say("Maximum pressure angles"),
+    say("The angles of all stations over the cam angle; the maxima lie between stations, on the curve."),
     {
         "max_rise": ReadingMeaning(
-            say("greatest α on the rise"),
+            say("maximum α on the rise"),
             "max α",
             "rad",
             (Compared("max_pressure_angle_rise_deg", say("pressure angle, rise"), sides="rise_candidates"),),
             Converges("greatest angle, rise", "max_pressure_angle_rise"),
         ),
         "max_return": ReadingMeaning(
-            say("greatest α on the return"),
+            say("maximum α on the return"),
             "max α",
             "rad",
             (Compared("max_pressure_angle_return_deg", say("pressure angle, return"), sides="return_candidates"),),
@@ -97,7 +97,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         *phases_below(motion, mu_phi, reach(heights)[0]),
         *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
-    met = say("At {first}, where the acceleration jumps, it turns a corner.")
+    met = say("At {first}, where the acceleration jumps, it has a corner.")
     drawn, lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
     degrees, names = np.degrees(plotted.givens.measured.first("alpha")), station_names(stations)
     set_off = [
@@ -110,9 +110,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         "upward: {alpha:.2f}° at station {name} are {y:.2f} mm. {drawn}"
     ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k])
     said = said.where(y=curve.shown.imag[k], drawn=drawn)
-    why = say(
-        "Because the angle is greatest between two stations as a rule, it is read off the curve through all of them."
-    )
+    why = say("Because the maximum usually lies between two stations, it is read off the curve through all of them.")
     marks = (*axes, curve.from_(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
     return Step(title, said, ANGLE, marks, given=axes, why=why, parts=(*set_off, *faired))
@@ -141,9 +139,10 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
         "the point farthest from the axis. {told}"
     ).where(told=sequence(told, " "))
     why = say(
-        "Because the follower may jam if the angle between force and motion is larger, it is compared with the limit."
+        "Because the follower may jam if the angle between force and motion is too large, it is compared with "
+        "the limit."
     )
-    title = say("The greatest pressure angles")
+    title = say("The maximum pressure angles")
     return Step(title, found, ANGLE, tuple(marks), ("max_rise", "max_return"), why=why, parts=tuple(parts))
 
 
@@ -158,9 +157,9 @@ def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
     return said.where(size=size, limit=float(np.degrees(limit)))
 
 
-_ON_THE_RISE = say("On the rise the curve is farthest at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
-_ON_THE_RETURN = say("On the return the curve is farthest at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
-_KEPT = say("{size:.2f}° < {limit:.4g}°, the limit is kept")
-_JUST = say("the limit of {limit:.4g}°, as nearly as it can be drawn")
-_PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is not kept")
-_NO_LIMIT = say("a spring drives the return, which has no limit")
+_ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_ON_THE_RETURN = say("On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_KEPT = say("{size:.2f}° < {limit:.4g}°, within the limit")
+_JUST = say("equal to the limit of {limit:.4g}° within drawing accuracy")
+_PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is exceeded")
+_NO_LIMIT = say("a spring drives the return, so the angle is not limited")

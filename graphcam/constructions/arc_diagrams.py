@@ -50,24 +50,26 @@ class ArcDiagramsGivens:
 MEANING = Meaning(
     "arc_diagrams",
     say("Motion of the follower"),
-    say("What was read at the stations, over the cam angle. Where the arcs change, the acceleration jumps."),
+    say(
+        "The readings at the stations, plotted over the cam angle. The acceleration jumps where one arc meets the next."
+    ),
     {
         "lift": ReadingMeaning(say("lift h"), "h", "mm"),
         "max_v": ReadingMeaning(
-            say("greatest v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", ranks=(np.positive,)),)
+            say("maximum v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", ranks=(np.positive,)),)
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", ranks=(np.positive,)),)
+            say("maximum a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", ranks=(np.positive,)),)
         ),
         "max_alpha": ReadingMeaning(
-            say("greatest α"),
+            say("maximum α"),
             "max α",
             "rad",
             (
-                Compared("max_pressure_angle_rise_deg", say("greatest α, rise"), "alpha_candidates", (np.positive,)),
+                Compared("max_pressure_angle_rise_deg", say("maximum α, rise"), "alpha_candidates", (np.positive,)),
                 Compared(
                     "max_pressure_angle_return_deg",
-                    say("greatest α, return"),
+                    say("maximum α, return"),
                     "alpha_candidates",
                     (np.positive,),
                     sign=-1,
@@ -155,39 +157,42 @@ CARRIED = {
         "for the others."
     ),
     "s": say(
-        "Plot the displacements over the cam angle, {degree:.4g}° a millimetre. How far B lies "
-        "outside the prime circle is laid off at {mu:g} mm/mm, up from the axis: for station {name}, {length:.2f} mm × "
+        "Plot the displacements over the cam angle, {degree:.4g}° a millimetre. The distance of B outside the "
+        "prime circle is laid off at {mu:g} mm/mm, up from the axis: for station {name}, {length:.2f} mm × "
         "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others."
     ),
     "alpha": say(
-        "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre, and laid off at {mu:g}° a "
-        "millimetre too: for station {name}, {length:.2f}° are {ordinate:.2f} mm. Repeat for the others."
+        "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre; lay the angles "
+        "themselves off at {mu:g}° a millimetre too: for station {name}, {length:.2f}° are {ordinate:.2f} mm. "
+        "Repeat for the others."
     ),
 }
 MAXIMUM = {
-    "a": say("The one of the maximum magnitude measures {paper:.2f} mm, which is {value:.3f} mm/rad²."),
+    "a": say("The one of maximum magnitude measures {paper:.2f} mm, which is {value:.3f} mm/rad²."),
     "v": say("The maximum measures {paper:.2f} mm, which is {value:.3f} mm/rad."),
     "s": say("The lift measures {paper:.2f} mm, which is {value:.3f} mm."),
     "alpha": say("The maximum is {value:.3f}°."),
 }
 JOINED = say("Join the points with the French curve, each arc by itself.")
 RETURNED = {
-    1: say("Return: mirror the curve of the rise in the upright at {middle:.2f} mm, half-way between the two."),
+    1: say("Return: mirror the curve of the rise in the vertical at {middle:.2f} mm, half-way between the two."),
     -1: say(
-        "Return: turn the curve of the rise half round about the place {middle:.2f} mm on the axis, half-way between "
-        "the two."
+        "Return: rotate the curve of the rise by 180° about the point at {middle:.2f} mm on the axis, half-way "
+        "between the two."
     ),
 }
 """How the curve goes on, by what becomes of the quantity on the return."""
 WHYS = {
     "a": say(
-        "The force that moves the follower follows its acceleration, and it jumps where the radius of the arc changes."
+        "The force that moves the follower is proportional to its acceleration, which jumps where the radius of "
+        "the arc changes."
     ),
     "v": say(
-        "On the mirrored flank the follower goes down as it went up, so the velocity comes back with the other sign."
+        "On the mirrored flank the follower goes down as it went up, so the same velocities recur with the "
+        "opposite sign."
     ),
-    "s": say("The follower has risen by as much as B lies farther out than at the start."),
-    "alpha": say("The follower may jam where this angle is large, so its maximum decides whether the cam can be used."),
+    "s": say("The follower has risen by the increase of OB since the start."),
+    "alpha": say("The follower may jam where this angle is large, so its maximum decides whether the cam is usable."),
 }
 PLOTTED = {
     "a": say("Station {title}: OM = {length:.2f} mm × {factor:.4g}, {ordinate:.2f} mm {way} at {at:.2f} mm."),
@@ -303,7 +308,7 @@ def _told(name: str, values: Mapping[str, Any]) -> Caption:
 def _edges(ends: Drawn, limits: Drawn) -> Part:
     """The ends of arcs and phases on the axis."""
     places = sequence([say("{at:.2f}", at=x) for x in ends.shown[1:].real.tolist()])
-    said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin upright in each.")
+    said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin vertical in each.")
     return Part(said.where(places=places), (ends, limits))
 
 
@@ -311,13 +316,13 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
     """The curve over the rise, the dwells and the return."""
     arcs, ends = plotted.givens.rolled.givens.arcs, plotted.acts["ends"].shown.real
     n = (curve.shown.size - 4) // 2
-    held = Part(say("Upper dwell: a level line, drawn with the T-square."), (curve[n : n + 2],))
+    held = Part(say("Upper dwell: a horizontal line, drawn with the T-square."), (curve[n : n + 2],))
     back = RETURNED[MIRROR[name]].where(middle=middle)
     return [
         Part(JOINED, (curve[:n],)),
         *([held] if arcs.givens.dwell else []),
         Part(back, (curve[n + 2 : -2] if arcs.givens.dwell else curve[n:-2],)),
-        Part(say("Lower dwell: draw the axis over, to {end:.2f} mm.", end=ends[-1]), (curve[-2:],)),
+        Part(say("Lower dwell: go over the axis as far as {end:.2f} mm.", end=ends[-1]), (curve[-2:],)),
     ]
 
 

@@ -34,8 +34,8 @@ MEANING = Meaning(
     "three_arcs",
     say("The arcs"),
     say(
-        "Where two circles touch, their centres and the point of touch lie on one line. From this alone the centres "
-        "of the three arcs follow with ruler and compass."
+        "Where two circles touch, their centres and the point of contact lie on one line. This alone gives the "
+        "centres of the three arcs with ruler and compass."
     ),
     {
         "base": ReadingMeaning(say("radius of the base circle"), "OA", "mm"),
@@ -108,7 +108,7 @@ def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, D
     # A and D are found again, where the dwells' circles touch.
     places = {f"given_{p}" if p in "AD" else p: at for p, at in vars(given).items() if at is not None and p != "rho1"}
     x, y = np.array([*places.values()]).T / mu_l.per_mm
-    plotted = hand.lay_off("given points", hand.erect("uprights", hand.lay_off("feet", o, RIGHT, x)), UP, y)
+    plotted = hand.lay_off("given points", hand.erect("verticals", hand.lay_off("feet", o, RIGHT, x)), UP, y)
     return {name: hand.take(name, plotted, which=k) for k, name in enumerate(places)}
 
 
@@ -121,7 +121,7 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-FLAT = say("Lines that cross at less than a degree meet in no place that could be read.")
+FLAT = say("Lines that cross at less than one degree have no point of intersection that can be read.")
 Move = tuple[Caption, *tuple[Drawn, ...]]
 """What is done, and what it leaves."""
 
@@ -170,7 +170,7 @@ def _data(arcs: ArcOutline) -> Step:
     )
     axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
     said = sequence([axes.where(ratio=ratio_text(mu_l), times=1 / mu_l), in_a_row(parts)], " ")
-    why = say("All else follows from these points and the radius ρ₁ alone, so they come first.")
+    why = say("Everything else follows from these points and the radius ρ₁ alone, so they come first.")
     return Step(say("The data"), said, ARCS, plotted, given=plotted, why=why, parts=parts)
 
 
@@ -195,7 +195,7 @@ def _first_centre(arcs: ArcOutline) -> Step:
         *(about.drawn_circle(Role.CONSTRUCTION), c1.dots(), d.dots(), _named(arcs, "C1", d.place)),
         outer.drawn_circle(Role.CONSTRUCTION),
     )
-    why = say("Where two circles touch, their centres and the point of touch lie on one line: here O, C1 and D.")
+    why = say("Where two circles touch, their centres and the point of contact lie on one line: here O, C1 and D.")
     parts = in_parts(moves, values)
     return Step(say("The first centre"), in_a_row(parts), ARCS, marks, (*_xy("C1"), "outer"), why=why, parts=parts)
 
@@ -215,7 +215,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
         found: list[Move] = [
             (say("Join A and G with the ruler."), chord),
             (halved, acts["bisector of given_A G"]),
-            (say("Produce the line AO beyond O as far as the bisector: C2 = {at}."), acts["O A"], c2),
+            (say("Extend the line AO beyond O as far as the bisector: C2 = {at}."), acts["O A"], c2),
         ]
     else:
         on, bisector = "O C2", ()
@@ -288,11 +288,11 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
         marks, reads = (*centre, *line), (*_xy(c3), *_xy(f))
         return [Step(title, in_a_row(parts, orders), ARCS, marks, reads, why=why, parts=parts)]
     why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
-    touch = say("Where two circles touch, their centres and the point of touch lie on one line: here C3, C1 and F.")
+    touch = say("Where two circles touch, their centres and the point of contact lie on one line: here C3, C1 and F.")
     first, last = in_parts(to_c3, values), in_parts(to_f, values)
     return [
         Step(title, in_a_row(first), ARCS, centre, (*_xy("C3"), "rho3"), why=why, parts=first),
-        Step(say("Where it touches"), in_a_row(last, orders), ARCS, line, _xy("F"), why=touch, parts=last),
+        Step(say("The point of contact"), in_a_row(last, orders), ARCS, line, _xy("F"), why=touch, parts=last),
     ]
 
 
@@ -386,8 +386,8 @@ def _orders(arcs: ArcOutline, name: str) -> Caption:
     """What is read off the two lines of centres."""
     first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
     built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
-    can, cannot = say("the arcs touch from inside, and the cam can be built"), say("such a cam cannot be built")
-    said = say("On the lines lie {first} and {second}, in these orders: {verdict}.")
+    can, cannot = say("the arcs touch internally, and the cam can be made"), say("such a cam cannot be made")
+    said = say("The orders on the lines are {first} and {second}: {verdict}.")
     return said.where(first=sequence(first), second=sequence(second), verdict=can if built else cannot)
 
 

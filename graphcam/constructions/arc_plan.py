@@ -125,10 +125,13 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
     values |= {"times": arcs.givens.mu_l.per_mm / mu, "mu": mu, "v": float(rolled.value("v")[at])}
     values |= {"ob": _far(hand, "O", "B"), "oc": _far(hand, "O", "C"), "bc": _far(hand, "B", "C")}
     values |= {"paper": ok, "side": say("on the left") if c.real < 0 else say("on the right")}
-    opening = say("Station {name}, on the arc {arc}, is drawn upright at {ratio}: every length times {times:g}.")
+    opening = say(
+        "Station {name}, on the arc {arc}, is drawn at {ratio} with the follower's line vertical: "
+        "every length times {times:g}."
+    )
     moves: list[Move] = [
         (
-            say("Draw the follower's line upright, and on it O and B above it: OB = {ob:.2f} mm."),
+            say("Draw the follower's line vertical, and on it O and B above it: OB = {ob:.2f} mm."),
             *(acts[name] for name in ("O", "B", "follower")),
         ),
         (
@@ -136,7 +139,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
             acts["C"],
         ),
         (
-            say("Draw the rod from B through {centre} as far as the level line through O: they meet in K."),
+            say("Draw the rod from B through {centre} as far as the horizontal line through O: they meet in K."),
             *(acts[name] for name in ("rod", "across", "K")),
         ),
         (say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad is the velocity v."), acts["OK"]),
@@ -166,9 +169,9 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScal
     """The right angle that cuts N′ off, N, and M."""
     acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
-    directed = say("it is directed towards the cam centre, for M lies on the side of B")
+    directed = say("it is directed towards the cam centre, because M lies on the side of B")
     if a > 0:
-        directed = say("it is directed away from the cam centre, for M lies beyond O")
+        directed = say("it is directed away from the cam centre, because M lies beyond O")
     values = {"centre": centre, "ck": _far(hand, "C", "K"), "cn": _far(hand, "C", "N′"), "directed": directed}
     values |= {"om": _far(hand, "O", "M"), "mu": scale.mu_l.per_mm, "a": a}
     moves: list[Move] = [
@@ -216,8 +219,8 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     rods, across, k = (rolled.acts[name].first for name in ("rods", "across", "K"))
     paper, alpha = np.abs(k.shown), np.degrees(rolled.first("alpha"))
     one = say(
-        "Station {name}: draw the rod from B{name} towards {centre} as far as the line through O square to ray {name}; "
-        "OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and the rod stands at {alpha:.2f}° to the ray."
+        "Station {name}: draw the rod from B{name} towards {centre} as far as the line through O square to ray "
+        "{name}; OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and the rod makes {alpha:.2f}° with the ray."
     )
 
     def values(j: int) -> Mapping[str, object]:
@@ -225,7 +228,9 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         named = {"name": stations.names[j], "title": stations.names[j], "centre": CENTRES[stations.arc[j]], "mu": mu}
         return named | {"paper": paper[j], "v": float(rolled.value("v")[j]), "alpha": alpha[j]}
 
-    none = say("Station {name}: the rod lies on ray {name}, so K is in O; neither a velocity nor a pressure angle.")
+    none = say(
+        "Station {name}: the rod lies on ray {name}, so K coincides with O; velocity and pressure angle are zero."
+    )
 
     def told(j: int) -> Caption:
         """The caption of a station's part."""
@@ -242,9 +247,9 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         *(k[j].label(stations.names[j], complex(unit(out)[j]), small=True) for j in named),
     )
     said = say(
-        "Do the same at every station, in the drawing of the roller itself, where K is numbered as its ray. At station "
-        "{name} OK is {paper:.2f} mm there: × {mu:g} = {v:.3f} mm/rad. The angle between rod and ray, read with the "
-        "protractor, is the pressure angle: {alpha:.2f}°. Repeat for the others."
+        "Do the same at every station, in the drawing of the roller itself, where K has the number of its ray. "
+        "At station {name} OK is {paper:.2f} mm there: × {mu:g} = {v:.3f} mm/rad. The angle between rod and ray, "
+        "read with the protractor, is the pressure angle: {alpha:.2f}°. Repeat for the others."
     ).where(**values(worked(stations, paper)))
     why = say("The rod is the normal of the profile, so its angle with the follower's motion is the pressure angle.")
     return Step(say("Velocities at all stations"), said, ROLLER, marks, ("v", "alpha"), why=why, parts=parts)
@@ -291,14 +296,14 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         *(m[j].label(stations.names[j], complex(unit(m.shown)[j]), small=True) for j in named),
     )
     said = say(
-        "Do the same at every station in the drawing of the roller; here, at {ratio}, its rays, B, N and M are shown, "
-        "the lengths given are those in the drawing of the roller. Station {name}: lay {centre}K = {ck:.2f} mm off "
-        "square to the rod, find {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, {way}: × {mu:g}, "
-        "a = {a:.3f} mm/rad². Repeat for the others."
+        "Do the same at every station in the drawing of the roller; only the rays, B, N and M are shown here, at "
+        "{ratio}, and the lengths given are those in the drawing of the roller. Station {name}: lay {centre}K = "
+        "{ck:.2f} mm off square to the rod, find {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, {way}: × "
+        "{mu:g}, a = {a:.3f} mm/rad². Repeat for the others."
     ).where(ratio=ratio_text(scale.per_mm), **values(worked(stations, om)))
     why = say(
-        "Where two arcs meet, the rod changes its length at once, so the acceleration jumps, and such a station has "
-        "two points M."
+        "Where two arcs meet, the length of the rod changes suddenly, so the acceleration jumps, and such a "
+        "station has two points M."
     )
     title = say("Accelerations at all stations")
     return Step(title, said, at_scale(ACCELERATIONS, scale), marks, ("a", *ends), why=why, parts=parts)

@@ -39,8 +39,9 @@ MEANING = Meaning(
     "arc_roller",
     say("The roller on the arcs"),
     say(
-        "As long as the roller runs on one arc, cam and follower move as a crank mechanism: the crank from the cam "
-        "centre to the arc's centre, the rod from there to the roller. Its plans give velocity and acceleration."
+        "As long as the roller runs on one arc, cam and follower move as a slider-crank mechanism: the crank "
+        "from the cam centre to the arc's centre, the rod from there to the roller. Its plans give velocity and "
+        "acceleration."
     ),
     {
         "s": ReadingMeaning(say("displacement s"), "s", "mm"),
@@ -50,7 +51,7 @@ MEANING = Meaning(
         "x": ReadingMeaning(say("x"), "x", "mm"),
         "y": ReadingMeaning(say("y"), "y", "mm"),
         "rho": ReadingMeaning(
-            say("least radius of curvature ρ"), "ρ", "mm", (Compared("min_pitch_curvature_radius", say("least ρ")),)
+            say("minimum radius of curvature ρ"), "ρ", "mm", (Compared("min_pitch_curvature_radius", say("minimum ρ")),)
         ),
         "roller_radius": ReadingMeaning(
             say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius")),)
@@ -148,7 +149,9 @@ BEYOND = 7.0
 def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
         missing = joined([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
-        said = say("Without a readable centre of every arc, {missing}, the roller has no path.", missing=missing)
+        said = say(
+            "Not every arc has a centre that can be read ({missing}), so the roller has no path.", missing=missing
+        )
         return [Step(say("The arcs of the roller's centre"), said, ROLLER, (), why=FLAT)]
     return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS)]
 
@@ -180,16 +183,16 @@ def _paths(rolled: RollerOnArcs) -> Step:
         *(mark for name, at in centres.items() for mark in (at.dots(), at.label(name, -UP))),
     ]
     said = say(
-        "The knife edge keeps to arcs of the profile itself: copy it from the drawing of the arcs. Draw the prime "
-        "circle about O through A: compass {prime:.2f} mm."
+        "The knife edge moves along the arcs of the profile itself: copy it from the drawing of the arcs. Draw "
+        "the prime circle about O through A: compass {prime:.2f} mm."
     )
-    why = say("A knife edge has no radius, so it stands on the profile itself.")
+    why = say("A knife edge has no radius, so it runs on the profile itself.")
     if roller:
         said = say(
-            "Copy the profile. The roller's centre keeps to arcs about the same centres, with radii greater by r = "
-            "{roller:g} mm: set {paper:.2f} mm off outward from A, G, F and D on the lines of centres (from G away "
-            "from C3), open the compass from each centre to these points and draw the arcs, about C2 with {about:.2f} "
-            "mm. The prime circle about O passes through the first point: {prime:.2f} mm."
+            "Copy the profile. The roller's centre moves along arcs about the same centres, with radii larger by "
+            "r = {roller:g} mm: set {paper:.2f} mm off outward from A, G, F and D on the lines of centres (from "
+            "G away from C3), open the compass from each centre to these points and draw the arcs, about C2 with "
+            "{about:.2f} mm. The prime circle about O passes through the first point: {prime:.2f} mm."
         ).where(about=_radii(acts["arcs of the roller's centre"])[0])
         why = say(
             "A roller touches an arc on the line through the arc's centre, so its own centre stays r farther out."
@@ -288,11 +291,11 @@ def _stations(rolled: RollerOnArcs) -> Step:
         moves.append((told, rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)))
     moves.append((say("Return: mirror the points B in the middle line of the dwell."), returning))
     said = say(
-        "Hold the cam and turn the follower the other way, {sense}. Divide the angle of each arc into {parts} equal "
-        "parts, set the angles off from OA with the protractor and number the rays. Ray {name} stands at {phi:.3f}° "
-        "and meets the arc about {centre} in B. With the dividers take how much farther B lies "
-        "from O than at A: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement. Repeat for the others; the return "
-        "is the mirror image."
+        "Hold the cam and turn the follower the other way, {sense}. Divide the angle of each arc into {parts} "
+        "equal parts, set the angles off from OA with the protractor and number the rays. Ray {name} makes "
+        "{phi:.3f}° with OA and meets the arc about {centre} in B. With the dividers take the distance of B "
+        "outside the prime circle: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement. Repeat for the "
+        "others; the return is the mirror image."
     ).where(
         parts=stations.u.size // 3 - 1,
         name=stations.names[at],
@@ -302,7 +305,9 @@ def _stations(rolled: RollerOnArcs) -> Step:
         lift=s[at] * mu_l,
         **values,
     )
-    why = say("To turn the follower about a cam that is held is the same motion as to turn the cam under it.")
+    why = say(
+        "Turning the follower about a fixed cam is the same relative motion as turning the cam under the follower."
+    )
     return Step(say("Stations"), said, ROLLER, marks, ("lift", "s", "x", "y"), why=why, parts=in_parts(moves, values))
 
 

@@ -53,8 +53,8 @@ MEANING = Meaning(
     "force_plan",
     say("Force plan"),
     say(
-        "The torque about the pivot, reduced to the arm's end, the contact force and the reaction along the arm are in "
-        "balance. Three directions and one size are known: a triangle."
+        "The torque about the pivot, reduced to the arm's end, the contact force and the reaction along the arm "
+        "are in equilibrium. Three directions and one magnitude are known, which determine a triangle."
     ),
     {
         "load": ReadingMeaning(say("reduced load Q"), "Q", "N"),
@@ -194,7 +194,7 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         say("Force plan at station {name}: the load", name=_name(plan)),
         *(said.where(**values), view, (foot.arrow(0j, Role.CURVE), label, ends)),
         reads=("load",),
-        why=say("Because a torque about the pivot does the same as a force at the arm's end, square to the arm."),
+        why=say("Because a torque about the pivot has the same effect as a force at the arm's end, square to the arm."),
     )
 
 
@@ -212,8 +212,8 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
     radius = 0.4 * min(reach, LOAD_LENGTH)
     said = say(
-        "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the head "
-        "of Q and draw the line of the contact force F there; it leans by α = {alpha:.1f}° from Q.",
+        "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
+        "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q.",
         name=_name(plan),
         alpha=abs(math.degrees(alpha)),
     )
@@ -245,14 +245,16 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
         "{name}.",
         name=_name(plan),
     )
-    why = say("Because F and Q act at B and balance about C, so the reaction to both passes through B and through C.")
+    why = say(
+        "Because F and Q act at B and are in equilibrium about C, so the reaction to both passes through B and C."
+    )
     mark = Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
     return Step(say("The line of the pivot's reaction"), said, view, (mark,), why=why)
 
 
 def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The last step where there is no third corner."""
-    said = say("The two lines do not meet where the cam could push: the load does not press the arm on the cam.")
+    said = say("The two lines do not meet where the cam could push: the load does not press the arm onto the cam.")
     why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
     return Step(say("The triangle does not close"), said, view, (), why=why)
 
@@ -286,6 +288,6 @@ def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     return Step(
         say("The triangle of forces"),
         *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
         parts=parts,
     )

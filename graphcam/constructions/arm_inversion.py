@@ -35,8 +35,8 @@ MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
     say(
-        "The cam is held still and the frame is turned round it, against its rotation. From each place of the pivot "
-        "the arm is turned by its displacement: the places that its end takes make the cam."
+        "The cam is held still and the frame is turned about it, against the cam's rotation. From each position "
+        "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
     profile_view.CURVE,
     scales={"profile": "x"},
@@ -102,7 +102,7 @@ def _circles(inverted: ArmInverted) -> Step:
     step = profile_view.prime_step(
         inverted, say("Prime circle and pivot circle"), said, start, (circle.drawn_circle(Role.CONSTRUCTION),)
     )
-    why = say("Because the pivot stays at the centre distance from A, and the lift begins on the prime circle.")
+    why = say("Because the pivot stays at the centre distance from A, and the lift starts at the prime circle.")
     return replace(step, why=why, parts=(*step.parts, Part(pivots, (circle,))))
 
 
@@ -113,15 +113,16 @@ def _pivots(inverted: ArmInverted) -> Step:
     names, k, phi = station_names(stations), example(inverted.givens.integrated, pivots), np.degrees(stations.phi)
     against = turning("cw" if inverted.givens.rotation == "ccw" else "ccw")
     said = say(
-        "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Begin on the "
-        "level to the right of A; set the cam angle off at A with the protractor and mark and number the pivots on "
-        "their circle. Station {name}: {phi:.6g}° {against}, {step:.6g}° on from the one before. Repeat for the "
-        "others; the phases take {angles}."
+        "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Begin on "
+        "the horizontal to the right of A; set the cam angle off at A with the protractor and mark and number "
+        "the pivots on their circle. Station {name}: {phi:.6g}° {against}, {step:.6g}° on from the previous one. "
+        "Repeat for the others; the phases take {angles}."
     ).where(**profile_view.divided_by(inverted))
     said = said.where(name=names[k], phi=phi[k], step=phi[k] - phi[k - 1], against=against)
-    level = say("C{name} lies on the level through A, to the right: mark it on the pivot circle.")
+    level = say("C{name} lies on the horizontal through A, to the right: mark it on the pivot circle.")
     begun = say(
-        "C{name}: set {phi:.6g}° off at A {against}, from the level to the right, and mark C{name} on the pivot circle."
+        "C{name}: set {phi:.6g}° off at A {against}, from the horizontal to the right, and mark C{name} on the "
+        "pivot circle."
     )
     on = say(
         "C{name}: set {phi:.6g}° off at A {against}, {step:.6g}° on from C{before}, and mark C{name} on the pivot "
@@ -139,9 +140,7 @@ def _pivots(inverted: ArmInverted) -> Step:
     )
     return Step(
         *(say("Inverted positions of the pivot"), said, PROFILE, marks),
-        why=say(
-            "Because seen from the cam the frame turns against the cam's rotation, and the pivot goes round with it."
-        ),
+        why=say("Because, seen from the cam, the frame turns against the cam's rotation, and the pivot turns with it."),
         parts=tuple(Part(text, (positions[n], pivots[n])) for n, text in enumerate(texts)),
     )
 
@@ -152,9 +151,9 @@ def _starts(inverted: ArmInverted) -> Step:
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     arm, pitch = inverted.givens.mu_l.paper(inverted.givens.arm), inverted.acts["pitch"]
     said = say(
-        "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, always at "
-        "the crossing on the left as seen from A towards the pivot, and go on a little outside: from C{name} to "
-        "B₀{name}. Repeat for the others. {outside}"
+        "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, "
+        "always at the crossing on the left as seen from A towards the pivot, and continue a little outside: "
+        "from C{name} to B₀{name}. Repeat for the others. {outside}"
     )
     each = say(
         "From C{name} strike an arc of {arm:.1f} mm across the prime circle, on the left seen from A towards C{name}."
@@ -166,7 +165,8 @@ def _starts(inverted: ArmInverted) -> Step:
     return Step(
         *(say("Arcs of the arm"), said, PROFILE, (*drawn, starts.dots(Role.CONSTRUCTION), *phases)),
         why=say(
-            "Because at the start of the lift the end of the arm lies on the prime circle, in every place of the frame."
+            "Because at the start of the lift the end of the arm lies on the prime circle, in every position of "
+            "the frame."
         ),
         parts=(*(Part(each.where(name=name, arm=arm), (arcs[n], starts[n])) for n, name in enumerate(names)), last),
     )

@@ -77,14 +77,14 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     if direction < 0:
         title, phase = say("Lines at the limit of the return"), say("return")
     said = say(
-        "At every D of the {phase} draw the normal to the arm downwards with the set squares, and from D with the "
-        "protractor the line at {limit} to this normal, turned from it {turn}. The cam centre A must lie on its side "
-        "{kept}. Station {name} is shown with its normal. Repeat for the others."
+        "At every point D of the {phase} draw the normal to the arm downwards with the set squares, and from D "
+        "with the protractor the line at {limit} to this normal, turned from it {turn}. The cam centre A must "
+        "lie on the side {kept}. Station {name} is shown with its normal. Repeat for the others."
     )
     first = say("D{name}: with the set squares draw the normal to arm {name} downwards.")
-    second = say("Line {name}: from D{name} set off {limit} from the normal, {turn}. A must lie on its side {kept}.")
+    second = say("Line {name}: from D{name} set off {limit} from the normal, {turn}. A must lie on the side {kept}.")
     again = say(
-        "Line {name}: from D{name} set off {limit} from the normal to arm {name}, {turn}. A must lie on its side "
+        "Line {name}: from D{name} set off {limit} from the normal to arm {name}, {turn}. A must lie on the side "
         "{kept}."
     )
     normal, shown, angle = _normal(drawn, k, lines[own], so)
@@ -93,8 +93,8 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
         *(title, said.where(phase=phase, name=named[k], **so.said), at_scale(REGION, drawn.givens.mu_l)),
         (shown, _downwards(lines, hatched), angle),
         why=say(
-            "Because seen from D the cam centre makes the pressure angle with the normal to the arm, and on the "
-            "{phase} it may be {limit} at most."
+            "Because, seen from D, the direction to the cam centre makes the pressure angle with the normal to "
+            "the arm, and on the {phase} it may be at most {limit}."
         ).where(phase=phase, limit=degrees(limit)),
         parts=(
             Part(first.where(name=named[k]), (normal,)),
@@ -134,8 +134,7 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
     return Step(
         *(say("Lines at the limit in the dwells"), said, at_scale(REGION, drawn.givens.mu_l), tuple(marks)),
         why=say(
-            "Because in a dwell nothing is laid off along the arm, and the angle has its limit to the other side as "
-            "well."
+            "Because in a dwell nothing is laid off along the arm, and the angle is limited on the other side as well."
         ),
         parts=tuple(parts),
     )
@@ -152,12 +151,10 @@ def reach_step(drawn: ArmPositions) -> Step:
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
     out = lines.shown - PRODUCED * abs(drawn.acts["start"].place) * unit(lines.first.directions)
     produced = Segments(lines.shown, out, Role.CONSTRUCTION, of=lines.act, index=lines.index)
-    lowest, highest = say("Produce CB₀ with the ruler; A must lie below it."), say("Produce arm {top} with the ruler.")
+    lowest, highest = say("Extend CB₀ with the ruler; A must lie below it."), say("Extend arm {top} with the ruler.")
     return Step(
-        say("The arm produced"),
-        say(
-            "With the ruler produce CB₀ and the highest arm, {top}, beyond their ends. A must lie below both.", top=top
-        ),
+        say("The arm extended"),
+        say("With the ruler extend CB₀ and the highest arm, {top}, beyond their ends. A must lie below both.", top=top),
         at_scale(REGION, drawn.givens.mu_l),
         (produced,),
         why=say("Because the cam lies below the arm, which must not swing across the line of centres CA."),

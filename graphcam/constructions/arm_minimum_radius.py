@@ -60,11 +60,11 @@ ArmRegion = Construction[ArmLeastRadiusGivens]
 
 MEANING = Meaning(
     "minimum_radius",
-    say("Least prime radius"),
+    say("Minimum prime radius"),
     say(
-        "The least radius is found before there is a cam: the velocity, as a length, is laid off along the arm in "
-        "every position, and from its end the cam centre is seen under the pressure angle that it would cause. A line "
-        "at the permitted angle cuts off the places that it may not take."
+        "The minimum radius is found before the cam exists: in every position the velocity, as a length, is laid "
+        "off along the arm, and from its end the cam centre is seen at the pressure angle that it would cause. A "
+        "line at the permitted angle cuts off the positions that it must not take."
     ),
     {
         "prime_radius": LEAST_RADIUS,
@@ -263,18 +263,18 @@ def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
     edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
     bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
     said = say(
-        "Hatch the part that lies on the permitted side of all lines; between the stations its edge is the curve that "
+        "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that "
         "the lines touch."
     )
     if region.givens.limits.return_ is None:
         said = say(
-            "Hatch the part that lies on the permitted side of all lines; between the stations its edge is the curve "
+            "Hatch the region on the permitted side of all lines; between the stations its edge is the curve "
             "that the lines touch. A spring drives the return, which therefore has no lines."
         )
     return Step(
         *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l)),
         *((Region(hatched, of=bounds.act),),),
-        why=say("Because from a cam centre in the hatching no position of the arm exceeds its permitted angle."),
+        why=say("Because with a cam centre in the hatched region no position of the arm exceeds its permitted angle."),
     )
 
 
@@ -327,24 +327,31 @@ def _place(region: ArmRegion) -> Caption:
         found[family, place] = BOUNDS[family].where(place=place)
     bounds = joined(list(found.values()))
     if region.givens.distance is not None:
-        return say("the place of the arc nearest to B₀ in the hatching, where the arc meets {bounds}", bounds=bounds)
+        return say(
+            "the point of the arc nearest to B₀ in the hatched region, where the arc meets {bounds}", bounds=bounds
+        )
     if len(_bound_by(region)) > 1:
-        return say("the corner of the hatching nearest to B₀, between {bounds}", bounds=bounds)
-    return say("the place of the hatching nearest to B₀, the foot of the perpendicular on {bounds}", bounds=bounds)
+        return say("the corner of the hatched region nearest to B₀, between {bounds}", bounds=bounds)
+    return say(
+        "the point of the hatched region nearest to B₀, the foot of the perpendicular to {bounds}", bounds=bounds
+    )
 
 
 def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
     start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
-    said = say("No cam centre keeps all the limits.")
+    said = say("No cam centre satisfies all the limits.")
     if c is not None:
-        said, circle = say("At this centre distance no cam centre keeps all the limits."), acts["circle of the centre"]
+        said, circle = (
+            say("At this centre distance no cam centre satisfies all the limits."),
+            acts["circle of the centre"],
+        )
         middle = centre.place if found else -length(c) * np.exp(0.2j)
         arcs.append(arc_through(circle, middle * np.exp([-0.15j, 0.15j])))
         parts.append(Part(say("Draw an arc of {paper:.1f} mm about C with the compass.", paper=length(c)), (circle,)))
     reads = ("prime_radius", "distance") if found else ()
     step = Step(
-        *(say("The least prime radius"), said, at_scale(REGION, region.givens.mu_l), tuple(arcs), reads),
+        *(say("The minimum prime radius"), said, at_scale(REGION, region.givens.mu_l), tuple(arcs), reads),
         why=say(
             "Because the prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam."
         ),

@@ -113,12 +113,15 @@ def positions_step(drawn: ArmPositions) -> Step:
     worked = say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°")
     angles = [worked.where(paper=paper, factor=factor, angle=paper * factor) for paper in s.tolist()]
     said = say(
-        "Mark the pivot C on the right. At {ratio} the arm is {arm:.1f} mm long: draw CB₀ level to the left, and with "
-        "the compass an arc of {arm:.1f} mm about C. Multiply every ordinate of the displacement by {factor:.4g}°/mm "
-        "and set the angle off at C with the protractor, upwards from CB₀ (clockwise), as far as the arc. Station "
-        "{name}: {angle}. Repeat for the others and number them; the largest angle is {most:.2f}°."
+        "Mark the pivot C on the right. At {ratio} the arm is {arm:.1f} mm long: draw CB₀ horizontally to the "
+        "left, and with the compass an arc of {arm:.1f} mm about C. Multiply every ordinate of the displacement "
+        "by {factor:.4g}°/mm and set the angle off at C with the protractor, upwards from CB₀ (clockwise), as "
+        "far as the arc. Station {name}: {angle}. Repeat for the others and number them; the largest angle is "
+        "{most:.2f}°."
     ).where(ratio=ratio_text(mu_l.per_mm), arm=arm, factor=factor, most=s.max() * factor, angle=angles[k])
-    base = say("Draw CB₀ level to the left from C, {arm:.1f} mm long, and an arc of {arm:.1f} mm about C.", arm=arm)
+    base = say(
+        "Draw CB₀ horizontally to the left from C, {arm:.1f} mm long, and an arc of {arm:.1f} mm about C.", arm=arm
+    )
     down = say("Arm {name}: the displacement is zero, so it lies on CB₀.")
     up = say("Arm {name}: {angle}; set it off at C upwards from CB₀ and draw the arm as far as the arc.")
     names, given = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j))

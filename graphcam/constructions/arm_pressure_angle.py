@@ -146,7 +146,7 @@ def _centre(measured: ArmAngles) -> Step:
     angle = angle_at(pivot.place, begin, end, 0.3 * length(givens.arm), say("ψ₀ = {psi0:.2f}°", psi0=psi0), line.act)
     sizes = {"c": givens.distance, "r0": givens.prime_radius}
     sizes |= {"about_c": length(givens.distance), "about_b": length(givens.prime_radius), "psi0": psi0}
-    before = say("Go on in the drawing of the arm positions, where C, B₀ and the ends D of all stations lie.")
+    before = say("Continue in the drawing of the arm positions, which holds C, B₀ and the ends D of all stations.")
     first = say("Draw an arc of {about_c:.1f} mm about C below the arm, for c = {c:g} mm.")
     second = say(
         "Cut it with an arc of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: the crossing below the arm is A."
@@ -229,16 +229,16 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
     sizes = {"ratio": ratio, "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
     sizes |= {"v": abs(v), "factor": factor, "bd": abs(v) * factor, "side": along_the_arm(sense(givens.rotation) * v)}
     texts = (
-        say("Draw AC level, {ac:.1f} mm long, with C on the right."),
+        say("Draw AC horizontally, {ac:.1f} mm long, with C on the right."),
         say("At C set off ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}° upwards from CA and lay off CB = {arm:.1f} mm."),
         say("Join A to B."),
         say("From B lay off {v:.2f} mm × {factor:.4g} = {bd:.2f} mm along the arm, {side}, to D."),
     )
     said = say(
-        "At {ratio} draw AC = {ac:.1f} mm level, with C on the right. At C set off the angle of the arm, ψ₀ + s = "
-        "{psi0:.2f}° + {s:.2f}° = {psi:.2f}°, upwards from CA with the protractor, and lay off the arm, CB = {arm:.1f} "
-        "mm. From B lay off l·ds/dφ along the arm {side} with the dividers, {v:.2f} mm × {factor:.4g} = {bd:.2f} mm, "
-        "to D."
+        "At {ratio} draw AC = {ac:.1f} mm horizontally, with C on the right. At C set off the angle of the arm, "
+        "ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}°, upwards from CA with the protractor, and lay off the arm, "
+        "CB = {arm:.1f} mm. From B lay off l·ds/dφ along the arm {side} with the dividers, {v:.2f} mm × "
+        "{factor:.4g} = {bd:.2f} mm, to D."
     )
     marks = (
         *(c.line_from(a, Role.AXIS), cb[k].way(Role.CURVE), bd[k].way(Role.RESULT), ab[k].way(Role.CONSTRUCTION)),
@@ -335,13 +335,13 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
         "Ray {name}: draw the normal to arm {name} downwards from D{name}, join D{name} to A and measure the angle "
         "from the normal to the ray: {alpha:.2f}°."
     )
-    apart = say("Prick A and the ends D of all stations through onto a drawing of their own.")
+    apart = say("Prick A and the ends D of all stations through onto a separate drawing.")
     said = say(
-        "Prick A and the ends D of all stations through onto a drawing of their own, where the lines at the limits do "
-        "not cross the rays. From every D draw the normal to its arm downwards with the set squares, join D to A and "
-        "measure the angle from the normal to DA with the protractor, positive anticlockwise. Station {name}: "
-        "{alpha:.2f}°. Repeat for the others. The least transmission angle is 90° − |α| = {least:.2f}°, at station "
-        "{worst}."
+        "Prick A and the ends D of all stations through onto a separate drawing, where the lines at the limits "
+        "do not cross the rays. From every D draw the normal to its arm downwards with the set squares, join D "
+        "to A and measure the angle from the normal to DA with the protractor, positive anticlockwise. Station "
+        "{name}: {alpha:.2f}°. Repeat for the others. The minimum transmission angle is 90° − |α| = "
+        "{least:.2f}°, at station {worst}."
     ).where(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
     tips, centre = measured.acts["tips"], measured.acts["centre"]
     places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
@@ -350,6 +350,6 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
     return Step(
         *(say("The pressure angle at every station"), said, at_scale(ARM_ANGLES, measured.givens.mu_l)),
         *((strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle), ("alpha", "transmission")),
-        why=say("Because what holds at one station holds at all: only D and the arm differ, A is the same."),
+        why=say("Because what holds at one station holds at all: only D and the arm differ; A is the same."),
         parts=(Part(apart, (tips, centre)), *parts),
     )

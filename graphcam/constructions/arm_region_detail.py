@@ -73,11 +73,11 @@ def region_enlarged(
     marks += [a.dots(Role.RESULT), a.label("A₀", 1 + 0j if a.place.real > 0 else -1 + 0j)]
     first = say("Draw B₀ and A₀ again at {ratio}, {paper:.1f} mm from one another.")
     first = first.where(ratio=ratio_text(scale.per_mm), paper=abs(a.place))
-    second = say("Draw the lines on which A₀ lies, and hatch again what no line cuts off.")
+    second = say("Draw the lines on which A₀ lies, and hatch again the region that no line cuts off.")
     return Step(
         *(say("The cam centre enlarged"), sequence([first, second], " ")),
         *(at_scale(CAM_CENTRE, scale), tuple(marks)),
-        why=say("Because at the scale of the arm what lies so near to its end cannot be told apart."),
+        why=say("Because at the scale of the arm, points so close to its end cannot be told apart."),
         parts=(Part(first, (b, a)), Part(second, (*through, permitted))),
     )
 
@@ -90,6 +90,6 @@ def adopted_enlarged(measured: Construction[Any], scale: Scale, label: Caption) 
     return Step(
         *(say("The adopted cam centre enlarged"), said, at_scale(CAM_CENTRE, scale)),
         (a.dots(Role.RESULT), a.label(label, -UP)),
-        why=say("Because there it is seen that A lies in the hatching."),
+        why=say("Because it shows that A lies in the hatched region."),
         parts=(Part(said, (a,)),),
     )

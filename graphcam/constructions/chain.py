@@ -341,8 +341,8 @@ class Chain(Drawings):
             missing += ["cam.prime_radius"] if given is None else []
             limit = "a place within all limits, where lines cross at a degree or more"
             remedy = f"give {' and '.join(missing)}, or permit greater pressure angles"
-            raise DesignError("least prime radius", "unreadable", limit, remedy)
+            raise DesignError("minimum prime radius", "unreadable", limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = "any radius keeps the limits: give cam.prime_radius, or stricter limits"
-            raise DesignError("least prime radius", f"{value:g} mm", "greater than 0 mm", remedy)
+            raise DesignError("minimum prime radius", f"{value:g} mm", "greater than 0 mm", remedy)
         return value

@@ -75,12 +75,13 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
         *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
     )
     why = say(
-        "Because the line from a cam centre to the end of v leans from the motion by the pressure angle, as the "
+        "Because the line from a cam centre to the end of v makes the pressure angle with the motion, as the "
         "velocity plan will show."
     )
     parts = [
         Part(
-            say("Draw the line of motion upright with a set square and mark B₀ on it, where the lift starts."), (start,)
+            say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts."),
+            (start,),
         )
     ]
     for k, name in enumerate(station_names(stations)):
@@ -97,14 +98,14 @@ def _laying_off(region: Construction[Any]) -> Caption:
     s, v = float(integrated.first("s")[k]), float(integrated.first("v")[k])
     longest = float(np.abs(region.acts["ends"].shown.real).max())
     marked = say(
-        "Draw the line of motion upright with a set square and carry every displacement s across to it with the "
-        "T-square, upwards from B₀, where the lift starts. At every mark lay v off level with the dividers, {rise} on "
-        "a rise and {back} on a return: v turned by 90° with the cam, {rotation}. Multiply every ordinate of v by "
-        "μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
+        "Draw the line of motion vertical with a set square and carry every displacement s across to it with the "
+        "T-square, upwards from B₀, where the lift starts. At every mark lay v off horizontally with the "
+        "dividers, {rise} on a rise and {back} on a return: v turned by 90° with the cam, {rotation}. Multiply "
+        "every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
     ).where(rise=aside(-sigma), back=aside(sigma), rotation=turning(region.givens.rotation), factor=factor)
     worked = say(
-        "Station {name}: mark it {s:.2f} mm up, lay off {v:.2f} mm × {factor:.5g} = {length:.2f} mm; and so for the "
-        "rest."
+        "Station {name}: mark it {s:.2f} mm up, lay off {v:.2f} mm × {factor:.5g} = {length:.2f} mm. Repeat for "
+        "the others."
     ).where(name=station_names(integrated.givens.stations)[k], s=s, v=v, factor=factor, length=v * factor)
     longest = say("The longest measures {longest:.1f} mm.", longest=longest)
     return sequence([marked, *([worked] if v > NOTHING else []), longest], " ")
@@ -124,7 +125,7 @@ def _level(v: float, factor: float, x: float) -> Caption:
     """How an ordinate of v [mm of paper] is laid off."""
     if abs(v) < NOTHING:
         return say("v is zero, so its end is the mark itself")
-    laid_off = say("lay v off level from there, {v:.2f} mm × {factor:.5g} = {length:.2f} mm {side}")
+    laid_off = say("lay v off horizontally from there, {v:.2f} mm × {factor:.5g} = {length:.2f} mm {side}")
     return laid_off.where(v=abs(v), factor=factor, length=abs(v) * factor, side=aside(x))
 
 
@@ -141,8 +142,8 @@ def joined_up(region: Construction[Any]) -> Step:
     said = [say("Join the ends of v in their order with the French curve: {through}.", through=sequence(through))]
     if met:
         said.append(say("There is a corner at {names}, where the acceleration jumps.", names=sequence(met)))
-    said.append(say("Where the follower rests v is zero, so the curves start and end on the line of motion."))
-    why = say("Because the limits must be kept between the stations too.")
+    said.append(say("In a dwell v is zero, so the curves start and end on the line of motion."))
+    why = say("Because the limits must be satisfied between the stations too.")
     parts = tuple(
         Part(_through(piece, each), (curve,)) for piece, each, curve in zip(pieces, through, curves, strict=True)
     )
@@ -160,7 +161,7 @@ def _through(piece: slice, ends: Caption) -> Caption:
 def offset_caption(offset: float, mu: float) -> Caption:
     """How the upright is found that the cam centre lies on at an offset [mm], at ``mu`` mm to a millimetre of paper."""
     said = say(
-        "With e = {e:g} mm the follower moves {size:g} mm {side} of the cam centre, so draw an upright "
+        "With e = {e:g} mm the follower moves {size:g} mm {side} of the cam centre, so draw a vertical "
         "{size:g}/{mu:.5g} = {paper:.2f} mm {other} of B₀."
     )
     size = abs(offset)

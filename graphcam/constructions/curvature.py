@@ -42,18 +42,18 @@ Curved = Construction[CurvatureGivens]
 
 LEAST_CURVATURE = {
     "rho": ReadingMeaning(
-        say("least radius of curvature ρ"),
+        say("minimum radius of curvature ρ"),
         "ρ",
         "mm",
         (
             Compared(
                 "min_pitch_curvature_radius",
-                say("least curvature radius ρ"),
+                say("minimum radius of curvature ρ"),
                 "rho_candidates",
                 (np.negative, sharpness),
             ),
         ),
-        Converges("least curvature radius", "min_moving_curvature_radius", of="rho_candidates"),
+        Converges("minimum radius of curvature", "min_moving_curvature_radius", of="rho_candidates"),
     )
 }
 """The least radius of curvature, however it is found."""
@@ -66,10 +66,10 @@ def _three_points(_: object) -> tuple[Words, ...]:
 
 MEANING = Meaning(
     "curvature",
-    say("Least radius of curvature"),
+    say("Minimum radius of curvature"),
     say(
-        "Three near points of a curve determine the circle that fits it best. The least radius of curvature limits "
-        "the roller."
+        "Three near points of a curve determine the circle that fits it best. The minimum radius of curvature "
+        "limits the roller."
     ),
     {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
     "report.paragraphs.curvature",
@@ -142,8 +142,8 @@ DETAIL = 70.0
 CAREFUL = 0.15
 """By so much a careful hand misses a point [mm]."""
 ONLY_RESTS = say(
-    "In the moving phases no bend is readable, for too few points stand between the jumps of the acceleration: only "
-    "the rests are compared. More parts are needed."
+    "In the moving phases the curvature cannot be read, because there are too few points between the jumps of "
+    "the acceleration; only the dwells are compared. Use more parts."
 )
 """What is said where the radius of the moving phases is not known."""
 
@@ -179,7 +179,7 @@ def detail_of(curved: Curved) -> Detail | None:
 def _draw(curved: Curved) -> list[Step]:
     detail = detail_of(curved)
     if detail is None:
-        title, why = say("Curvature at the sharpest place"), say("Because three points on a line lie on no circle.")
+        title, why = say("Curvature at the sharpest point"), say("Because three points on a line lie on no circle.")
         return [Step(title, _unreadable(curved), PROFILE, (), why=why)]
     return [_chords(curved, detail), _bisected(curved, detail), _measured(curved, detail), _on_profile(curved)]
 
@@ -192,9 +192,9 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     if before:
         points = say("{before}, B and {after}", before=before, after=after)
     said = say(
-        "Look along the pitch curve for its strongest bend outward and call that place B: here {place}, at φ = "
-        "{phi:.1f}°. Copy {points} with dividers to a free place, {copied}, and join them: the chords measure "
-        "{first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the cam angle."
+        "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = "
+        "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}, and join them: the "
+        "chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the cam angle."
     ).where(
         place=_place(curved),
         phi=np.degrees(phi[1] % FULL_TURN),
@@ -217,7 +217,7 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     copies = say("Copy B and the points on both sides of it with dividers, {copied}.", copied=_copied(detail))
     joined = say("Join them with a ruler: {first:.2f} mm and {second:.2f} mm.", first=first, second=second)
     parts = (Part(copies, (triple,)), Part(joined, (chords,)))
-    title = say("Chords at the sharpest place")
+    title = say("Chords at the sharpest point")
     return Step(title, sequence([said, *more], " "), detail.view, marks, reads=("phi",), why=why, parts=parts)
 
 
@@ -243,25 +243,25 @@ def _missed(curved: Curved) -> list[Caption]:
     if _chosen(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
         return []
     said = say(
-        "If every point may be {careful:g} mm beside its place, ρ may be wrong by {missed}: 4 × {careful:g} mm × ρ/h², "
-        "with h = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
+        "If every point may be off by {careful:g} mm, ρ may be off by {missed}: 4 × {careful:g} mm × ρ/h², with "
+        "h = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
     ).where(careful=CAREFUL, missed=_percent(missed), chord=chord, rho=rho / mu_l)
     wide = _twice_as_wide(curved)
     if wide is None:
         return [said]
     names, other = wide
     wider = say(
-        "Chords twice as wide, over {names}, miss by a quarter of that; but the bend changes along them, and they read "
-        "ρ = {other:.1f} mm instead of {rho:.1f} mm. {advice}"
+        "Chords twice as long, over {names}, err by a quarter of that, but the curvature changes along them: "
+        "they give ρ = {other:.1f} mm instead of {rho:.1f} mm. {advice}"
     )
-    by_hand, keep = say("By hand these are the better ones."), say("So the short ones are the better ones.")
+    by_hand, keep = say("For drawing by hand the longer chords are better."), say("So the short chords are better.")
     advice = by_hand if abs(other - rho) < 0.75 * missed * rho else keep
     return [said, wider.where(names=sequence(names), other=other, rho=rho, advice=advice)]
 
 
 def _percent(part: float) -> Caption:
     """An error as part of what is measured."""
-    return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than itself")
+    return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than ρ itself")
 
 
 def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
@@ -285,14 +285,14 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
         "cross on either side of it, and draw the line through the two crossings. Do the same with {second:.1f} mm on "
         "the second chord. The two lines meet in O, the centre of curvature."
     ).where(first=settings[0], second=settings[1], share=COMPASS)
-    why = say("Because the centre of a circle is as far from one end of a chord as from the other.")
+    why = say("Because the centre of a circle is equally far from both ends of a chord.")
     drawn = say("Chord {number}: compass {setting:.1f} mm about both ends; draw the line through the two crossings.")
     halves = [
         Part(drawn.where(number=k + 1, setting=setting), of)
         for k, ((_, of), setting) in enumerate(zip(lines, settings, strict=True))
     ]
     hub, marks = detail.hub, [mark for made, _ in lines for mark in made]
-    found = Part(say("Call the place where both lines meet O."), (hub,))
+    found = Part(say("Call the point where both lines meet O."), (hub,))
     title, all_marks = say("Perpendicular bisectors"), (*marks, hub.dots(Role.RESULT), hub.label("O", hub.place))
     return Step(title, said, detail.view, all_marks, why=why, parts=(*halves, found))
 
@@ -300,9 +300,9 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
 def _measured(curved: Curved, detail: Detail) -> Step:
     """The radius, and the arc that shows how well it fits."""
     said = say(
-        "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the least radius of curvature of the "
-        "pitch curve is ρ = {rho:.3f} mm. Check with the compass: the arc about O through B passes through the points "
-        "beside it and hugs the curve."
+        "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
+        "the pitch curve is ρ = {rho:.3f} mm. Check with the compass: the arc about O through B passes through "
+        "the neighbouring points and follows the curve closely."
     ).where(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
     why = say("Because the circle through the three points replaces the curve near B, and its radius is OB.")
     marks, ob, circle = _radius(curved, detail)
@@ -321,7 +321,7 @@ def _on_profile(curved: Curved) -> Step:
         "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
         "centre turns about it while the roller passes B."
     ).where(paper=abs(b.place - o.place))
-    why = say("Because there it is seen how much of the cam is left between the roller and O.")
+    why = say("Because it shows how much of the cam is left between the roller and O.")
     marks = (
         Line(np.array([o.place, b.place]), Role.LIMIT, of=ob.act, index=ob.index.repeat(2)),
         *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),
@@ -333,10 +333,10 @@ def _unreadable(curved: Curved) -> Caption:
     """Why there is no radius."""
     if np.ravel(curved.givens.corner)[0]:
         return say(
-            "No bend is readable: beside a rest the curve turns by more than 45° within one part, so its sharpest "
-            "place lies between the points."
+            "The curvature cannot be read: next to a dwell the curve turns by more than 45° within one part, so "
+            "its sharpest point lies between the drawn points."
         )
-    return say("No bend is readable: the bisectors of neighbouring chords cross at less than a degree.")
+    return say("The curvature cannot be read: the bisectors of neighbouring chords cross at less than one degree.")
 
 
 def _chosen(curved: Curved) -> list[int]:
@@ -355,7 +355,7 @@ def _place(curved: Curved) -> Caption:
     if turns[1]:  # no stations in dwells
         dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
         return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell))
-    resting = say("station {name}, where the follower rests for an instant on an arc about the cam centre")
+    resting = say("station {name}, where the follower is at rest for an instant, on an arc about the cam centre")
     return resting.where(name=names[last])
 
 

@@ -22,15 +22,15 @@ REST = 1e-9
 _STRAIGHT = say("From {first} to {last} the points lie on one line: join them with the ruler.")
 _BENT = say("From {first} to {last} draw the curve through the points with the French curve.")
 _ALL_STRAIGHT = say(
-    "From jump to jump of the acceleration the points lie on one line: join them with the ruler, as the chords are the "
-    "curve."
+    "From jump to jump of the acceleration the points lie on one line: join them with the ruler, because the "
+    "chords are the curve."
 )
 _ALL_BENT = say("Draw a smooth curve through the points with the French curve, from jump to jump of the acceleration.")
 _EITHER = say(
     "Draw the curve through the points from jump to jump of the acceleration: with the ruler where they lie on one "
     "line, elsewhere with the French curve."
 )
-_LEVEL = say("In the dwells draw it level with the T-square.")
+_LEVEL = say("In the dwells draw it horizontally with the T-square.")
 
 
 def curve_over_phi(

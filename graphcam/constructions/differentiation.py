@@ -68,14 +68,14 @@ MEANING = Meaning(
     "differentiation",
     say("Velocity and acceleration by differentiation"),
     say(
-        "The measured displacement, differentiated: a parallel to each chord through the pole cuts off the velocity "
-        "in the middle of the interval. Differentiation enlarges every error of the hand."
+        "The measured displacement, differentiated: a parallel to each chord through the pole cuts off the "
+        "velocity in the middle of the interval. Differentiation amplifies every drawing error."
     ),
     {
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", over=partial(_cam_angles, "v_at")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²", over=partial(_cam_angles, "a_at")),
-        "max_v": ReadingMeaning(say("greatest v"), "max v", "lift/rad"),
-        "max_a": ReadingMeaning(say("greatest a"), "max a", "lift/rad²"),
+        "max_v": ReadingMeaning(say("maximum v"), "max v", "lift/rad"),
+        "max_a": ReadingMeaning(say("maximum a"), "max a", "lift/rad²"),
     },
     scales={VIEWS["s"].name: "rise", VIEWS["v"].name: "v", VIEWS["a"].name: "a"},
     scales_found_by="integration",
@@ -234,10 +234,13 @@ _TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
     "tangents": (
         say("Tangents to {source}"),
         say(
-            "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its image "
-            "without a corner: it stands on the normal. Draw the tangent square to it, and number it."
+            "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its "
+            "image without a corner: then it is on the normal. Draw the tangent square to it, and number it."
         ),
-        say("Because the tangent has the slope of {source} at its point, and a mirror shows it better than the eye."),
+        say(
+            "Because the tangent has the slope of {source} at its point, and a mirror finds it more exactly than "
+            "the eye."
+        ),
     ),
 }
 _ONE_TRACE: dict[By, Caption] = {
@@ -246,12 +249,13 @@ _ONE_TRACE: dict[By, Caption] = {
 }
 _ONE_RAY: dict[By, Caption] = {
     "chords": say(
-        "Slide the set square from chord {name} to P{index}: ray {name} ends on the vertical axis, {height}. With the "
-        "T-square carry that level to the upright in the middle of chord {name}: point {name} of {target}."
+        "Slide the set square from chord {name} to P{index}: ray {name} ends on the vertical axis, {height}. "
+        "With the T-square carry that height to the vertical in the middle of chord {name}: point {name} of "
+        "{target}."
     ),
     "tangents": say(
-        "Slide the set square from tangent {name} to P{index}: ray {name} ends on the vertical axis, {height}. With "
-        "the T-square carry that level to the upright of station {name}: point {name} of {target}."
+        "Slide the set square from tangent {name} to P{index}: ray {name} ends on the vertical axis, {height}. "
+        "With the T-square carry that height to the vertical of station {name}: point {name} of {target}."
     ),
 }
 _REPEAT = say("Repeat for the others, {count} in all.")
@@ -330,9 +334,9 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
         s.shown.size,
     )
     said = say(
-        "Mark them on the axis, 1 mm = {degrees:.4g}°, and number them from 0. Raise the displacement at each, 1 mm = "
-        "{mu:.4g} {unit}: station {name} lies {x:.2f} mm from the origin, and its ordinate is {y:.2f} mm. Join the "
-        "ends by a smooth curve with the French curve."
+        "Mark them on the axis, 1 mm = {degrees:.4g}°, and number them from 0. Draw the displacement as an "
+        "ordinate at each, 1 mm = {mu:.4g} {unit}: station {name} lies {x:.2f} mm from the origin, and its "
+        "ordinate is {y:.2f} mm. Join the ends by a smooth curve with the French curve."
     ).where(name=k, x=stations.shown[k].real, y=s.shown[k].imag, unit=unit(mu_s.unit), mu=mu_s.per_mm)
     told = [plotted_at, said.where(degrees=math.degrees(c.givens.mu_phi.per_mm))]
     if c.givens.turn:
@@ -406,8 +410,7 @@ def _joined(run: _Pass) -> Step:
     up, down = (abs(c.acts[f"{way} {target}"].place.imag) for way in ("highest", "lowest"))
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
     said = say(
-        "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, stands near point "
-        "{name}."
+        "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, is near point {name}."
     ).where(height=_raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
     why = say("Because {target} is wanted between the points too, above all its maximum.", target=target)
     return Step(say("Curve of {target}", target=target), said, _view(c, target), (_curve(c, target),), why=why)

@@ -34,8 +34,9 @@ MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
     say(
-        "The cam is held still and the frame is turned round it, against its rotation. In each position the face is "
-        "moved by its displacement and touches the cam beside its ray, where the velocity as a length puts it."
+        "The cam is held still and the frame is turned about it, against the cam's rotation. In each position "
+        "the face is moved by its displacement. It touches the cam beside its ray, at a distance equal to the "
+        "velocity as a length."
     ),
     {
         "face_left": ReadingMeaning(
@@ -90,7 +91,10 @@ def _draw(inverted: profile_view.Inverted) -> list[Step]:
         inverted,
         _contacts(inverted),
         say("Profile"),
-        say("Join the contacts by the smooth curve that touches every face at its contact: it is the envelope."),
+        say(
+            "Join the contact points by the smooth curve that touches every face at its contact point: it is the "
+            "envelope."
+        ),
     )
     why = say("Because the cam touches the face in every position and crosses it in none.")
     return [*adoption, _circle(inverted), _rays(inverted), _faces(inverted), touched, replace(profile, why=why)]
@@ -120,7 +124,7 @@ def _circle(inverted: profile_view.Inverted) -> Step:
         "Set the compass to {r0:g}/{mu_l:g} = {paper:.1f} mm, for r₀ = {r0:g} mm at {ratio}, and draw the prime circle "
         "about the cam centre A."
     ).where(r0=r0, mu_l=mu_l, paper=r0 / mu_l, ratio=ratio_text(mu_l))
-    why = say("Because the face stands r₀ from the cam centre before the follower rises.")
+    why = say("Because the face is r₀ from the cam centre before the follower rises.")
     step = profile_view.prime_step(inverted, say("Prime circle"), said, profile_view.start_of_turn(inverted))
     return replace(step, why=why)
 
@@ -147,7 +151,7 @@ def _rays(inverted: profile_view.Inverted) -> Step:
         *numbers(starts, stations, -unit(starts.shown)),
         *phases,
     )
-    why = say("Because, seen from the cam, the follower goes round the other way and comes to the same places of it.")
+    why = say("Because, seen from the cam, the follower goes round the other way and meets the same points of the cam.")
     title = say("Rays of the inverted positions")
     return Step(title, said, PROFILE, marks, why=why, parts=(*parts, last))
 
@@ -155,11 +159,11 @@ def _rays(inverted: profile_view.Inverted) -> Step:
 def _ray(inverted: profile_view.Inverted, k: int, against: Caption) -> Caption:
     angle = math.degrees(inverted.givens.integrated.givens.stations.phi[k])
     said = (
-        say("Ray {name}: draw the upright from the cam centre to the prime circle.")
+        say("Ray {name}: draw the vertical from the cam centre to the prime circle.")
         if angle < NOTHING
         else say(
-            "Ray {name}: set the protractor to {angle:.2f}° from the upright, {against}, and draw from the cam centre "
-            "to the prime circle."
+            "Ray {name}: set the protractor to {angle:.2f}° from the vertical, {against}, and draw from the cam "
+            "centre to the prime circle."
         )
     )
     return said.where(name=_name(inverted, k), angle=angle, against=against)
@@ -185,7 +189,7 @@ def _faces(inverted: profile_view.Inverted) -> Step:
         *(feet.from_(starts, Role.CONSTRUCTION), feet.dots(Role.CONSTRUCTION)),
         Segments(left, right, Role.CONSTRUCTION, of=faces.act, index=faces.index),
     )
-    why = say("Because the face stands r₀ + s from the cam centre, square to the motion.")
+    why = say("Because the face is r₀ + s from the cam centre, square to the motion.")
     parts = tuple(Part(caption, (feet[k], faces[k])) for k, caption in enumerate(captions))
     return Step(say("Faces"), said, PROFILE, marks, why=why, parts=parts)
 
@@ -209,9 +213,9 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
     rises = _side(sense(inverted.givens.rotation))
     captions = [_contact(inverted, k) for k in range(pitch.shown.size)]
     laid_off = say(
-        "From the end of each ray lay off the velocity along the face with the dividers: its ordinate times μᵥ/μₗ = "
-        "{mu:.4g}/{mu_l:g} = {factor:.4f}, on a rise {side}, seen from the cam centre, and on a return to the other "
-        "side. {one} Repeat for the others, and number the contacts."
+        "From the end of each ray lay off the velocity along the face with the dividers: its ordinate times "
+        "μᵥ/μₗ = {mu:.4g}/{mu_l:g} = {factor:.4f}, on a rise {side}, seen from the cam centre, and on a return "
+        "to the other side. {one} Repeat for the others, and number the contact points."
     ).where(side=rises, one=captions[_worked(inverted)], **_on_profile(inverted, "v", 0))
     widths = {side: float(inverted.value(f"face_{side}")) for side in ("left", "right")}
     widest = say(
@@ -224,15 +228,17 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
     )
     reads = ("face_left", "face_right", "contact", *profile_view.CURVE_READINGS)
     said = sequence([laid_off, widest], " ")
-    return Step(say("Contacts"), said, PROFILE, (), reads, why=why, parts=parts)
+    return Step(say("Contact points"), said, PROFILE, (), reads, why=why, parts=parts)
 
 
 def _contact(inverted: profile_view.Inverted, k: int) -> Caption:
     values, v = _on_profile(inverted, "v", k), float(inverted.givens.integrated.first("v")[k])
     said = (
-        say("Station {name}: the follower does not move, so the contact is the end of ray {name}.")
+        say("Station {name}: the follower does not move, so the contact point is the end of ray {name}.")
         if values["mm"] < NOTHING
-        else say("Station {name}: {mm:.2f} mm × {factor:.4f} = {length:.2f} mm {side} along the face: the contact.")
+        else say(
+            "Station {name}: {mm:.2f} mm × {factor:.4f} = {length:.2f} mm {side} along the face: the contact point."
+        )
     )
     side = _side(v * sense(inverted.givens.rotation))
     return said.where(name=_name(inverted, k), side=side, **values)

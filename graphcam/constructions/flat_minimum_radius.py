@@ -31,7 +31,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
 from graphcam.words import sequence
 
-OVER_ACCELERATION = replace(COMBINED, title=say("Displacement over acceleration: the least radius"))
+OVER_ACCELERATION = replace(COMBINED, title=say("Displacement over acceleration: the minimum radius"))
 """Where another follower has the velocity, a flat face has the acceleration."""
 DOWN_LEFT = -RIGHT - UP
 """Square to the lines of equal s + a, towards smaller ones."""
@@ -64,24 +64,26 @@ FlatCurved = Construction[FlatCurvatureGivens]
 
 LEAST_RADIUS_MEANING = Meaning(
     "minimum_radius",
-    say("Least prime radius"),
+    say("Minimum prime radius"),
     say(
-        "Under a flat face the profile has the radius of curvature ρ = r₀ + s + a, and no pressure angle limits it. "
-        "Drawn over the acceleration, the displacement shows where s + a is least: a tangent at 45° touches it there."
+        "Under a flat face the profile has the radius of curvature ρ = r₀ + s + a, and no pressure angle limits "
+        "it. Drawn over the acceleration, the displacement shows where s + a has its minimum: a tangent at 45° "
+        "touches it there."
     ),
-    {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("greatest −(s + a)"), "−(s + a)", "mm")},
+    {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("maximum of −(s + a)"), "−(s + a)", "mm")},
 )
 CURVATURE_MEANING = Meaning(
     "curvature",
-    say("Least radius of curvature"),
+    say("Minimum radius of curvature"),
     say(
-        "The prime radius is adopted, and s + a is drawn already: their sum is the radius of curvature of the profile. "
-        "The least of it tells how sharp the cam is."
+        "The prime radius is adopted, and s + a is drawn already: their sum is the radius of curvature of the "
+        "profile. Its minimum tells how sharp the cam is."
     ),
     # It may be negative here, and has no rival.
     {
         "rho": replace(
-            LEAST_CURVATURE["rho"], compared=(Compared("min_pitch_curvature_radius", say("least curvature radius ρ")),)
+            LEAST_CURVATURE["rho"],
+            compared=(Compared("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
         )
     },
 )
@@ -181,9 +183,9 @@ def _laid_off(region: FlatRegion) -> Step:
     ends = [(near[jumps.index(k)], after[k]) if k in jumps else (after[k],) for k in range(after.shown.size)]
     worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
     how = say(
-        "With the T-square carry each displacement across to an upright axis. From there lay off the acceleration "
-        "level with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = {factor:.4f}, to the right "
-        "where it is positive."
+        "With the T-square carry each displacement across to a vertical axis. From there lay off the "
+        "acceleration horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = "
+        "{factor:.4f}, to the right where it is positive."
     ).where(factor=_factor(region), **{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
     said = sequence([how, captions[worked], say("Repeat for the others, and number the ends.")], " ")
     why = say("Because ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
@@ -215,7 +217,7 @@ def _station(region: FlatRegion, k: int) -> Caption:
         )
         return both.where(**said, near=_level(before, region))
     if abs(a) < NOTHING:
-        return say("Station {name}: mark the axis of s {height}; there is no acceleration.").where(**said)
+        return say("Station {name}: mark the axis of s {height}; the acceleration is zero.").where(**said)
     return say("Station {name}: mark the axis of s {height}, and from there lay off {after}.").where(**said)
 
 
@@ -250,7 +252,7 @@ def _joined(region: FlatRegion) -> Step:
         said = say("From {start} to {end}: draw along the French curve through the ends.", start=start, end=end)
         parts.append(Part(said, (line,)))
     for k, last in enumerate(_rests(integrated)):
-        said = say("In the dwell after {name} there is no acceleration: mark the point of the axis {height}.")
+        said = say("In the dwell after {name} the acceleration is zero: mark the point of the axis {height}.")
         parts.append(Part(said.where(name=names[last], height=_raised(rests.shown[k].imag)), (rests[k],)))
     said = say(
         "Join the ends by smooth curves with the French curve, from each jump or corner of the acceleration to the "
@@ -269,7 +271,8 @@ def _touched(region: FlatRegion) -> Step:
         "edge touches the curve and crosses it nowhere: near {name}."
     ).where(name=_nearest(region, line.place))
     read = say(
-        "The edge meets the axis of s {height}, so the greatest −(s + a) is {paper:.2f} mm × {mu:.5g} = {need:.3f} mm."
+        "The edge meets the axis of s {height}, so the maximum of −(s + a) is {paper:.2f} mm × {mu:.5g} = "
+        "{need:.3f} mm."
     ).where(height=_raised(zero.place.imag), mu=region.readings["need"].per_mm, need=need)
     read = read.where(paper=float(region.first("need")) + 0.0)
     lean = say(
@@ -285,9 +288,7 @@ def _touched(region: FlatRegion) -> Step:
     return Step(
         say("The tangent at 45 degrees"),
         *(sequence([slide, read, lean], " "), OVER_ACCELERATION, marks, ("need",)),
-        why=say(
-            "Because along a line at 45° s + a stays the same, and it is less on every line farther to the lower left."
-        ),
+        why=say("Because s + a is constant along a line at 45°, and smaller on every line farther to the lower left."),
         parts=(Part(slide, (line,)), Part(read, (zero,))),
     )
 
@@ -306,22 +307,24 @@ def _found(region: FlatRegion) -> Step:
     r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
     if r0 > 0:
         said = say(
-            "The profile may nowhere be sharper than ρ = {least:g} mm: r₀ = {sum} = {r0:.3f} mm. Set the dividers to "
-            "{r0:.3f}/{mu:.5g} = {paper:.2f} mm and lay it off from the crossing of the axes straight down to the cam "
-            "centre A₀."
+            "The radius of curvature of the profile must be at least ρ = {least:g} mm: r₀ = {sum} = {r0:.3f} mm. "
+            "Set the dividers to {r0:.3f}/{mu:.5g} = {paper:.2f} mm and lay it off from the crossing of the axes "
+            "straight down to the cam centre A₀."
         ).where(least=least, sum=_sum(least, need), r0=r0, mu=mu, paper=r0 / mu)
     else:
         said = say(
-            "The profile may nowhere be sharper than ρ = {least:g} mm, and r₀ = {sum} would not be positive: any prime "
-            "radius will do, and the cam centre A₀ is the crossing of the axes."
+            "The radius of curvature of the profile must be at least ρ = {least:g} mm, and r₀ = {sum} is not "
+            "positive: any prime radius will do, and the cam centre A₀ is the crossing of the axes."
         ).where(least=least, sum=_sum(least, need))
     radius = say("min r₀ = {r0:.2f}", r0=r0)
     marks = (
         *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
         Dimension(0j, centre.place, radius, -10.0, region.readings["prime_radius"].act),
     )
-    why = say("Because the least of ρ = r₀ + s + a is r₀ less the greatest −(s + a), and must be the permitted ρ.")
-    return Step(say("The least prime radius"), said, OVER_ACCELERATION, marks, ("prime_radius",), why=why)
+    why = say(
+        "Because the minimum of ρ = r₀ + s + a is r₀ minus the maximum of −(s + a), and must equal the permitted ρ."
+    )
+    return Step(say("The minimum prime radius"), said, OVER_ACCELERATION, marks, ("prime_radius",), why=why)
 
 
 def _sum(least: float, need: float) -> Caption:
@@ -354,8 +357,8 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
         say("From A up to where the 45° line meets the axis it measures {paper:.2f} mm × {mu:.5g} = {rho:.3f} mm.")
         if value > 0
         else say(
-            "The 45° line meets the axis {paper:.2f} mm × {mu:.5g} below A: ρ = {rho:.3f} mm, so the profile would "
-            "have to turn inside out."
+            "The 45° line meets the axis {paper:.2f} mm × {mu:.5g} below A: ρ = {rho:.3f} mm, so the profile "
+            "would turn inside out."
         )
     ).where(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
     named = say("ρ = {rho:.2f}", rho=value)
@@ -363,11 +366,11 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
     marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, rho.act))
     return [
         Step(
-            say("The least radius of curvature"),
+            say("The minimum radius of curvature"),
             *(sequence([placed, measured], " "), OVER_ACCELERATION, marks, ("rho",)),
             why=say(
-                "Because A lies r₀ below the axis of a and the line the greatest −(s + a): between them is the least "
-                "r₀ + s + a."
+                "Because A lies r₀ below the axis of a, and the line lies the maximum of −(s + a) below it: the "
+                "difference is the minimum of r₀ + s + a."
             ),
             parts=(Part(placed, (centre,)), Part(measured, ())),
         )

@@ -60,8 +60,8 @@ MEANING = Meaning(
     "force_plan",
     say("Force plan"),
     say(
-        "Load, contact force and the reaction of the guide are in balance. Three directions and one size are known: "
-        "a triangle."
+        "Load, contact force and the reaction of the guide are in equilibrium. Three directions and one "
+        "magnitude are known, which determine a triangle."
     ),
     {
         "load": ReadingMeaning(say("load Q"), "Q", "N"),
@@ -233,7 +233,9 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         *(said.where(way=say("down") if load > 0 else say("up")), view),
         (foot.arrow(0j, Role.CURVE), label, tail_and_head),
         reads=("load",),
-        why=say("Because inertia, spring and preload act along the motion: this force is known in size and direction."),
+        why=say(
+            "Because inertia, spring and preload act along the motion: this force is known in magnitude and direction."
+        ),
     )
 
 
@@ -242,8 +244,8 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     normal, length = plan.acts["line of F"].first, float(plan.first("normal"))
     alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
     said = say(
-        "At the head of Q set the protractor to α = {alpha:.2f}° from the upright {side}, and draw the line of the "
-        "contact force F there, parallel to the contact normal of this station."
+        "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
+        "the contact force F there, parallel to the contact normal of this station."
     ).where(alpha=abs(math.degrees(alpha)), side=towards(side_of(plan)))
     reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
     radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
@@ -255,7 +257,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
         angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
     )
-    why = say("Because the cam pushes along the contact normal, which leans by the pressure angle to the motion.")
+    why = say("Because the cam pushes along the contact normal, which makes the pressure angle with the motion.")
     return Step(say("The line of the contact force"), said, view, marks, why=why)
 
 
@@ -271,26 +273,26 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     across = Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
     if guide is None or not guide.friction:
         said = say(
-            "With the T-square draw the level line through the tail of Q: on it lies the reaction R of the guide."
+            "With the T-square draw the horizontal line through the tail of Q: on it lies the reaction R of the guide."
         )
-        why = say("Because a guide without friction only pushes square to the motion.")
+        why = say("Because a guide without friction can push only square to the motion.")
         return Step(title, said, view, (across,), why=why)
     base, incline, (s,) = plan.acts["base"].first, plan.acts["incline"].first, _values(plan, "s")
     height = float(_incline(guide, _direction(plan), np.array(s)))
     values = {"base": BASE, "side": towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
     values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
     told = (
-        say("With the dividers lay off {base:g} mm from the tail of Q level {side}, for l = {length:g} mm."),
+        say("With the dividers lay off {base:g} mm from the tail of Q horizontally {side}, for l = {length:g} mm."),
         say(
             "From there lay off {base:g} · μ(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
             "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
         ),
-        say("Join the tail of Q to this place with the ruler: on this line lies the reaction R of the guide."),
+        say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide."),
     )
     told = [each.where(**values) for each in told]
     marks = (*(across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)),)
     why = say(
-        "Because the nearer bearing bears (l + b)/l of the side force and the farther one b/l, so friction is "
+        "Because the nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is "
         "μ(l + 2b)/l of it and acts against the motion."
     )
     parts = tuple(Part(each, (left,)) for each, left in zip(told, (base, incline, line), strict=True))
@@ -300,8 +302,8 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
 def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The last step where there is no third corner."""
     said = say(
-        "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its guide, or "
-        "the load does not press it on the cam."
+        "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
+        "guide, or the load does not press it onto the cam."
     )
     why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
     return Step(say("The triangle does not close"), said, view, (), why=why)
@@ -327,9 +329,9 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
         ),
         (
             say(
-                "With the T-square carry the corner level to the line of Q. Along the motion F cos α measures "
-                "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it F sin α {side_mm:.1f} mm × {mu:g} = "
-                "{side:.1f} N."
+                "With the T-square carry the corner horizontally to the line of Q. Along the motion F cos α "
+                "measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it F sin α {side_mm:.1f} mm × "
+                "{mu:g} = {side:.1f} N."
             ),
             level,
         ),
@@ -348,6 +350,6 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
     return Step(
         say("The triangle of forces"),
         *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
         parts=tuple(parts),
     )

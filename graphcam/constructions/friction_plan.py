@@ -61,8 +61,8 @@ MEANING = Meaning(
     "force_plan",
     WITHOUT.title,
     say(
-        "Load, contact force and the reaction of the guide are in balance. With friction the contact force leans from "
-        "the normal: three directions and one size are known, a triangle."
+        "Load, contact force and the reaction of the guide are in equilibrium. With friction the contact force "
+        "is inclined to the normal. Three directions and one magnitude are known, which determine a triangle."
     ),
     {
         "load": WITHOUT.readings["load"],
@@ -146,8 +146,8 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
     foot, direction = normal.place, complex(normal.directions)
     said = say(
-        "At the head of Q set the protractor to α = {alpha:.2f}° from the upright {side}, and draw the contact normal "
-        "of this station there."
+        "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
+        "normal of this station there."
     ).where(alpha=abs(math.degrees(alpha)), side=towards(-1.0 if direction.real < 0 else 1.0))
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
     radius = 0.4 * min(reach, LOAD_LENGTH)
@@ -172,7 +172,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     told = (
         say("With the dividers lay off {base:g} mm on the normal from the head of Q."),
         say("From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."),
-        say("Join the head of Q to this place with the ruler: on this line lies the contact force F."),
+        say("Join the head of Q to this point with the ruler: on this line lies the contact force F."),
     )
     captions = [each.where(**values) for each in told]
     along = complex(line.directions) / abs(complex(line.directions))
@@ -182,8 +182,8 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     )
     marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
     why = say(
-        "Because the cam slides past the follower in its own sense and drags it along the profile with μN, so F leans "
-        "from the normal by the angle whose tangent is μ."
+        "Because the cam slides past the follower in its own sense and drags it along the profile with μN, so F "
+        "makes the friction angle, whose tangent is μ, with the normal."
     )
     parts = tuple(Part(each, (left,)) for each, left in zip(captions, (base, incline, line), strict=True))
     return Step(say("The line of the contact force"), sequence(captions, " "), view, marks, why=why, parts=parts)
@@ -209,17 +209,17 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         ),
         (
             say(
-                "From the corner draw the square to the normal with the set squares. On the normal it cuts off the "
-                "normal force N = {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N, and it is itself the friction T = "
-                "{contact_friction_mm:.1f} mm × {mu:g} = {contact_friction:.1f} N."
+                "From the corner draw the perpendicular to the normal with the set squares. It cuts off on the "
+                "normal the normal force N = {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N, and it is itself the "
+                "friction T = {contact_friction_mm:.1f} mm × {mu:g} = {contact_friction:.1f} N."
             ),
             (square, tip, normal, friction),
         ),
         (
             say(
-                "With the T-square carry the tip of N level to the line of Q. Along the motion N cos α measures "
-                "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × {mu:g} = "
-                "{side:.1f} N."
+                "With the T-square carry the tip of N horizontally to the line of Q. Along the motion N cos α "
+                "measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × "
+                "{mu:g} = {side:.1f} N."
             ),
             (level,),
         ),
@@ -239,6 +239,6 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     return Step(
         say("The triangle of forces"),
         *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because the three forces are in balance, and forces in balance close when they are drawn end to end."),
+        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
         parts=parts,
     )

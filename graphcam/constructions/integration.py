@@ -72,9 +72,9 @@ MEANING = Meaning(
     "integration",
     say("Velocity, displacement and the scales"),
     say(
-        "A ray from the pole to an ordinate y has the slope y/H; a chord parallel to it across a part Δx climbs by "
-        "y·Δx/H: the area of the part, divided by the pole distance. Twice, and the known lift fixes the scales: "
-        "μᵥ = μₛ/(μᵩ·H₂), μₐ = μᵥ/(μᵩ·H₁)."
+        "A ray from the pole to an ordinate y has the slope y/H; a chord parallel to it across a part Δx climbs "
+        "by y·Δx/H: the area of the part, divided by the pole distance. After two integrations the known lift "
+        "fixes the scales: μᵥ = μₛ/(μᵩ·H₂), μₐ = μᵥ/(μᵩ·H₁)."
     ),
     {
         "s": ReadingMeaning(
@@ -83,10 +83,10 @@ MEANING = Meaning(
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("greatest v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
+            say("maximum v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
         ),
         "max_a": ReadingMeaning(
-            say("greatest a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
+            say("maximum a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
@@ -111,7 +111,7 @@ def integration(
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
     axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
-    uprights = hand.erect("uprights", axis)
+    uprights = hand.erect("verticals", axis)
 
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
@@ -232,16 +232,18 @@ class _Integrating:
 
 
 _AT_REST = say(
-    "A phase ends at rest: the velocity left there, {left:.2f} mm at most, is taken up by turning the base line."
+    "Each phase ends at rest: the residual velocity there, at most {left:.2f} mm, is removed by rotating the base line."
 )
-_SHARED_OUT = say("The displacement left at the end of the turn, {left:.2f} mm, is shared out along the returns.")
-_CORNERS = say("Because the slope of v is the acceleration, v has a corner where that jumps, and is smooth elsewhere.")
-_SMOOTH = say(
-    "Because the slope of s is the velocity, which never jumps, the pieces of s have one tangent at their ends."
+_SHARED_OUT = say("The residual displacement at the end of the turn, {left:.2f} mm, is distributed over the returns.")
+_CORNERS = say(
+    "Because the slope of v is the acceleration, v has a corner where the acceleration jumps, and is smooth elsewhere."
 )
+_SMOOTH = say("Because the slope of s is the velocity, which never jumps, adjoining pieces of s share a tangent.")
 _PASSES = (
-    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST, _CORNERS, say("At {first} it turns a corner.")),
-    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT, _SMOOTH, say("At {first} it keeps its tangent.")),
+    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST, _CORNERS, say("At {first} it has a corner.")),
+    _Integrating(
+        2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT, _SMOOTH, say("At {first} the tangent is continuous.")
+    ),
 )
 
 
@@ -266,9 +268,9 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
     )
     told = kept[min(2, len(kept) - 1)]
     joined = say(
-        "Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0. Carry each middle ordinate "
-        "of {source} level to the vertical axis with the T-square, join it there to the pole with the ruler, and "
-        "number the ray as the part; equal ordinates share one ray."
+        "Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0. Carry each middle "
+        "ordinate of {source} horizontally to the vertical axis with the T-square, join it there to the pole "
+        "with the ruler, and give the ray the number of the part; equal ordinates share one ray."
     ).where(index=run.subscript, distance=distance, source=source)
     cut = _SHARED_CUT if len(same[kept.index(told)]) > 1 else _CUT
     joined = sequence([joined, cut.where(name=names[kept.index(told)], y=height[told])], " ")
@@ -286,14 +288,14 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
 
 
 _CUT = say("Ray {name} cuts the vertical axis at {y:.2f} mm.")
-_SHARED_CUT = say("Rays {name}, which are one, cut the vertical axis at {y:.2f} mm.")
+_SHARED_CUT = say("Rays {name} coincide and cut the vertical axis at {y:.2f} mm.")
 _RAY = say(
-    "Ray {name}: carry the middle ordinate of part {name}, {source} = {y:z.2f} mm, level to the vertical axis; join it "
-    "to P{index}."
+    "Ray {name}: carry the middle ordinate of part {name}, {source} = {y:z.2f} mm, horizontally to the vertical "
+    "axis; join it to P{index}."
 )
 _SHARED_RAY = say(
-    "Rays {name} are one: the middle ordinates of these parts are equal, {source} = {y:z.2f} mm; carry one level to "
-    "the vertical axis, join it to P{index}."
+    "Rays {name} coincide: the middle ordinates of these parts are equal, {source} = {y:z.2f} mm; carry one "
+    "horizontally to the vertical axis, join it to P{index}."
 )
 
 
@@ -323,9 +325,9 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     values = {"width": width, "distance": c.givens.poles[run.index - 1], "rise": y[k] - y[k - 1]}
     values |= {"name": part_names(stations)[part], "height": c.acts[f"heights for {target}"].shown.imag[part]}
     said = say(
-        "In each part draw a chord parallel to its ray with two set squares, from the end of the chord before to the "
-        "next upright, and number its end. Chord {name} climbs by y·Δx/H = {height:.2f}·{width:.2f}/{distance:.1f} = "
-        "{rise:.2f} mm."
+        "In each part draw a chord parallel to its ray with two set squares, from the end of the previous chord "
+        "to the next vertical, and number its end. Chord {name} climbs by y·Δx/H = "
+        "{height:.2f}·{width:.2f}/{distance:.1f} = {rise:.2f} mm."
     ).where(**values)
     if left > NOTHING:
         said = sequence([said, run.closing.where(left=left)], " ")
@@ -356,8 +358,8 @@ def _chord_parts(c: Integrated, run: _Integrating, phase: int) -> Iterator[Part]
         rise = y[k] - y[k - 1]
         change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
         said = say(
-            "Chord {name}: slide the set square from ray {name} to point {before}, draw as far as upright {name}; "
-            "{change}."
+            "Chord {name}: slide the set square from ray {name} to point {before}, draw as far as vertical "
+            "{name}; {change}."
         )
         # The first chord of v starts at rest, where the phase does.
         drawn = [k - 1, k] if k == span.start + 1 and run.index == 1 else [k]
@@ -365,11 +367,11 @@ def _chord_parts(c: Integrated, run: _Integrating, phase: int) -> Iterator[Part]
 
 
 _STARTS = (
-    say("Start of {phase}: upright {name}, on the axis."),
-    say("Start of {phase}: carry the end of the phase before, {y:.2f} mm high, level to upright {name}."),
-    say("Start of {phase}: upright {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below."),
+    say("Start of {phase}: vertical {name}, on the axis."),
+    say("Start of {phase}: carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}."),
+    say("Start of {phase}: vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below."),
 )
-_CHANGES = say("it runs level"), say("it climbs {rise:.2f} mm"), say("it falls {rise:.2f} mm")
+_CHANGES = say("it is horizontal"), say("it climbs {rise:.2f} mm"), say("it falls {rise:.2f} mm")
 
 
 def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
@@ -393,8 +395,8 @@ def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
 
 
 _SHARED = (
-    say("Share out what is left, {by:+.2f} mm at {last} and in proportion less back to {first}."),
-    say("Share out what is left, {start:+.2f} mm at {first} to {by:+.2f} mm at {last} and in proportion between."),
+    say("Distribute the residual: {by:+.2f} mm at {last}, decreasing in proportion back to {first}."),
+    say("Distribute the residual: {start:+.2f} mm at {first} to {by:+.2f} mm at {last}, in proportion between them."),
 )
 
 

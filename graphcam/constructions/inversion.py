@@ -35,8 +35,8 @@ MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
     say(
-        "The cam is held still and the frame is turned round it, against its rotation. In each position the follower "
-        "is moved by its displacement: the places that it takes make the cam."
+        "The cam is held still and the frame is turned about it, against the cam's rotation. In each position "
+        "the follower is moved by its displacement: its positions give the cam."
     ),
     profile_view.CURVE,
     "report.translating_paragraphs.inversion",
@@ -102,17 +102,20 @@ def _circles(inverted: OffsetInverted) -> Step:
     values = {"r0": r0, "paper": r0 / mu_l, "ratio": ratio_text(mu_l), "line": _first_line(inverted)}
     if not e:
         said = say(
-            "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the cam "
-            "centre A. Draw the upright from A to the circle: {line}."
+            "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the "
+            "cam centre A. Draw the vertical from A to the circle: {line}."
         )
-        why = say("Because a central follower points at the cam centre in every position, and s begins at r₀.")
-        upright = Part(say("Draw the upright from A up to the circle: {line}.", line=values["line"]), (line, top))
+        why = say(
+            "Because with e = 0 the follower's line passes through the cam centre in every position, and s "
+            "is counted from the prime circle."
+        )
+        upright = Part(say("Draw the vertical from A up to the circle: {line}.", line=values["line"]), (line, top))
         parts, title, marks = (upright,), say("Prime circle"), (drawn,)
         return profile_view.prime_step(inverted, title, said.where(**values), start, (), marks, why=why, parts=parts)
     said = say(
-        "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the cam centre "
-        "A; set it to {e_paper:.1f} mm and draw the offset circle, e = {e:g} mm. Draw the upright that touches the "
-        "offset circle on the {side}: {line}."
+        "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the cam "
+        "centre A; set it to {e_paper:.1f} mm and draw the offset circle, e = {e:g} mm. Draw the vertical that "
+        "touches the offset circle on the {side}: {line}."
     ).where(e=e, e_paper=abs(e) / mu_l, side=_side(inverted), **values)
     why = say(
         "Because the follower's line passes the cam centre at the distance e in every position, it always touches the "
@@ -120,7 +123,7 @@ def _circles(inverted: OffsetInverted) -> Step:
     )
     circle = inverted.acts["offset circle"]
     arrow, of_arrow = profile_view.radius_arrow(inverted, circle, start * UP, "e", abs(e))
-    upright = say("Draw the upright from the {side} end of the offset circle up to the prime circle: {line}.")
+    upright = say("Draw the vertical from the {side} end of the offset circle up to the prime circle: {line}.")
     parts = (
         Part(profile_view.compass_said(inverted, "|e|", abs(e)), (circle, *of_arrow)),
         Part(upright.where(side=_side(inverted), line=values["line"]), (line, top)),
@@ -154,16 +157,17 @@ def _positions(inverted: OffsetInverted) -> Step:
         "number the rays. The phases take {angles}."
     )
     tangents = say(
-        "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
-        "A, count {against} from the {side} end of the offset circle, from station to station {steps}, so station "
-        "{name} at {angle}; mark the places on the offset circle. At each draw with set squares the tangent, square to "
-        "the radius, to the same side as {line}, and number it. The phases take {angles}."
+        "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the "
+        "protractor on A, count {against} from the {side} end of the offset circle, from station to station "
+        "{steps}, so station {name} at {angle}; mark these points on the offset circle. At each draw the tangent "
+        "with set squares, square to the radius, to the same side as {line}, and number it. The phases take "
+        "{angles}."
     )
     line = _first_line(inverted)
     said = (tangents if e else said).where(side=_side(inverted), line=line, **profile_view.divided_by(inverted))
     why = say(
-        "Because only the motion relative to the cam shapes it: a frame that goes round the resting cam {against} is "
-        "the same as a cam that turns {rotation} in the frame."
+        "Because only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
+        "is the same as a cam that turns {rotation} in the frame."
     ).where(rotation=turning(inverted.givens.rotation), against=profile_view.against(inverted))
     title = say("Inverted positions of the follower's line")
     parts = [_position(inverted, k) for k in range(stations.u.size)]
@@ -175,7 +179,7 @@ def _position(inverted: OffsetInverted, k: int) -> Part:
     rays, *drawn = (inverted.acts[name].first[k] for name in ("inverted positions", "feet", "starts", "motion"))
     ray = say("Station {name}: set off {angle} at A, {against} from {line}, and draw ray {name}.")
     tangent = say(
-        "Station {name}: set off {angle} at A, {against} from the {side} end of the offset circle; at the place found "
+        "Station {name}: set off {angle} at A, {against} from the {side} end of the offset circle; at this point "
         "draw tangent {name}, square to the radius, as far as the prime circle."
     )
     names = station_names(inverted.givens.integrated.givens.stations)
@@ -213,8 +217,8 @@ def _laid_off(inverted: OffsetInverted) -> Step:
     if (_lengths(inverted) < 0).any():
         said = sequence([said, say("A negative s is laid off inward.")], " ")
     why = say(
-        "Because at s = 0 the trace point stands on the prime circle, and in every position it has moved outward along "
-        "the follower's line by s."
+        "Because at s = 0 the trace point is on the prime circle, and in every position it has moved outward "
+        "along the follower's line by s."
     )
     parts = tuple(Part(_length_said(inverted, k), (pitch.first[k],)) for k in range(stations.u.size))
     reads = profile_view.CURVE_READINGS

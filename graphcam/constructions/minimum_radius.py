@@ -63,10 +63,10 @@ LeastRadius = Construction[LeastRadiusGivens]
 
 MEANING = Meaning(
     "minimum_radius",
-    say("Least prime radius"),
+    say("Minimum prime radius"),
     say(
-        "The least radius is found before there is a cam, from displacement and velocity alone: every place of the "
-        "cam centre sees them under the pressure angles that it would cause."
+        "The minimum radius is found before the cam exists, from displacement and velocity alone: from each "
+        "position of the cam centre they are seen at the pressure angles that it would cause."
     ),
     {
         "prime_radius": LEAST_RADIUS,
@@ -139,14 +139,14 @@ ANGLE_RADIUS = 22.0
 """Radius of the arcs that show the permitted angles [mm]."""
 HIGH, LOW = 0.12, 0.85
 """So far down the lines of the region their angles are shown."""
-LINES = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "rest")}
+LINES = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "dwell")}
 """The lines that bound the region, by what they limit."""
-NAMED = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the rest line")}
+NAMED = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the dwell line")}
 """The same inside a sentence."""
 LIMITED = {
     "rise": say_in("a limit", "on the rise"),
     "return": say_in("a limit", "on the return"),
-    "rest": say_in("a limit", "at zero lift"),
+    "rest": say_in("a limit", "in the lower dwell"),
 }
 """Where each of them limits the pressure angle."""
 CURVES = {"rise": say("the curve of the rise"), "return": say("the curve of the return")}
@@ -154,7 +154,7 @@ SLIDES = {
     1: say("leaning to the right going up, and slide it in from the lower right"),
     -1: say("leaning to the left going up, and slide it in from the lower left"),
 }
-PLACES = {"foot": say("foot from B₀"), "apex": say("apex"), "central": say("central (e = 0)")}
+PLACES = {"foot": say("foot of the perpendicular"), "apex": say("apex"), "central": say("central (e = 0)")}
 """The places that textbooks take besides the nearest one."""
 FOUND = {
     "foot": say(
@@ -194,8 +194,8 @@ def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
         further.append(say("A spring drives the return (force closure), so no line is drawn for the return."))
     said = sequence([*(part.caption for part in parts), *further], " ")
     why = say(
-        "Because from a place on a tangent the end of v that it touches is seen at just the permitted angle to the "
-        "motion, and from the places below it at less."
+        "Because from a point on a tangent the end of v that it touches is seen at exactly the permitted angle "
+        "to the motion, and from points below the tangent at less."
     )
     marks = tuple(mark for _, drawn in lines for mark in drawn)
     return Step(say("Tangents at the permitted angles"), said, COMBINED, marks, why=why, parts=parts)
@@ -228,8 +228,8 @@ def _limit_line(
     lean = float(line.along.real)
     if line.name == "rest":
         said = say(
-            "From B₀ draw the rest line at {angle} to the line of motion, down {side}: it keeps the angle at zero lift "
-            "within its limit."
+            "From B₀ draw the dwell line at {angle} to the line of motion, down {side}: it keeps the angle in "
+            "the lower dwell within its limit."
         ).where(angle=angle, side=aside(lean))
     else:
         said = say(
@@ -258,8 +258,8 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
     """How far from the line of motion the rise's boundary meets zero lift."""
     place = region.acts["rise at zero lift"].place
     if np.isnan(place):
-        return say("The rise line meets the level of B₀ too flatly to be read.")
-    said = say("The rise line meets the level of B₀ {distance:.1f} mm {side} of it.")
+        return say("The rise line meets the horizontal through B₀ at too flat an angle to be read.")
+    said = say("The rise line meets the horizontal through B₀ {distance:.1f} mm {side} of it.")
     return said.where(distance=abs(place.real), side=aside(place.real))
 
 
@@ -267,7 +267,7 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     """The region, and the places that textbooks take."""
     hand, lines, others = showing(region), _shown(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
-    hatch = say("Hatch below the lines what none of them cuts off.")
+    hatch = say("Hatch the region below the lines that none of them cuts off.")
     sides = [
         say(
             "A cam centre {side} of {line} would give more than {angle} {limited}.",
@@ -278,7 +278,7 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         )
         for line in lines
     ]
-    further = say("Thin crosses mark places that textbooks take: {names}.")
+    further = say("Thin crosses mark the points that textbooks choose: {names}.")
     said = [*sides, hatch, further.where(names=sequence([PLACES[name] for name in others]))]
     marks: list[Mark] = [Region(permitted.points, permitted.act, permitted.index)]
     parts = [Part(hatch, (permitted,))]
@@ -289,7 +289,7 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
         found = FOUND[name].where(distance=abs(place.place))
         parts.append(Part(found, (place.first, strokes)))
-    why = say("Because the cam centre must keep every limit at once.")
+    why = say("Because the cam centre must satisfy all limits at once.")
     title = say("The region of the cam centre")
     return Step(title, sequence(said, " "), COMBINED, tuple(marks), why=why, parts=tuple(parts))
 
@@ -305,8 +305,8 @@ def _unreadable() -> Step:
         "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
         "at less than a degree."
     )
-    why = say("Because lines that cross so flatly do not show where.")
-    return Step(say("The least prime radius"), said, COMBINED, (), why=why)
+    why = say("Because lines at so flat an angle do not show where they cross.")
+    return Step(say("The minimum prime radius"), said, COMBINED, (), why=why)
 
 
 def _result(region: LeastRadius) -> Step:
@@ -326,8 +326,8 @@ def _result(region: LeastRadius) -> Step:
     parts.append(Part(measured.where(paper=paper["prime_radius"], mu=mu, r0=values["prime_radius"]), (joined,)))
     if abs(x) > ON_THE_LINE:
         carried = say(
-            "Carry A₀ level to the line of motion with the T-square: {aside:.2f} mm × {mu:.5g}, so e = {e:.3f} mm, and "
-            "{height}."
+            "Carry A₀ horizontally to the line of motion with the T-square: {aside:.2f} mm × {mu:.5g}, so e = "
+            "{e:.3f} mm, and {height}."
         ).where(aside=abs(paper["offset"]), mu=mu, e=values["offset"], height=_height(paper["s0"], mu, values["s0"]))
         parts.append(Part(carried, (level,)))
     shown, read = say("min r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
@@ -338,15 +338,18 @@ def _result(region: LeastRadius) -> Step:
         Dimension(start.place, centre.place, shown, aside=0.0, of=read),
         *_centre_lines(region, level),
     )
-    why = say("Because the nearer the cam centre is to B₀, the smaller is the cam, and hatched places keep all limits.")
-    title, said = say("The least prime radius"), sequence([part.caption for part in parts], " ")
+    why = say(
+        "Because the nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region "
+        "satisfy all limits."
+    )
+    title, said = say("The minimum prime radius"), sequence([part.caption for part in parts], " ")
     return Step(title, said, COMBINED, marks, reads, why=why, parts=tuple(parts))
 
 
 def _height(paper: float, mu: float, s0: float) -> Caption:
     """How far below the start of the lift the cam centre lies."""
     if paper < NOTHING:
-        return say("s₀ = 0, as it lies level with B₀")
+        return say("s₀ = 0, because it lies level with B₀")
     return say("{paper:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀", paper=paper, mu=mu, s0=s0)
 
 
@@ -354,15 +357,15 @@ def _centre_caption(region: LeastRadius) -> Caption:
     """Which place of the region is the cam centre."""
     offset, bound = region.givens.offset, [NAMED[line.name] for line in active(region)]
     if offset is None:
-        nearest_place = say("The offset is open: A₀ is the hatched place nearest to B₀, {where}.")
+        nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")
         if len(bound) == 1:
             return nearest_place.where(where=say("where the perpendicular from B₀ meets {line}", line=bound[0]))
         crossing = say("where it lies on {lines}", lines=joined(bound))
         return nearest_place.where(where=crossing if bound else say("B₀ itself"))
     on = say(", on {lines}", lines=joined(bound)) if bound else say(", level with B₀")
     if not offset:
-        return say("With e = 0 A₀ is where the line of motion itself enters the hatching{on}.", on=on)
-    return say("Where this upright enters the hatching{on}, is A₀.", on=on)
+        return say("With e = 0, A₀ is where the line of motion itself enters the hatched region{on}.", on=on)
+    return say("A₀ is where this vertical enters the hatched region{on}.", on=on)
 
 
 def _limit(line: Boundary, limits: Limits) -> Caption:

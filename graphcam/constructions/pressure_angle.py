@@ -255,10 +255,10 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
         centre.label(say("A (r₀ = {r0:g}, e = {e:g})", r0=r0, e=offset + 0.0), -1j - np.sign(centre.place.real)),
     ]
     cut = say(
-        "Compass {paper:.2f} mm, {r0:g}/{mu:.5g}, about B₀: below it the arc cuts {upright} in A. Measured upright, A "
-        "lies {below:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀."
+        "Compass {paper:.2f} mm, {r0:g}/{mu:.5g}, about B₀: below it the arc cuts {upright} in A. Measured "
+        "vertically, A lies {below:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀."
     )
-    upright = say("this upright") if offset else say("the line of motion itself, as e = 0,")
+    upright = say("this vertical") if offset else say("the line of motion itself, as e = 0,")
     read = {"below": float(measured.first("s0")), "s0": float(measured.value("s0"))}
     cut = cut.where(upright=upright, paper=r0 / mu, r0=r0, mu=mu, **read)
     combined = say("Work in the combined diagram, with B₀ and the ends of v as laid off there.")
@@ -266,7 +266,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     if offset:
         parts.insert(1, Part(offset_caption(offset, mu), (line,)))
         marks.append(_stroke(line, centre.place - 6 * UP, centre.place.real + 6 * UP, Role.AXIS))
-    why = say("Because A lies on the upright of the offset, as far from B₀ as the prime radius is long.")
+    why = say("Because A lies on the vertical at the offset, and its distance from B₀ is the prime radius.")
     return _told(say("The cam centre at the adopted radius"), why, COMBINED, parts, marks, ("s0",))
 
 
@@ -275,11 +275,12 @@ def _mechanism(shown: _Shown) -> Step:
     measured, acts, k = shown.measured, shown.acts, shown.station
     a, b, guide, offset = acts["A"], acts["B"], acts["guide"], measured.givens.offset
     taken = say(
-        "Take station {name}, where the rays will show the greatest angle of the rise while the follower is not slow."
+        "Take station {name}, where the rays will show the maximum angle of the rise, slow parts of the motion "
+        "left aside."
     ).where(name=shown.name)
-    beside = say("Mark A in a new drawing at {ratio}, and draw the guide upright through A.")
+    beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical through A.")
     if offset:
-        beside = say("Mark A in a new drawing at {ratio}, and draw the guide upright, {paper:.2f} mm {side} of A.")
+        beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical, {paper:.2f} mm {side} of A.")
     beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=aside(offset))
     s0, s = float(measured.value("s0")), float(measured.givens.integrated.value("s")[k])
     above = say(
@@ -292,7 +293,7 @@ def _mechanism(shown: _Shown) -> Step:
         acts["AB"].way(Role.CURVE),
         *(a.dots(), b.dots(), a.label("A", -1j - shown.sigma), b.label("B")),
     )
-    why = say("Because the plan needs the radius AB, on which the point of the cam that drives B turns.")
+    why = say("Because the plan needs AB, the radius on which the point of the cam that drives B turns.")
     title = say("The mechanism at station {name}", name=shown.name)
     return _told(title, why, shown.view, parts, marks)
 
@@ -320,7 +321,7 @@ def _velocities(shown: _Shown) -> Step:
     closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
     why = say(
-        "Because B of the follower moves as the point of the cam under it and slides along the profile besides: "
+        "Because B of the follower moves with the point of the cam under it and also slides along the profile: "
         "v₂ = v₁ + v₂₁."
     )
     title = say("Velocity plan at station {name}", name=shown.name)
@@ -332,8 +333,8 @@ def _normal(shown: _Shown) -> Step:
     b, c, normal, ac = (shown.acts[name] for name in ("B", "C", "normal", "AC"))
     square = say("With two set squares draw through B the normal, square to v₂₁.")
     level = say(
-        "Draw the level through A with the T-square; it meets the normal in C, {length:.2f} mm {side} of A: AC = "
-        "{length:.2f} mm × {mu:.5g} = {value:.2f} mm/rad, as long as v₂."
+        "Draw the horizontal through A with the T-square; it meets the normal in C, {length:.2f} mm {side} of A: "
+        "AC = {length:.2f} mm × {mu:.5g} = {value:.2f} mm/rad, equal in length to v₂."
     ).where(length=abs(c.place), side=aside(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
     parts = Part(square, (normal,)), Part(level, (c, ac))
     marks = (
@@ -342,8 +343,8 @@ def _normal(shown: _Shown) -> Step:
         *(c.dots(), c.label("C", -1j + shown.sigma)),
     )
     why = say(
-        "Because v₂₁ lies along the profile the normal is square to it, so ABC and the plan have sides square to one "
-        "another, and AC = v₂/ω = ds/dφ."
+        "Because v₂₁ lies along the profile, the normal is square to it, so the sides of ABC are square to those "
+        "of the plan, and AC = v₂/ω = ds/dφ."
     )
     title = say("The normal and the triangle ABC")
     return _told(title, why, shown.view, parts, marks)
@@ -354,13 +355,13 @@ def _angle(shown: _Shown) -> Step:
     acts, height, reading = shown.acts, shown.acts["B"].place.imag, shown.hand.readings["alpha"]
     d, bd, da, motion = (acts[name] for name in ("D", "BD", "DA", "motion"))
     alpha = float(np.degrees(reading.paper))
-    laid_off = say("Lay AC off from B level {side}, {length:.2f} mm to D: A, C, B and D make a parallelogram.").where(
-        side=aside((d.place - acts["B"].place).real), length=abs(acts["C"].place)
-    )
+    laid_off = say(
+        "Lay AC off from B horizontally {side}, {length:.2f} mm to D: A, C, B and D make a parallelogram."
+    ).where(side=aside((d.place - acts["B"].place).real), length=abs(acts["C"].place))
     joining = say("Join D to A: DA is parallel to the normal BC.")
     measuring = say(
-        "Draw an upright at D and measure its angle to DA with the protractor: at station {name} the pressure angle is "
-        "α = {alpha:.2f}°, and the transmission angle 90° - |α| = {transmission:.2f}°."
+        "Draw a vertical at D and measure its angle to DA with the protractor: at station {name} the pressure "
+        "angle is α = {alpha:.2f}°, and the transmission angle 90° - |α| = {transmission:.2f}°."
     ).where(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
     parts = Part(laid_off, (d, bd)), Part(joining, (da,)), Part(measuring, (motion,))
     label = say("α = {alpha:.1f}°", alpha=alpha)
@@ -384,11 +385,11 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
     names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
     sigma, k, least = sense(measured.givens.rotation), worked_station(integrated), int(np.argmax(np.abs(alpha)))
     said = say(
-        "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle of each "
-        "ray to the upright, positive where it leans {side} going up. Ray {worked}: {angle:.2f}°; ray {shown}, the "
-        "one of the plan: {again:.2f}°. The angle of greatest magnitude is {greatest:.2f}°, at {name}; there the "
-        "transmission angle 90° - |α| is least, {transmission:.2f}°. The greatest angle between stations is read "
-        "from the angle diagram."
+        "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle "
+        "of each ray to the vertical, positive where it leans {side} going up. Ray {worked}: {angle:.2f}°; ray "
+        "{shown}, the one of the plan: {again:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at "
+        "{name}; there the transmission angle 90° - |α| has its minimum, {transmission:.2f}°. The maximum angle "
+        "between stations is read from the angle diagram."
     ).where(
         side=aside(-sigma),
         worked=names[k],
@@ -399,7 +400,7 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
         name=names[least],
         transmission=90 - abs(alpha[least]),
     )
-    ray = say("Ray {name}: join A to end {name}; its angle to the upright is {alpha:z.2f}°.")
+    ray = say("Ray {name}: join A to end {name}; its angle to the vertical is {alpha:z.2f}°.")
     parts = [
         Part(ray.where(name=name, alpha=angle), (rays.first[i],))
         for i, (name, angle) in enumerate(zip(names, alpha, strict=True))

@@ -37,8 +37,8 @@ Inverted = Construction[InvertedGivens]
 
 
 PRIME_WHY = say(
-    "Because only the motion of the cam relative to the follower counts: with the cam held still, its outline is what "
-    "the follower touches on its way round."
+    "Because only the motion of the cam relative to the follower matters: with the cam held still, its outline "
+    "is what the follower touches on its way round."
 )
 BEYOND = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""

@@ -27,8 +27,8 @@ LEAST_RADIUS = ReadingMeaning(
     say("prime radius r₀"),
     "r₀",
     "mm",
-    (Compared("minimum_prime_radius", say("least radius r₀")),),
-    Converges("least prime radius", "minimum_prime_radius"),
+    (Compared("minimum_prime_radius", say("minimum radius r₀")),),
+    Converges("minimum prime radius", "minimum_prime_radius"),
 )
 """The least prime radius, however it is found."""
 

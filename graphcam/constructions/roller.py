@@ -40,7 +40,7 @@ def _terms(rolled: Construction[RollerGivens]) -> list[Caption]:
 MEANING = Meaning(
     "roller",
     say("Roller radius"),
-    say("The roller must stay below the least radius of curvature, and is chosen by a rule."),
+    say("The roller radius must be smaller than the minimum radius of curvature; it is chosen by a rule."),
     {
         "candidates": ReadingMeaning(say("proposals"), "r", "mm", over=_terms, judged="least"),
         "roller_radius": ReadingMeaning(
@@ -102,7 +102,7 @@ def _draw(rolled: Rolled) -> list[Step]:
         caption = say("With {known} the rule proposes {proposed}; take the smallest, {taken:.2f} mm.")
         caption = caption.where(known=known, proposed=sequence(terms), taken=taken)
         if rule and rule[0].source:
-            caption = sequence([caption, say("It is a rule of {source}.", source=rule[0].source)], " ")
+            caption = sequence([caption, say("Source of the rule: {source}.", source=rule[0].source)], " ")
     elif given:
         caption = say("The task gives a roller of {taken:g} mm; the rule is not applied.", taken=taken)
         caption = sequence([caption, _beside_rho(taken, rho)], " ") if np.isfinite(rho) else caption

@@ -26,12 +26,12 @@ MEANING = Meaning(
     "scheme",
     say("Kinematic diagram"),
     say(
-        "The kinematic diagram shows how the links are joined, and names the points and the sizes. It is a sketch: it "
-        "is not to scale, and its cam is a plain one, for the profile is only found at the end."
+        "The kinematic diagram shows how the links are joined, and names the points and the sizes. It is a "
+        "sketch, not to scale, with a simplified cam, because the profile is only found at the end."
     ),
     calculation="report.note.task_data",
 )
-WHY = say("Because everything that follows is drawn from these data, and names its points as this diagram does.")
+WHY = say("Because everything that follows is drawn from these data and uses the point names of this diagram.")
 
 
 def scheme(board: Board, pencil: Pencil) -> Construction[SchemeGivens]:

@@ -17,10 +17,10 @@ ANGLE = View(
 )
 COMBINED = View(
     "combined",
-    say("Displacement and velocity: the least radius"),
+    say("Displacement and velocity: the minimum radius"),
     across="offset",
     up="s",
-    scale=say("Least radius, μₛ = {mu:.4g} {unit}/mm"),
+    scale=say("Minimum radius, μₛ = {mu:.4g} {unit}/mm"),
 )
 PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")
 PROFILE = View(
@@ -28,7 +28,7 @@ PROFILE = View(
 )
 CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
 SCHEME = View("scheme", say("Kinematic diagram"), across="scheme x", up="scheme y")
-REGION = View("region", say("Arm positions: the least radius"), across="region x", up="region y")
+REGION = View("region", say("Arm positions: the minimum radius"), across="region x", up="region y")
 ARM_ANGLES = View("arm angles", say("Pressure angles of the arm"), across="angles x", up="angles y")
 CAM_CENTRE = View("cam centre", say("Cam centre"), across="cam centre x", up="cam centre y")
 FORCES = View("forces", say("Force plan"), across="forces", up="forces")

@@ -49,7 +49,7 @@ Profile = Construction[ProfileGivens]
 MEANING = Meaning(
     "working_profile",
     say("Working profile"),
-    say("The profile is what touches all positions of the follower: the inner envelope."),
+    say("The profile is the curve that touches the follower in all its positions: the inner envelope."),
     {
         "radius": ReadingMeaning(
             say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
@@ -142,12 +142,15 @@ def _rounded(profile: Profile, rolled: Rolled) -> Step:
     """The proposed radius becomes a round one."""
     proposed, adopted = float(rolled.value("roller_radius")), profile.givens.roller_radius
     if math.isclose(proposed, adopted, rel_tol=1e-9):
-        said = say("The proposed radius of {adopted:g} mm is kept as it is.")
+        said = say("The proposed radius of {adopted:g} mm is adopted unchanged.")
     elif adopted < proposed:
-        said = say("Round {proposed:.2f} mm down to {adopted:g} mm, the radius of the roller that is built.")
+        said = say("Round {proposed:.2f} mm down to {adopted:g} mm, the radius of the roller that is made.")
     else:
-        said = say("This drawing proposes {proposed:.2f} mm; on one without error it is decided: {adopted:g} mm.")
-    why = say("Because rollers are made in round sizes, and a larger one would break the rule.")
+        said = say(
+            "This drawing gives {proposed:.2f} mm; the radius is decided on a drawing with the ideal "
+            "pencil: {adopted:g} mm."
+        )
+    why = say("Because rollers are made in round sizes, and a larger one would violate the rule.")
     view, marks, parts = laid_off_on_ob(rolled, ["r"], np.array([adopted]))
     said = said.where(proposed=proposed, adopted=adopted)
     return Step(say("Roller radius rounded"), said, view, marks, why=why, parts=parts)
@@ -165,7 +168,7 @@ def _circles(profile: Profile) -> Step:
         "Set the compass to {paper:.1f} mm (r = {roller:g} mm at {ratio}) and draw the circle of the roller about "
         "every point of the pitch curve, from {first} to {last}."
     ).where(paper=roller / mu_l, roller=roller, ratio=ratio_text(mu_l), first=names[0], last=names[-1])
-    why = say("Because the roller's centre runs on the pitch curve: these circles are places that the roller takes.")
+    why = say("Because the roller's centre runs on the pitch curve: these circles are positions of the roller.")
     each = say("Circle {name}: compass {paper:.1f} mm about point {name} of the pitch curve.")
     parts = [Part(each.where(name=name, paper=roller / mu_l), (circles[k],)) for k, name in enumerate(names)]
     marks = [circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names))]
@@ -177,16 +180,16 @@ def _touched(profile: Profile) -> Step:
     paper = profile.givens.roller_radius / profile.givens.inverted.givens.mu_l.per_mm
     found, names = profile.acts["touch points"].first, _names(profile)
     said = say(
-        "At every point of the pitch curve hold a set square or a mirror square to the curve, which runs there as the "
-        "circle through the point and its two neighbours, and mark the place {paper:.1f} mm inward, on the roller's "
-        "circle: the touch point."
+        "At every point of the pitch curve hold a set square or a mirror square to the curve, which runs there "
+        "along the circle through the point and its two neighbours. Mark the contact point {paper:.1f} mm "
+        "inward, on the roller's circle."
     ).where(paper=paper)
     why = say("Because a circle touches the profile where the common normal of profile and pitch curve cuts it.")
-    each = say("Touch point {name}: {paper:.1f} mm inward from point {name}, square to the pitch curve.")
+    each = say("Contact point {name}: {paper:.1f} mm inward from point {name}, square to the pitch curve.")
     # Where two neighbours lie in one place, the curve has no direction that could be seen.
     seen = np.flatnonzero(~np.isnan(found.points))
     parts = tuple(Part(each.where(name=names[k], paper=paper), (found[int(k)],)) for k in seen)
-    return Step(say("Touch points"), said, PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why, parts=parts)
+    return Step(say("Contact points"), said, PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why, parts=parts)
 
 
 def _envelope(profile: Profile) -> Step:
@@ -199,7 +202,7 @@ def _envelope(profile: Profile) -> Step:
     said, why = _envelope_said(profile.givens.roller_radius, names)
     if lost.size:
         marks.append(covered[lost].dots(Role.LIMIT))
-        left_out = say("Leave out what lies inside another circle: {names}.", names=sequence(names))
+        left_out = say("Leave out the points inside another circle: {names}.", names=sequence(names))
         parts.insert(0, Part(left_out, (covered[lost],)))
     radii = say("Its radii run from {least:.2f} to {greatest:.2f} mm.")
     radii = radii.where(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
@@ -210,26 +213,26 @@ def _envelope(profile: Profile) -> Step:
 def _envelope_said(roller: float, lost: Sequence[str]) -> tuple[list[Caption], Caption]:
     """How the touch points are joined, without those that are lost, and why."""
     if not roller:
-        drawn = say("Without a roller the curve is the working profile itself: draw it over boldly.")
+        drawn = say("Without a roller the curve is the working profile itself: draw over it with a thick line.")
         return [drawn], say("Because there is no roller between the cam and the points that were found.")
-    why = say("Because the roller presses on the cam from outside in every position, and never enters it.")
+    why = say("Because the roller touches the cam from outside in every position and never enters it.")
     joined = say(
-        "Join the touch points with the French curve: the line touches every circle on its inner side and cuts none, "
-        "so it is their inner envelope, the working profile."
+        "Join the contact points with the French curve: the line touches every circle on its inner side and cuts "
+        "none, so it is their inner envelope, the working profile."
     )
     if not lost:
         return [joined], why
     undercut = say_many(
-        "At {count} station ({names}) the touch point lies inside another roller circle and is left out: the profile "
-        "is undercut and cannot be cut so.",
-        "At {count} stations ({names}) the touch point lies inside another roller circle and is left out: the profile "
-        "is undercut and cannot be cut so.",
+        "At {count} station ({names}) the contact point lies inside another roller circle and is left out: the "
+        "profile is undercut and cannot be made.",
+        "At {count} stations ({names}) the contact point lies inside another roller circle and is left out: the "
+        "profile is undercut and cannot be made.",
         len(lost),
         names=sequence(lost),
     )
     joined = say(
-        "Join the other touch points with the French curve: the line cuts no circle, so it is their inner envelope, "
-        "the working profile."
+        "Join the other contact points with the French curve: the line cuts no circle, so it is their inner "
+        "envelope, the working profile."
     )
     return [undercut, joined], why
 
@@ -249,20 +252,24 @@ def _angles(profile: Profile) -> Step:
         shown.append(each)
         marks += found.marks
         said = say(
-            "Station {name}: join touch point {name} to point {name} and go on beyond it; draw there the line on which "
-            "the follower moves, and measure the angle between them with a protractor: {alpha:.1f}°."
+            "Station {name}: join contact point {name} to point {name} and continue beyond it; draw there the "
+            "line on which the follower moves, and measure the angle between them with a protractor: "
+            "{alpha:.1f}°."
         ).where(**told)
         parts.append(Part(said, found.draws))
     caption = say(
-        "Draw the line from the touch point through the roller's centre and measure with a protractor its angle to the "
-        "direction in which the follower moves, in each moving phase where it is greatest: {shown}."
+        "Draw the line from the contact point through the roller's centre and measure with a protractor its "
+        "angle to the direction in which the follower moves, in each moving phase where it has its maximum: "
+        "{shown}."
     ).where(shown=sequence(shown, "; "))
     if not shown:
-        caption = say("All touch points of the moving phases are covered: no pressure angle can be measured.")
+        caption = say(
+            "All contact points of the moving phases lie inside other circles: no pressure angle can be measured."
+        )
     elif apart >= SAME_ANGLE:
         differ = say(
-            "They differ, for the diagram uses the velocity at the station itself, while the normal here is found from "
-            "the neighbouring points."
+            "They differ, because the diagram uses the velocity at the station itself, while the normal here is "
+            "found from the neighbouring points."
         )
         caption = sequence([caption, differ], " ")
     why = say("Because the roller presses along the common normal, which runs through its centre.")

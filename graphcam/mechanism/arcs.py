@@ -168,7 +168,7 @@ def _why(k: float, t: float, rho2: float) -> Caption:
         said.append(replace(AT_G, values={"order": _order(G=0.0, C3=t, C2=rho2), "reason": reason}))
     if said:
         return sequence(said, " ")
-    return say("F, C1, C3 and G, C3, C2 lie in these orders: the arcs touch from inside at F and at G.")
+    return say("F, C1, C3 and G, C3, C2 lie in these orders: the arcs touch internally at F and at G.")
 
 
 def _order(**places: float) -> str:

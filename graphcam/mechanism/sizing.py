@@ -75,7 +75,7 @@ class SizingProblem:
         if least.value < -BINDS * abs(self.load.preload):
             limit = "0 N or more, so that the follower stays on its cam"
             remedy = "preload the spring: spring_preload(...) tells the least"
-            raise DesignError("least contact force", f"{least.value:.4g} N", limit, remedy)
+            raise DesignError("minimum contact force", f"{least.value:.4g} N", limit, remedy)
 
     @property
     def bounds(self) -> list[Range]:

@@ -16,25 +16,26 @@ from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Tell, Words, say, say_in
 
 FIRST = say(
-    "Every construction of this cam step by step: what is done, the drawing so far with the step in colour, and what "
-    "is read off it, as millimetres of paper times a scale. It was written by graphcam from the task below."
+    "Every construction of this cam, step by step: what is done, the drawing so far with the current step in "
+    "colour, and the readings, as millimetres of paper times a scale. graphcam wrote this notebook from the task "
+    "below."
 )
 CHECKED = say(
-    "Draw it on paper and put your readings here. A cell answers with a hint; how far a careful hand may be off is "
-    "taken into account."
+    "Draw it on paper and enter your readings here. Each cell answers with a hint; the tolerance allows for "
+    "careful drawing by hand."
 )
 ERRORS = say(
-    "A perfect hand errs only by the method: curves are replaced by chords, and what lies between two stations is "
-    "faired. That error falls with the square of the number of parts. A real hand adds a line's place (0.1 to 0.2 "
-    "mm), the dividers (0.1 to 0.3 mm), the scale (0.5 mm) and the protractor (0.5°), and passes each error on to "
-    "what is drawn from it. More parts make the method better and the hand worse."
+    "An ideal pencil leaves only the error of the method: curves are replaced by chords, and between stations a "
+    "smooth curve is drawn. This error falls with the square of the number of parts. Drawing by hand adds errors "
+    "of line position (0.1 to 0.2 mm), dividers (0.1 to 0.3 mm), rule (0.5 mm) and protractor (0.5°), and each "
+    "error is passed on to everything drawn from it. With more parts the method becomes more exact and the "
+    "drawing errors grow."
 )
-MOVED = say("More parts, fewer parts: what changes, and what is worth the work?")
+MOVED = say("More parts, fewer parts: what changes, and which is worth the work?")
 QUESTIONS = say(
-    "1. Which reading decides the size of this cam, and how would you repeat it more exactly?\n"
-    "2. What changes on the drawing if the cam turns the other way?\n"
-    "3. Where does the acceleration jump, and what does the mechanism do there?\n"
-    "4. Which of the drawn values would you trust to 1 %, and which not to 10 %?"
+    "1. Which reading decides the size of this cam, and how would you make it more exact?\n2. What changes on the "
+    "drawing if the cam turns the other way?\n3. Where does the acceleration jump, and what happens in the "
+    "mechanism there?\n4. Which of the drawn values would you trust to 1 %, and which not even to 10 %?"
 )
 SETUP = f"""\
 import graphcam as gc
@@ -74,7 +75,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
     True
     """
     toml, tell, title = task_files(solution.task)[TASK_FILE], solution.tell, notebook_title(solution.task)
-    warned = (say("**Mind:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
+    warned = (say("**Note:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
     cells = [
         _text(f"# {markdown.text(title)}\n\n{tell(FIRST)}"),
         _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
@@ -83,9 +84,9 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
         *(cell for number, name in enumerate(all_drawn(solution), 1) for cell in _chapter(number, name, solution)),
         _section(tell, say("Try it yourself"), CHECKED),
         *(cell for name in _asked(solution) for cell in _question(solution, name)),
-        _section(tell, say("Move it"), MOVED),
+        _section(tell, say("Move the sliders"), MOVED),
         _hidden(_parts(solution)),
-        _section(tell, say("Drawn and exact"), say("Error and bound are millimetres on the paper.")),
+        _section(tell, say("Drawn and exact"), say("Error and bound are in millimetres on paper.")),
         _hidden("compared(solution)"),
         _section(tell, say("Where the error comes from"), ERRORS),
         _section(tell, say("The sheet, step by step")),

@@ -15,7 +15,7 @@ from graphcam.words import Caption, Tell, Words, say
 CAREFUL_HAND = 1.0
 """How far a careful drawing may be off [mm of paper]: twice half a division, for a line drawn and a length read."""
 RIGHT, NEARLY, WRONG, OPEN = "right", "nearly", "wrong", "open"
-ON_PAPER = say("that is the length on paper; multiply by the scale")
+ON_PAPER = say("that is the length on paper; multiply it by the scale")
 ROUGH = 3.0
 """Up to so many tolerances the way was right and the hand was not."""
 
@@ -94,16 +94,16 @@ class Question:
     def _verdict(self, answer: float | None) -> tuple[str, Caption]:
         unit = UNITS.get(self.unit, self.unit)
         if answer is None:
-            return OPEN, say("Your turn: put your number (in {unit}) in place of None and run this cell.", unit=unit)
+            return OPEN, say("Your turn: replace None by your number (in {unit}) and run this cell.", unit=unit)
         if not math.isfinite(answer):
-            return WRONG, say("Not yet: a finite number is asked for, in {unit}.", unit=unit)
+            return WRONG, say("Not yet: enter a finite number, in {unit}.", unit=unit)
         off, look = abs(answer - self.value), self.look
         if off <= self.tolerance:
-            return RIGHT, say("Right, within what a pencil can do.")
+            return RIGHT, say("Right, within drawing accuracy.")
         if hint := self._mistake(answer):
             return WRONG, say("Not yet: {hint}. Look again at {look}.", hint=hint, look=look)
         if off <= ROUGH * self.tolerance:
-            return NEARLY, say("Nearly: the way is right, a line is not sharp enough. Repeat {look}.", look=look)
+            return NEARLY, say("Nearly: the method is right, but a line is not exact enough. Repeat {look}.", look=look)
         if answer > self.value:
             return WRONG, say("Not yet: that is too large. Look again at {look}.", look=look)
         return WRONG, say("Not yet: that is too small. Look again at {look}.", look=look)
@@ -112,8 +112,14 @@ class Question:
         degree = math.degrees(1.0)
         usual: list[tuple[Words, float]] = [
             (say("the size is right, the sign is not"), -self.value),
-            (say("that is twice as much: a diameter for a radius, or the whole for the half"), 2 * self.value),
-            (say("that is half of it: a radius for a diameter, or the half for the whole"), self.value / 2),
+            (
+                say("that is twice the value: a diameter instead of a radius, or the whole instead of half"),
+                2 * self.value,
+            ),
+            (
+                say("that is half the value: a radius instead of a diameter, or half instead of the whole"),
+                self.value / 2,
+            ),
             (say("degrees and radians are mixed up"), self.value * degree),
             (say("radians and degrees are mixed up"), self.value / degree),
         ]

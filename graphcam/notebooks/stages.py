@@ -54,7 +54,7 @@ class Stage:
 
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
         said = {"view": view, "number": self.number.rstrip("."), "title": title, "caption": self.step.caption}
-        alt = say("{view}. Drawn so far, with step {number} in colour: {title}. {caption}", **said)
+        alt = say("{view}. Drawn so far, step {number} in colour: {title}. {caption}", **said)
         return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
@@ -63,7 +63,7 @@ class Stage:
         from graphcam.sheets.matplotlib_renderer import svg
 
         number, count = self.number.rstrip("."), len(self.step.parts)
-        alt = say("Drawn as far as part {part} of step {number}, which is in colour: {caption}", number=number)
+        alt = say("Drawn up to part {part} of step {number}, which is in colour: {caption}", number=number)
         said = say("Part {part} of {count}: {caption}", count=count)
         shown = [({"part": k + 1, "caption": self.step.parts[k].caption}, page) for k, page in self.strip.items()]
         return [Picture(svg(page), self.tell(alt.where(**part)), self.tell(said.where(**part))) for part, page in shown]

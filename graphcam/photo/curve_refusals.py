@@ -70,7 +70,7 @@ def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
         share=100 * measures.share,
         least=100 * LEAST_SHARE,
     )
-    over = say("draw over the faint pieces, also along printed lines, and take the photograph again in even light")
+    over = say("draw over the faint parts, also along printed lines, and take the photograph again in even light")
     cases = [
         (measures.rival > MOST_RIVAL, _rival(measures), say("erase the one that is not meant")),
         (
@@ -78,9 +78,13 @@ def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
             _darker(measures),
             say("draw over the whole curve, or erase what is not meant"),
         ),
-        (measures.share < EMPTY, say("no curve can be seen"), say("look whether this is the right page, and in focus")),
+        (measures.share < EMPTY, say("no curve can be seen"), say("check that this is the right page and in focus")),
         (measures.twin > MOST_TWIN, _twin(measures), say("erase the one that is not meant")),
-        (measures.coherence < LEAST_COHERENCE or measures.bend > MOST_BEND, say("the lines make no one curve"), again),
+        (
+            measures.coherence < LEAST_COHERENCE or measures.bend > MOST_BEND,
+            say("the lines do not form one curve"),
+            again,
+        ),
         (measures.hidden > MOST_HIDDEN, _hidden(measures), say("enter it in the review page")),
         (measures.share < LEAST_SHARE, share, over),
         (measures.gap > LONGEST_GAP, _gap(measures), over),
@@ -93,7 +97,7 @@ def _rival(measures: Measures) -> Words:
 
 
 def _twin(measures: Measures) -> Words:
-    return say("two lines run beside each other along {share:.0f} % of the curve", share=100 * measures.twin)
+    return say("two lines run side by side along {share:.0f} % of the curve", share=100 * measures.twin)
 
 
 def _darker(measures: Measures) -> Words:

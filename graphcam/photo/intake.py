@@ -141,7 +141,7 @@ def _unopened(name: str, error: OSError) -> Unopened:
 
 def _why(error: OSError) -> tuple[Words, Words]:
     known: dict[int | None, tuple[Words, Words]] = {
-        errno.ENOENT: (say("there is no such file"), say("look how it is called")),
+        errno.ENOENT: (say("there is no such file"), say("check its name")),
         errno.EACCES: (say("it may not be read"), say("change its permissions")),
         errno.ELOOP: (say("it is a link that leads back to itself"), say("give the picture itself")),
     }

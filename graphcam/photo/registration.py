@@ -89,7 +89,7 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
         sight, Frame.of(np.array(list(page.tags.values())) + page.tag_side * (0.5 + 0.5j), size), focal
     )
     if laid[0].residual > ELSEWHERE:
-        raise PhotographError(say("the marks are not where this page has them"), say("look which page it is"))
+        raise PhotographError(say("the marks are not in the positions of this page"), say("check which page it is"))
     if laid[0].residual > WORST:
         raise PhotographError(
             say("the paper is bent too much: its marks miss by {miss:.1f} pixels", miss=laid[0].residual),
@@ -105,11 +105,11 @@ def _enough(mine: int, seen: int, expected: int) -> None:
             say("take the whole sheet from above, in good light, not mirrored"),
         )
     if not mine:
-        raise PhotographError(say("the marks along the edges are those of another page"), say("look which page it is"))
+        raise PhotographError(say("the marks along the edges are those of another page"), say("check which page it is"))
     if mine < LEAST_TAGS:
         raise PhotographError(
             say("only {seen} of {expected} marks along the edges are seen", seen=mine, expected=expected),
-            say("take in the whole sheet, and keep fingers off its marks"),
+            say("include the whole sheet, and keep fingers off its marks"),
         )
 
 
@@ -157,16 +157,17 @@ def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], bl
     if not found.doubt <= MOST_DOUBT:
         raise PhotographError(
             say(
-                "{seen} of {expected} marks are seen, and do not tell where a line is: it may be {doubt:.1f} mm off",
+                "{seen} of {expected} marks are seen, which does not fix the position of a line: it may be "
+                "{doubt:.1f} mm off",
                 seen=count,
                 expected=expected,
                 doubt=found.doubt,
             ),
-            say("lay the sheet flat, take in the marks on all its sides, and keep fingers off them"),
+            say("lay the sheet flat, include the marks on all its sides, and keep fingers off them"),
         )
     inside = _within(places, size)
     if not inside.all():
-        raise PhotographError(say("a part of the drawing is outside of the picture"), say("take in the whole sheet"))
+        raise PhotographError(say("part of the drawing is outside the picture"), say("include the whole sheet"))
     return found
 
 

@@ -123,7 +123,7 @@ def joined(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left")
     slipped = float(np.abs(sources * turn + shift - sources).max())
     if missed > MOST_MISSED or slipped > MOST_SLIPPED:
         raise PhotographError(
-            say("the two sheets do not lie as one page: their marks are {miss:.1f} mm off", miss=max(missed, slipped)),
+            say("the two sheets do not form one page: their marks are {miss:.1f} mm off", miss=max(missed, slipped)),
             say("tape them flat, edge to edge, before drawing"),
         )
     moved = replace(tiles[other].registration, surface=Moved(tiles[other].registration.surface, turn, shift))

@@ -34,8 +34,8 @@ CASES = {
     4: say("C1 is found on the line OD and C2 on the line OA"),
 }
 IMPACT = say(
-    "The arcs touch, so the velocity is continuous, and the acceleration jumps where one arc takes over from another: "
-    "the impact is soft."
+    "The arcs touch, so the velocity is continuous, and the acceleration jumps where one arc meets the next: the "
+    "impact is soft."
 )
 DRAWN = say("drawn")
 OF_ARCS, OF_MOTION = say("Sizes of the arcs: drawn and exact"), say("Motion: drawn and exact")
@@ -128,8 +128,8 @@ def _roots(solution: ArcsSolution) -> str:
     rows = [_root(say("first"), first), _root(say("second"), second)]
     why = say("- The first root: {why}", why=first.reason), say("- The second root: {why}", why=second.reason)
     return blocks(
-        say("Two circles about points of the line G C2 touch the circle about C1. Exactly they are these."),
-        table((say("root"), "C3", "F", "ρ₃", say("sound")), rows, tell),
+        say("Two circles about points of the line G C2 touch the circle about C1. Their exact sizes are:"),
+        table((say("root"), "C3", "F", "ρ₃", say("valid")), rows, tell),
         sequence(why, "\n"),
         tell=tell,
     )
@@ -145,8 +145,8 @@ def _stations(solution: ArcsSolution) -> str:
     columns = [(name, drawn[name], exact, 3) for name, exact in zip("sva", values, strict=False)]
     columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(alpha), 3))
     said = say(
-        "Displacement s in mm, velocity v in mm/rad, acceleration a in mm/rad² and pressure angle α in degrees on the "
-        "rise. Where two arcs meet, the station stands twice, once for each."
+        "Displacement s in mm, velocity v in mm/rad, acceleration a in mm/rad² and pressure angle α in degrees "
+        "on the rise. Where two arcs meet, the station is listed twice, once for each arc."
     )
     stations = station_table(solution.chain.stations.names, phi, columns, solution.tell)
     return blocks(said, stations, tell=solution.tell)

@@ -15,7 +15,7 @@ from graphcam.words import Caption, Words, say
 
 BROUGHT_BY: Mapping[Kind | None, Caption] = {
     Kind.DIVIDE: say("divisions"),
-    Kind.ERECT: say("uprights"),
+    Kind.ERECT: say("verticals"),
     Kind.PROJECT: say("projections"),
     Kind.LAY_OFF: say("lengths laid off"),
     Kind.PARALLEL: say("parallels"),

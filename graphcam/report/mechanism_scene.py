@@ -105,7 +105,7 @@ def arcs_scene(solution: ArcsSolution) -> MechanismScene:
     trace = 1j * (moved.prime_radius + s)
     contact = trace - moved.roller_radius * normal
     edges = [0.0, moved.rise, moved.rise + moved.dwell, 2 * moved.rise + moved.dwell, 2 * math.pi]
-    names = (say("rise"), say("dwell"), say("return"), say("rest"))
+    names = (say("rise"), say("upper dwell"), say("return"), say("lower dwell"))
     phases = tuple(TurnPhase(n, n, a, b) for n, (a, b) in zip(names, pairwise(edges), strict=True) if b > a)
     profile = (contact * np.exp(-1j * moved.sigma * phi))[:-1]
     points = (trace, contact, np.full(phi.shape, 1j), normal)

@@ -129,16 +129,16 @@ def task_data(solution: Solution) -> str:
 
 def drawn_how(pencil: Pencil) -> Caption:
     """What is to be known of the hand."""
-    said = [say("Everything below was found on the drawing board, as lengths in millimetres of paper times a scale.")]
+    said = [say("Everything below was found on the drawing board: a length in millimetres of paper times a scale.")]
     if pencil.perfect:
-        return sequence([*said, say("The hand that drew was without error.")], " ")
+        return sequence([*said, say("It was drawn with an ideal pencil.")], " ")
     deviations = (
         (pencil.line, say("{error:g} mm in a line", error=pencil.line)),
         (pencil.dividers, say("{error:g} mm in a setting of the dividers", error=pencil.dividers)),
         (pencil.protractor, say("{error:g}° in an angle", error=math.degrees(pencil.protractor))),
     )
     if errors := [told for deviation, told in deviations if deviation]:
-        said.append(say("The hand that drew errs by a standard deviation of {errors}.", errors=joined(errors)))
+        said.append(say("The drawing errors have standard deviations of {errors}.", errors=joined(errors)))
     if pencil.division:
         said.append(say("Readings are rounded to {division:g} mm.", division=pencil.division))
     return sequence(said, " ")
@@ -179,8 +179,8 @@ def _at_speed(solution: Solution) -> str:
     }
     return blocks(
         say(
-            "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase of the angle "
-            "$\\varphi$ takes the time $t$, and its greatest velocity and acceleration follow from the law's "
+            "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase with the "
+            "angle $\\varphi$ takes the time $t$; its maximum velocity and acceleration follow from the law's "
             "factors $C_v$ and $C_a$:",
             rpm=rpm,
             omega=omega,
@@ -188,7 +188,7 @@ def _at_speed(solution: Solution) -> str:
         IN_GENERAL,
         say("For the phase {phase}", phase=phase_title(motion, k)),
         formula(IN_NUMBERS, omega=omega, **values),
-        say("These are the time and the greatest velocity and acceleration of every phase."),
+        say("These are the time and the maximum velocity and acceleration of every phase."),
         table((say("phase"), *AT_SPEED[of_lift]), rows, solution.tell),
         tell=solution.tell,
     )
@@ -222,7 +222,7 @@ def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str, tell: Tell) -> st
 def _result(solution: Solution) -> str:
     """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
-    said = say("The cam is built with these sizes: {sizes}.", sizes=joined(built))
+    said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
     return blocks(said, *map(warning, solution.warnings), tell=solution.tell)
 
 
@@ -230,26 +230,26 @@ def against_exact(solution: AnySolution) -> str:
     """The table of drawn and exact values, and what the bound means."""
     tell, pencil = solution.tell, solution.chain.pencil
     meaning = say(
-        "The bound is an estimate, from redrawings, of how far the drawn value may lie off the exact one on this "
-        "paper: for the finite number of parts {factor:g} times the greatest change that is seen when every part is "
+        "The bound is an estimate, from redrawing, of how far the drawn value may deviate from the exact one on "
+        "this paper: for the finite number of parts it is {factor:g} times the maximum change when every part is "
         "divided into {parts}.",
         factor=CHANGE_TO_ERROR,
         parts=joined([str(k) for k in FINER]),
     )
     hands = say(
-        "To it come, for the hand, the bias and {deviations:g} standard deviations of {count} drawings with the same "
-        "pencil.",
+        "For drawing errors it includes the bias and {deviations:g} standard deviations of {count} drawings with "
+        "the same pencil.",
         deviations=DEVIATIONS,
         count=pencil.samples or HANDS,
     )
     proved = say(
-        "Of the double integration a bound is proved beforehand, from the laws' derivatives alone; it holds for every "
-        "drawing of so many parts by a hand that does not err."
+        "For the double integration a bound is proved beforehand, from the derivatives of the laws alone; it "
+        "holds for every drawing with this number of parts and an ideal pencil."
     )
     beforehand = any(math.isfinite(q.proved_paper) for q in solution.comparison.quantities.values())
     meaning = sequence([meaning, *([proved] if beforehand else [])], " ")
     return blocks(
-        say("The error is the drawn value less the exact one."),
+        say("The error is the drawn value minus the exact one."),
         compared(solution.comparison.quantities, tell),
         sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)], " "),
         tell=tell,
@@ -262,14 +262,14 @@ def errors_of_the_hand(solution: AnySolution) -> list[tuple[Caption, str]]:
     if pencil.perfect:
         return []
     meaning = say(
-        "The scatter is the standard deviation on the paper over {count} drawings with the same pencil, of several "
-        "values that of the one that scatters most. Beside it stands what part of its variance, in percent, the acts "
-        "of each kind bring. Together stands for what errors of several kinds bring only together, as where they make "
-        "the eye choose another place.",
+        "The scatter is the standard deviation on the paper over {count} drawings with the same pencil; of "
+        "several values the one that scatters most is given. The other columns show the share of its variance, "
+        "in percent, due to each kind of operation. “Together” is the share that errors of several kinds cause "
+        "only in combination, for example when they make the eye choose another point.",
         count=pencil.samples or HANDS,
     )
     told = table(*budget_table(solution.chain, pencil), solution.tell)
-    return [(say("Where the errors of the hand come from"), blocks(meaning, told, tell=solution.tell))]
+    return [(say("Where the drawing errors come from"), blocks(meaning, told, tell=solution.tell))]
 
 
 def _verdict(solution: AnySolution) -> list[Caption]:
@@ -278,11 +278,11 @@ def _verdict(solution: AnySolution) -> list[Caption]:
     outside = joined([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
     unknown = joined([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
     if outside and solution.chain.pencil.perfect:
-        verdict = say("Outside the bound: {names}; such a value is to be drawn with more parts.", names=outside)
+        verdict = say("Outside the bound: {names}; draw such a value with more parts.", names=outside)
     elif outside:
         verdict = say(
-            "Outside the bound: {names}; this is the hand's scatter, which seldom exceeds {deviations:g} standard "
-            "deviations.",
+            "Outside the bound: {names}; this is the scatter of the drawing errors, which seldom exceeds "
+            "{deviations:g} standard deviations.",
             names=outside,
             deviations=DEVIATIONS,
         )
@@ -292,7 +292,7 @@ def _verdict(solution: AnySolution) -> list[Caption]:
         verdict = say("Every drawn value lies within its bound.")
     if not unknown:
         return [verdict]
-    return [verdict, say("No bound is known of {names}: more parts show what these do not.", names=unknown)]
+    return [verdict, say("No bound is known for {names}: more parts show details that these do not.", names=unknown)]
 
 
 def _other_sides(solution: AnySolution) -> list[Caption]:
@@ -304,7 +304,7 @@ def _other_sides(solution: AnySolution) -> list[Caption]:
         for reading, said in construction.meaning.compared
         if said.sides and float(construction.value(reading)) * quantities[said.name].exact < 0
     ]
-    text = say("Nearly as great on either side is: {names}; the side is compared on which it is exactly the greatest.")
+    text = say("Nearly equal on both sides: {names}; the side is compared on which the exact value has its maximum.")
     return [text.where(names=joined(names))] if names else []
 
 

@@ -27,8 +27,8 @@ def at_stations(solution: Solution) -> str:
     """s, v, a and the pressure angle at the stations, drawn and exact."""
     of_lift = solution.chain.board.follower.unit
     said = say(
-        "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, as drawn and "
-        "as they are exactly. The acceleration at both ends of a phase is the one inside the phase.",
+        "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, drawn "
+        "and exact. The acceleration at both ends of a phase is the one inside the phase.",
         **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
     )
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
@@ -62,8 +62,9 @@ def polar_coordinates(solution: Solution) -> str:
     rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
     header = (say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"))
     said = say(
-        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted anticlockwise from the "
-        "horizontal, on the cam as it stands at φ = 0. A dash stands where no point of the profile is left."
+        "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted anticlockwise from "
+        "the horizontal, on the cam as it stands at φ = 0. A dash marks a station where no point of the profile "
+        "is left."
     )
     return blocks(said, table(header, rows, solution.tell), tell=solution.tell)
 

@@ -75,18 +75,17 @@ def acceleration(solution: Solution) -> str:
     return blocks(
         say(
             "One revolution is laid off as {base} mm, so $\\mu_\\varphi = 2\\pi/{base} = {mu}$ rad/mm. The moving "
-            "phases are divided into {parts} parts, {equal}, and the ordinate is erected at the middle of each "
-            "part.",
+            "phases are divided into {parts} parts, {equal}, and an ordinate is drawn at the middle of each part.",
             base=number(float(diagram.first("base"))),
             mu=number(solution.chain.board.mu_phi.per_mm, 6),
             parts=joined([f"{span.stop - span.start}" for span in stations.parts]),
             equal=equal_parts(stations),
         ),
         say(
-            "The diagram is drawn in a scale that is not yet known: the greatest ordinate of the first rise is "
-            "chosen, ${symbol} = {chosen}$ mm. The lift of a phase goes as $y\\varphi^2/C$, where $C$ is the law's "
-            "factor in ${greatest} = C h/\\varphi^2$. So that the displacement comes back to the axis, every "
-            "other ordinate is",
+            "The scale of the diagram is not known yet: the maximum ordinate of the first rise is chosen, "
+            "${symbol} = {chosen}$ mm. The lift of a phase is proportional to $y\\varphi^2/C$, where $C$ is the "
+            "law's factor in ${greatest} = C h/\\varphi^2$. For the displacement to return to the axis, every "
+            "other ordinate must be",
             symbol=formula("y_{<k>}", k=k1),
             greatest="a_{\\max}",
             **alike,
@@ -128,20 +127,21 @@ def integration(solution: Solution) -> str:
         ),
         r"$$\Delta y_v = y_a\,\Delta x/H_1, \qquad \Delta y_s = y_v\,\Delta x/H_2.$$",
         say(
-            "In the first part $\\Delta y_v = {y} \\cdot {width}/{h1}$, which the drawing gives as {chord} mm. The "
-            "velocity that is left at the end of each moving phase, {left}, is taken up by turning its base line; "
-            "the displacement that is left at the end of the turn, {left_s} mm, is shared out along the returns.",
+            "In the first part $\\Delta y_v = {y} \\cdot {width}/{h1}$, which on the drawing measures {chord} mm. "
+            "The residual velocity at the end of each moving phase, {left}, is removed by rotating its base "
+            "line; the residual displacement at the end of the turn, {left_s} mm, is distributed over the "
+            "returns.",
             left=lengths(np.atleast_1d(c.first("closing_v")).tolist()),
             **values,
         ),
         say(
-            "The greatest displacement measures {paper} mm and stands for the known lift of {lift} {unit}; the "
+            "The maximum displacement measures {paper} mm and stands for the known lift of {lift} {unit}; the "
             "other scales follow through the poles:",
             **values,
         ),
         *(formula(scale, **values) for scale in SCALES),
         say(
-            "The greatest velocity measures {v} mm, so ${velocity}$ {unit}/rad; the greatest acceleration measures "
+            "The maximum velocity measures {v} mm, so ${velocity}$ {unit}/rad; the maximum acceleration measures "
             "{a} mm, so ${acceleration}$ {unit}/rad².",
             velocity=formula(r"v_{\max} = <mu_v> \cdot <v> = <max_v>", **values),
             acceleration=formula(r"a_{\max} = <mu_a> \cdot <a> = <max_a>", **values),
@@ -178,7 +178,7 @@ def greatest_angles(solution: Solution) -> str:
     mu_phi, limits = board.mu_phi.per_mm, board.limits
     at = {name: number(math.degrees(complex(place).real * mu_phi), 1) for name, place in places.items()}
     greatest = say(
-        "The angles are plotted over the cam angle. The greatest are {rise}° on the rise, at φ = {at_rise}°, and "
+        "The angles are plotted over the cam angle. The maxima are {rise}° on the rise, at φ = {at_rise}°, and "
         "{back}° on the return, at φ = {at_return}°.",
         **numbers(rise=math.degrees(rise), back=math.degrees(back)),
         **at,
@@ -188,8 +188,8 @@ def greatest_angles(solution: Solution) -> str:
 
 
 KEPT = {
-    "rise": say("On the rise {limit} are permitted, which is kept{exactly}."),
-    "return": say("On the return {limit} are permitted, which is kept{exactly}."),
+    "rise": say("On the rise {limit} are permitted; the limit is satisfied{exactly}."),
+    "return": say("On the return {limit} are permitted; the limit is satisfied{exactly}."),
 }
 EXCEEDED = {
     "rise": say("On the rise only {limit} are permitted, so the limit is exceeded: {why}."),
@@ -224,21 +224,21 @@ def _why_exceeded(word: str, angle: float, solution: Solution) -> Caption:
     given = chain.board.prime_radius
     if given is not None and given < least:
         return say(
-            "the given prime radius of {given:g} mm is smaller than the least one, {least} mm",
+            "the given prime radius of {given:g} mm is smaller than the minimum, {least} mm",
             given=given,
             least=number(least),
         )
     if word == "rise" and angle < 0 and not chain.board.limits.rest:
-        return say("it is the angle at the low rest, which this task does not limit")
+        return say("it is the angle in the lower dwell, which this task does not limit")
     if not chain.pencil.perfect:
-        return say("the hand's errors are larger than what the prime radius was rounded up by")
+        return say("the drawing errors exceed the amount by which the prime radius was rounded up")
     if given is not None:
         return say("at the adopted offset the given prime radius is too small")
-    return say("with so few parts the diagrams do not agree better")
+    return say("with so few parts the diagrams agree no better")
 
 
 UNREADABLE_BEND = say(
-    "No bend can be read: the bisectors of neighbouring chords cross at less than a degree everywhere."
+    "The curvature cannot be read: the bisectors of neighbouring chords cross at less than one degree everywhere."
 )
 
 
@@ -250,9 +250,9 @@ def curvature(solution: Solution) -> str:
         return tell(UNREADABLE_BEND)
     angles = np.degrees(curved.first("phi") % FULL_TURN).tolist()
     said = say(
-        "The pitch curve is sharpest at the points of φ = {phi}. Their two chords measure {chords} at {ratio}; the "
-        "perpendicular bisectors meet in O, and from O to the middle point B are {radius} mm. So $\\rho = {mu:g} "
-        "\\cdot {radius} = {rho}$ mm is the least radius of curvature of the pitch curve.",
+        "The pitch curve is sharpest at the points of φ = {phi}. Their two chords measure {chords} at {ratio}; "
+        "the perpendicular bisectors meet in O, and from O to the middle point B are {radius} mm. So $\\rho = "
+        "{mu:g} \\cdot {radius} = {rho}$ mm is the minimum radius of curvature of the pitch curve.",
         phi=joined([say("{phi}°", phi=number(phi, 1)) for phi in angles]),
         chords=lengths(np.abs(np.diff(triple)).tolist()),
         **numbers(radius=abs(centre - triple[1]), rho=curved.value("rho")),
@@ -287,14 +287,14 @@ def _proposed(solution: Solution) -> Caption:
     if chain.pencil.perfect:
         return proposed
     perfect = number(float(chain.perfect.roller.value("roller_radius")))
-    return sequence([proposed, say("A hand without error reads {radius} mm.", radius=perfect)], " ")
+    return sequence([proposed, say("The ideal pencil gives {radius} mm.", radius=perfect)], " ")
 
 
 def _rounded_down(rounding: float, adopted: float) -> Caption:
     if adopted < rounding:
-        return say("It is less than the rounding of {rounding:g} mm and adopted as it is.", rounding=rounding)
+        return say("It is less than the rounding step of {rounding:g} mm and is adopted unchanged.", rounding=rounding)
     return say(
-        "Rounded down to a multiple of {rounding:g} mm the roller is adopted as $r = {adopted:.6g}$ mm.",
+        "Rounded down to a multiple of {rounding:g} mm, the roller radius is adopted as $r = {adopted:.6g}$ mm.",
         rounding=rounding,
         adopted=adopted,
     )
@@ -308,8 +308,8 @@ def working_profile(solution: Solution) -> str:
     radii = profile.value("radius")
     how = (
         say(
-            "The working profile is the inner envelope of the roller's circles about the points of the pitch curve: "
-            "the touch point lies $r = {radius:.6g}$ mm from the pitch point, square to the pitch curve.",
+            "The working profile is the inner envelope of the roller's circles about the points of the pitch "
+            "curve: the contact point lies $r = {radius:.6g}$ mm from the pitch point, square to the pitch curve.",
             radius=radius,
         )
         if radius
@@ -328,15 +328,16 @@ def _undercut(solution: Solution, radius: float) -> list[Caption]:
     covered = [name for name, gone in zip(station_names(solution.chain.board.stations), lost, strict=True) if gone]
     if covered:
         undercut = say(
-            "At the stations {stations} the touch point lies inside another roller circle: the profile is undercut, "
-            "and the follower will not follow its motion there. Take a smaller roller or a larger prime radius.",
+            "At the stations {stations} the contact point lies inside another roller circle: the profile is "
+            "undercut, and the follower cannot follow the required motion there. Take a smaller roller or a "
+            "larger prime radius.",
             stations=joined(covered),
         )
         return [warning(undercut)]
     if radius >= rho:
         said = say(
-            "The roller is not smaller than the least radius of curvature, {rho} mm: the profile is undercut or "
-            "pointed there. Take a smaller roller or a larger prime radius.",
+            "The roller is not smaller than the minimum radius of curvature, {rho} mm: the profile is undercut "
+            "or pointed there. Take a smaller roller or a larger prime radius.",
             rho=number(rho),
         )
         return [warning(said)]

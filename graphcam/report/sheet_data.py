@@ -137,7 +137,7 @@ def phases_at_speed(solution: Solution) -> Table:
     )
     header = (*table.header, *AT_SPEED[solution.chain.board.follower.unit])
     found = frozenset(product(range(len(rows)), range(len(table.header), len(header))))
-    return Table(say("Motion, greatest v and a"), header, rows, found)
+    return Table(say("Motion, maximum v and a"), header, rows, found)
 
 
 def on_paper(q: Quantity) -> tuple[Caption, Caption]:

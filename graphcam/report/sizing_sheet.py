@@ -32,9 +32,9 @@ BINDING: Mapping[str, Caption] = {
     str(words): words
     for words in (
         *(say("pressure angle on the rise"), say("pressure angle on the return"), say("curvature"), say("stress")),
-        *(say("least prime radius"), say("greatest prime radius"), say("least offset"), say("greatest offset")),
-        *(say("least roller radius"), say("greatest roller radius")),
-        *(say("least face width"), say("greatest face width")),
+        *(say("minimum prime radius"), say("maximum prime radius"), say("minimum offset"), say("maximum offset")),
+        *(say("minimum roller radius"), say("maximum roller radius")),
+        *(say("minimum face width"), say("maximum face width")),
     )
 }
 """What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
@@ -55,12 +55,12 @@ def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso", languag
 
 
 ABOVE = say(
-    "Above its line a limit is kept: the pressure angle, the roller's share of the radius of curvature with the "
-    "smallest roller, and the stress with the widest face and the best roller."
+    "Above its line each limit is satisfied: the pressure angle, the roller's share of the radius of curvature "
+    "with the smallest roller, and the stress with the widest face and the best roller."
 )
 OVER = say(
-    "Over all lines the cams are permitted. The least prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; what binds "
-    "there: {binding}."
+    "Above all lines the cams are permitted. The minimum prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; "
+    "active there: {binding}."
 )
 
 
@@ -142,14 +142,14 @@ def _table(sized: SizedCam) -> Table:
     stress, allowed = say("{stress:.1f} MPa", stress=sized.stress), say("{stress:g}", stress=limits.stress)
     rows += [
         ("pressure angle", say("pressure angle"), say("{angle:.2f}°", angle=angle), say("{angle:g}°", angle=permitted)),
-        ("curvature", say("least curvature radius"), _length(rho), say("{length:.3f}", length=least)),
+        ("curvature", say("minimum radius of curvature"), _length(rho), say("{length:.3f}", length=least)),
         ("stress", say("contact stress"), stress, allowed),
     ]
     starred = [
         (name, value, sequence([limit, "*"], " ") if any(word in binding for binding in sized.binding) else limit)
         for word, name, value, limit in rows
     ]
-    return Table(TITLE, (say("size"), say("value"), say("permitted, * binds")), tuple(starred))
+    return Table(TITLE, (say("size"), say("value"), say("permitted, * active limit")), tuple(starred))
 
 
 def _length(value: float) -> Caption:

@@ -55,9 +55,9 @@ def contact(solution: Solution) -> str:
         say("The preload is adopted as $F_0 = {preload}$ {unit}.", **values)
         if spring.open_preload
         else say("The preload is given as $F_0 = {preload}$ {unit}.", **values),
-        say("The least contact force is {force} {unit}, {at}.", **least_values)
+        say("The minimum contact force is {force} {unit}, {at}.", **least_values)
         if isinstance(load, SpringLoad)
-        else say("The least torque with which the cam bears the arm is {force} {unit}, {at}.", **least_values),
+        else say("The minimum torque with which the cam pushes the arm is {force} {unit}, {at}.", **least_values),
     ]
     too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
     return blocks(_presses(spring), _formula(load), sequence(said, " "), warning(too_small) if lost else "", tell=tell)
@@ -69,7 +69,7 @@ def _presses(spring: SpringDesign) -> Caption:
     if isinstance(load, SpringLoad):
         sentences = [
             say(
-                "A spring of $c = {stiffness:g}$ N/mm presses the moving mass of $m = {mass:g}$ kg on the cam.",
+                "A spring of $c = {stiffness:g}$ N/mm presses the moving mass of $m = {mass:g}$ kg onto the cam.",
                 stiffness=load.stiffness,
                 mass=load.mass,
             )
@@ -77,8 +77,8 @@ def _presses(spring: SpringDesign) -> Caption:
     elif load.at is None:
         sentences = [
             say(
-                "A torsion spring of $c = {stiffness:g}$ N·mm/rad presses the arm, whose moment of inertia about the "
-                "pivot is $J = {inertia:g}$ kg·mm², on the cam.",
+                "A torsion spring of $c = {stiffness:g}$ N·mm/rad presses the arm, whose moment of inertia about "
+                "the pivot is $J = {inertia:g}$ kg·mm², onto the cam.",
                 stiffness=load.stiffness,
                 inertia=load.inertia,
             )
@@ -87,8 +87,8 @@ def _presses(spring: SpringDesign) -> Caption:
         sentences = [
             say(
                 "A spring of $c = {stiffness:g}$ N/mm acts {arm:g} mm from the pivot on the arm, whose moment of "
-                "inertia about the pivot is $J = {inertia:g}$ kg·mm²; its other end is anchored at ({x:g}, {y:g}) mm "
-                "from the cam centre, and $x$ is by how much it is strained further than at the lowest place.",
+                "inertia about the pivot is $J = {inertia:g}$ kg·mm²; its other end is anchored at ({x:g}, "
+                "{y:g}) mm from the cam centre, and $x$ is its deflection beyond that in the lowest position.",
                 stiffness=load.stiffness,
                 inertia=load.inertia,
                 arm=load.at.arm,
@@ -101,14 +101,18 @@ def _presses(spring: SpringDesign) -> Caption:
         sentences.append(accelerated.where(epsilon=load.acceleration))
     if isinstance(load.load, LoadCurve):
         least, most = min(load.load.force), max(load.load.force)
-        varies = say("A load $P$ from {least:g} to {most:g} N presses besides, by the table.", least=least, most=most)
+        varies = say(
+            "A load $P$ from {least:g} to {most:g} N, given by the table, also presses the follower onto the cam.",
+            least=least,
+            most=most,
+        )
         sentences.append(varies)
     elif load.load:
-        sentences.append(say("A load of $P = {force:g}$ N presses besides.", force=load.load))
+        sentences.append(say("A load of $P = {force:g}$ N also presses the follower onto the cam.", force=load.load))
     bears = (
-        say("The cam bears the follower with the force")
+        say("The cam pushes the follower with the force")
         if isinstance(load, SpringLoad)
-        else say("About the pivot the cam bears the arm with the torque")
+        else say("The cam drives the arm with the torque about the pivot")
     )
     return sequence([*sentences, bears], " ")
 
@@ -134,8 +138,8 @@ def forces(solution: Solution) -> str:
     mean, most, fewest = spring.torques
     least, greatest = spring.forces.least_normal(), spring.greatest_normal
     rubs = say(
-        "Between cam and follower there is friction with $\\mu = {friction}$: along the profile, in the cam's sense, "
-        "acts $\\mu N$, and $w$ is the speed of sliding over $\\omega$.",
+        "Between cam and follower there is friction with $\\mu = {friction}$: the force $\\mu N$ acts along the "
+        "profile, in the cam's sense, and $w$ is the sliding speed divided by $\\omega$.",
         friction=general(spring.friction),
     )
     extremes = say(
@@ -153,7 +157,7 @@ def forces(solution: Solution) -> str:
     )
     return blocks(
         rubs if spring.friction else "",
-        say("Along the normal the cam pushes with $N$, and the shaft is driven with the torque $M$:"),
+        say("The cam pushes along the normal with $N$, and the torque on the shaft is $M$:"),
         NORMAL[isinstance(spring.load, SpringLoad), bool(spring.friction)],
         extremes,
         _at_stations(solution, spring),

@@ -22,16 +22,15 @@ IN_NUMBERS = (
 SHAPES = {
     "convex": say("There the profile is convex with a radius of $\\varrho = {radius}$ mm."),
     "concave": say("There the profile is concave with a radius of $|\\varrho| = {radius}$ mm; $\\varrho$ is negative."),
-    "flat": say("There the profile is flat: $\\varrho$ is infinite."),
+    "flat": say("There the profile is straight: $\\varrho$ is infinite."),
 }
 WITHOUT = {
     "knife edge": say(
-        "The follower has a knife edge. It touches the cam in a line that has no width in which it could be flattened, "
-        "so by Hertz the pressure is infinite under any force: there is no finite stress to compare. Give the follower "
-        "a roller."
+        "The follower has a knife edge. It touches the cam along a line without width, so by Hertz the pressure "
+        "is infinite under any force: there is no finite stress to compare. Give the follower a roller."
     ),
     "undercut": say("The profile is undercut and ends in an edge: there is no finite stress to compare."),
-    "no force": say("Nothing presses the follower on the cam, so there is no stress."),
+    "no force": say("Nothing presses the follower onto the cam, so there is no stress."),
 }
 
 
@@ -65,11 +64,11 @@ def _found(stress: StressDesign) -> list[Caption]:
     modulus = stress.material().modulus
     relative = modulus * half_width / 2 / greatest.value
     law = say(
-        "By Hertz the force $N$ along the normal flattens a strip of the half-width $b$, under a pressure that is "
-        "greatest in its middle:"
+        "By Hertz the force $N$ along the normal flattens a strip of half-width $b$; the pressure has its "
+        "maximum in the middle:"
     )
     where = say(
-        "The pressure is greatest {at}, where $N = {force}$ N.",
+        "The pressure has its maximum {at}, where $N = {force}$ N.",
         at=at_side(greatest, stress.forces.cam.motion),
         force=number(force, 1),
     )
@@ -83,8 +82,8 @@ def _found(stress: StressDesign) -> list[Caption]:
         unit=unit("MPa"),
     )
     below = say(
-        "The strip is {strip} mm wide. The greatest shear stress, {share:.2f} of that pressure or {shear} MPa, lies "
-        "{depth} mm below the surface: there pits begin.",
+        "The strip is {strip} mm wide. The maximum shear stress, {share:.2f} of that pressure or {shear} MPa, "
+        "lies {depth} mm below the surface: there pitting begins.",
         strip=number(2 * half_width, 3),
         share=SHEAR,
         shear=number(SHEAR * greatest.value, 1),
@@ -102,8 +101,8 @@ def _verdict(stress: StressDesign) -> list[Caption]:
         return []
     values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
     if stress.permitted:
-        kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would do.")
+        kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
         return [kept.where(**values)]
     return [
-        warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide keeps to them.").where(**values)),
+        warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values)),
     ]

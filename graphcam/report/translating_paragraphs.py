@@ -22,14 +22,14 @@ ONE_DEGREE = math.radians(1)
 TAN = say("\\tan")
 CONDITIONS = {
     "rise": say(
-        "- rise: ${left} \\ge v - s {tangent} = {v} - {s} {tangent} = {least}$ mm, where the tangent touches the "
-        "rise's curve."
+        "- rise: ${left} \\ge v - s {tangent} = {v} - {s} {tangent} = {least}$ mm, at the point where the tangent "
+        "touches the curve of the rise."
     ),
     "return": say(
-        "- return: ${left} \\ge |v| - s {tangent} = {v} - {s} {tangent} = {least}$ mm, where the tangent touches the "
-        "return's curve."
+        "- return: ${left} \\ge |v| - s {tangent} = {v} - {s} {tangent} = {least}$ mm, at the point where the "
+        "tangent touches the curve of the return."
     ),
-    "rest": say("- rest: ${left} \\ge 0$, so that the angle at the low rest keeps the rise's limit."),
+    "rest": say("- dwell: ${left} \\ge 0$, so that the angle in the lower dwell stays within the limit of the rise."),
 }
 
 
@@ -49,11 +49,12 @@ def _conditions(region: Construction) -> Iterator[Caption]:
 def least_radius(solution: Solution) -> str:
     """The conditions of the region, the lines that bind, the least radius, and what is adopted."""
     region, board, tell = solution.drawn["minimum_radius"], solution.chain.board, solution.tell
-    spring = say("A spring drives the return (force closure), so the return sets no condition.")
+    spring = say("A spring drives the return (force closure), so the return imposes no condition.")
     conditions = say(
         "In the combined diagram the velocities are laid off at the displacements, both in the scale of s. A cam "
-        "centre A that lies $s_0$ below the start of the lift, with the follower's line $e$ to the right of it, keeps "
-        "the permitted angles under these conditions, with $\\sigma = {sigma}$ for a cam that turns {turning}:",
+        "centre A that lies $s_0$ below the start of the lift, with the follower's line $e$ to the right of it, "
+        "satisfies the permitted angles under these conditions, with $\\sigma = {sigma}$ for a cam that turns "
+        "{turning}:",
         sigma=sense(board.rotation),
         turning=turning(board.rotation),
     )
@@ -72,20 +73,26 @@ def _centre(region: Construction) -> list[Caption]:
     """The place that is taken for the cam centre, and its distance from the start of the lift."""
     s0, e, r0 = (float(region.value(name)) for name in ("s0", "offset", "prime_radius"))
     if math.isnan(r0):
-        unreadable = say("No cam centre can be read, because the lines that bound the region cross at under a degree.")
+        unreadable = say(
+            "No cam centre can be read, because the lines that bound the region cross at less than one degree."
+        )
         return [warning(unreadable)]
     values = numbers(s0=s0, e=e, r0=r0)
     bound_by, given = [LINES[line.name] for line in active(region)], region.givens.offset
     place = (
-        say("Of the region the place that is nearest to the start of the lift is taken.")
+        say("The point of the region nearest to the start of the lift is taken.")
         if given is None
-        else say("The highest permitted place on the line at the given $e = {e:g}$ mm is taken.", e=given)
+        else say("The highest permitted point on the line at the given $e = {e:g}$ mm is taken.", e=given)
     )
-    lies = say("It lies on the limit of: {lines}.", lines=sequence(bound_by)) if bound_by else say("No line binds it.")
-    read = say("There $s_0 = {s0}$ mm and $e = {e}$ mm are read, so", **values)
+    lies = (
+        say("It lies on the limit set by: {lines}.", lines=sequence(bound_by))
+        if bound_by
+        else say("No line limits it.")
+    )
+    read = say("The readings there are $s_0 = {s0}$ mm and $e = {e}$ mm, so", **values)
     values |= {"square": formula("(<e>)^2" if e < 0 else "<e>^2", **values), "mm": unit("mm")}
     radius = r"$$r_0 = \sqrt{s_0^2 + e^2} = \sqrt{<s0>^2 + <square>} = <r0>\ \text{<mm>}.$$"
-    return [sequence([place, lies, read], " "), formula(radius, **values), say("This is the least prime radius.")]
+    return [sequence([place, lies, read], " "), formula(radius, **values), say("This is the minimum prime radius.")]
 
 
 def _adopted(solution: Solution) -> Caption:
@@ -99,7 +106,7 @@ def _adopted(solution: Solution) -> Caption:
         said += _rounded_up(solution)
     elif board.prime_radius < float(least) - LAST_DIGIT:
         smaller = say(
-            "The task gives $r_0 = {r0:g}$ mm, which is smaller: the permitted pressure angles cannot be kept.",
+            "The task gives $r_0 = {r0:g}$ mm, which is smaller: the permitted pressure angles are exceeded.",
             r0=board.prime_radius,
         )
         said.append(warning(smaller))
@@ -114,15 +121,15 @@ def _rounded_up(solution: Solution) -> list[Caption]:
     there = replace(chain.perfect, board=replace(board, follower=DrawnTranslating(chain.place)))
     radius = number(float(there.minimum_radius.value("prime_radius")))
     adopted = say(
-        "Rounded up to a multiple of {rounding:g} mm the prime radius is adopted as $r_0 = {r0:g}$ mm.",
+        "Rounded up to a multiple of {rounding:g} mm, the prime radius is adopted as $r_0 = {r0:g}$ mm.",
         rounding=chain.rounding,
         r0=chain.prime_radius,
     )
     if board.follower.place is None:
-        return [say("The combined diagram, read again at this offset, gives {radius} mm.", radius=radius), adopted]
+        return [say("Read again at this offset, the combined diagram gives {radius} mm.", radius=radius), adopted]
     if chain.pencil.perfect:
         return [adopted]
-    return [say("A hand without error reads {radius} mm.", radius=radius), adopted]
+    return [say("The ideal pencil gives {radius} mm.", radius=radius), adopted]
 
 
 def _sensitivity(solution: Solution) -> Words:
@@ -131,14 +138,14 @@ def _sensitivity(solution: Solution) -> Words:
     try:
         wider = Limits(limits.rise + ONE_DEGREE, limits.return_ and limits.return_ + ONE_DEGREE, limits.rest)
     except DesignError:
-        return say("The permitted angle is so large that a degree more cannot be drawn.")
+        return say("The permitted angle is so large that one degree more cannot be drawn.")
     again = replace(chain, board=replace(chain.board, limits=wider)).minimum_radius
     least, then = (float(c.value("prime_radius")) for c in (chain.minimum_radius, again))
     if math.isnan(then - least):
         return ""
     return say(
-        "Drawn again with every permitted angle greater by one degree, the combined diagram gives {then} mm: the least "
-        "radius changes by {change} mm per degree.",
+        "If every permitted angle is raised by 1°, the combined diagram gives {then} mm: the minimum radius "
+        "changes by {change} mm per degree.",
         **numbers(then=then, change=then - least),
     )
 
@@ -149,8 +156,8 @@ def pressure_angle(solution: Solution) -> str:
     return blocks(
         say(
             "The velocity plan ${plan}$ (cam 1, follower 2) is similar to the triangle ABC of the mechanism, so "
-            "$AC = ds/d\\varphi = v$. Laid off from B across the motion it gives D, and the angle of DA with the "
-            "motion is the pressure angle:",
+            "$AC = ds/d\\varphi = v$. Laid off from B across the motion it gives D, and the angle between DA and "
+            "the motion is the pressure angle:",
             plan=r"\vec v_2 = \vec v_1 + \vec v_{21}",
         ),
         formula(r"$$<tan>\alpha = \frac{v - \sigma e}{s_0 + s}.$$", tan=TAN),
@@ -170,7 +177,7 @@ def inversion(solution: Solution) -> str:
     return blocks(
         say(
             "The cam is held still and the follower's line is turned about its centre against the rotation; it "
-            "touches the circle of the offset. From the prime circle the displacement is laid off along it, so a "
+            "always touches the offset circle. From the prime circle the displacement is laid off along it, so a "
             "point of the pitch curve has the polar radius"
         ),
         r"$$R = \sqrt{e^2 + (s_0 + s)^2}.$$",

@@ -41,7 +41,7 @@ WORDS: Mapping[str, Caption] = {
     "readings": say("Readings"),
     "drawing": say("The drawing"),
     "looking": say("Zoom"),
-    "said": say("What is done"),
+    "said": say("What to do"),
     "live": say("The mechanism at this angle"),
     "steps": say("Steps"),
     "step": say("Step"),
@@ -52,8 +52,8 @@ WORDS: Mapping[str, Caption] = {
     "why": say("Why"),
     "previous": say("Back"),
     "next": say("Next"),
-    "whole_back": say("Previous step, whole"),
-    "whole_on": say("Next step, whole"),
+    "whole_back": say("Previous whole step"),
+    "whole_on": say("Next whole step"),
     "run": say("Play the steps"),
     "halt": say("Stop playing"),
     "pace": say("Speed"),
@@ -64,16 +64,16 @@ WORDS: Mapping[str, Caption] = {
     "name": say("Name"),
     "done": say("Caption"),
     "shown": say("Shown"),
-    "closer": say("Closer"),
-    "farther": say("Farther away"),
+    "closer": say("Zoom in"),
+    "farther": say("Zoom out"),
     "whole": say("Whole sheet"),
     "follow": say("Follow the step"),
     "sheet": say("Sheet"),
     "print": say("Print the sheet"),
     "theme": say("Light or dark"),
     "keyboard": say(
-        "Keys: ← → part by part, with Shift step by step, Page Up and Page Down constructions, space plays, "
-        "P protocol, + − 0 zoom, M mechanism"
+        "Keys: ← → parts, with Shift whole steps; Page Up and Page Down constructions; Space plays; P protocol; "
+        "+ − 0 zoom; M mechanism"
     ),
     "all_values": say("All values"),
     "place": say("where"),
@@ -82,13 +82,13 @@ WORDS: Mapping[str, Caption] = {
     "play": say("Turn"),
     "pause": say("Stop"),
     "angle": say("Cam angle φ"),
-    "speed": say("Turns a minute"),
+    "speed": say("Revolutions per minute"),
     "pressure_angle": say("Pressure angle α"),
     "displacement": say("Displacement s"),
     "velocity": say("Velocity v"),
     "normal": say("normal"),
     "motion": say("motion"),
-    "noscript": say("Without JavaScript the finished sheet is shown."),
+    "noscript": say("JavaScript is off: only the finished sheet is shown."),
 }
 """What the page itself says."""
 SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")

@@ -33,15 +33,15 @@ from graphcam.words import Words, sequence
 CONTACT_MEANING = Meaning(
     "contact",
     say("Contact force"),
-    say("A spring presses the follower on the cam, but no cam can pull: where it would have to, contact is lost."),
+    say("A spring presses the follower onto the cam. A cam cannot pull: where it would have to, contact is lost."),
     calculation="report.spring_paragraphs.contact",
 )
 FORCES_MEANING = Meaning(
     "turn_forces",
     say("Forces over the turn"),
     say(
-        "The cam pushes along the normal, so the contact force is greater than what moves the follower; its arm about "
-        "the cam centre makes the torque on the shaft."
+        "The cam pushes along the normal, so the contact force is larger than the force that moves the follower; "
+        "its lever arm about the cam centre makes the torque on the shaft."
     ),
     calculation="report.spring_paragraphs.forces",
 )
@@ -203,7 +203,7 @@ class SpringDesign:
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
             caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
-            why=say("Because the normal leans by α to the motion, and friction acts along the profile."),
+            why=say("Because the normal makes the angle α with the motion, and friction acts along the profile."),
             marked=((margin, say("{value:.3f}", value=margin.value)),),
         )
         normal = make(
@@ -214,7 +214,7 @@ class SpringDesign:
             "N",
             curve=self._curve(forces.normal),
             caption=say(
-                "N = {formula} is the force along the normal, at {mu:g} N/mm. Its greatest value is {greatest}.",
+                "N = {formula} is the force along the normal, at {mu:g} N/mm. Its maximum is {greatest}.",
                 formula=normal_formula(self.load, self.friction),
                 greatest=with_unit(self.greatest_normal.value, "N"),
             ),
@@ -235,7 +235,7 @@ class SpringDesign:
                 peak=with_unit(peak.value, "N·mm"),
                 mean=with_unit(_clean(mean), "N·mm"),
             ),
-            why=say("Because the power of the shaft is that of the follower and of the friction."),
+            why=say("Because the power of the shaft equals that of the follower and of friction."),
             marked=((peak, with_unit(peak.value, "N·mm")),),
         )
         return [normal, torque] if flat else [sliding, normal, torque]
@@ -278,25 +278,29 @@ class SpringDesign:
             rows.append((say("load P"), say("{least:g} to {most:g} N", least=least, most=most), say("by table")))
         elif load.load:
             rows.append((say("load P"), with_unit(load.load, "N"), ""))
-        open_or_not = say("least") if self.open_preload else say("given")
+        open_or_not = say("minimum needed") if self.open_preload else say("given")
         return [*rows, (say("preload F₀"), with_unit(load.preload, preload), open_or_not)]
 
     def _found_rows(self) -> list[Row]:
         least, greatest, (along, preload, _) = self.contact.least_force(), self.greatest_normal, self.units
         mean, most, fewest = self.torques
         lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
-        contact = say("least contact force") if along == "N" else say("least contact torque")
+        contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
-            (say("least preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
+            (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
             (contact, with_unit(_clean(least.value), along), at_side(least, self.cam.motion)),
-            (say("greatest normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
-            (say("greatest torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
-            (say("least torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
+            (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
+            (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
+            (say("minimum torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
             (say("mean torque"), with_unit(_clean(mean), "N·mm"), ""),
         ]
         if self.friction:
             rows.append(
-                (say("least transmission τ"), say("{value:.3f}", value=margin.value), at_side(margin, self.cam.motion))
+                (
+                    say("minimum transmission τ"),
+                    say("{value:.3f}", value=margin.value),
+                    at_side(margin, self.cam.motion),
+                )
             )
         return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), "")]
 
@@ -311,20 +315,20 @@ PLAIN_FORCES = {
 """The columns of the plain data over the turn, and the fields of the forces."""
 CONTACT_CAPTIONS = {
     (True, True): say(
-        "{formula} is the force with which the cam bears the follower, at {mu:g} N/mm. Where it is negative, as marked "
-        "on the axis, the cam would have to pull: contact is lost."
+        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. Where it is negative, as "
+        "marked on the axis, the cam would have to pull: contact is lost."
     ),
     (True, False): say(
-        "{formula} is the force with which the cam bears the follower, at {mu:g} N/mm. It is nowhere negative: contact "
-        "is kept."
+        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative: "
+        "contact is kept."
     ),
     (False, True): say(
-        "{formula} is the torque about the pivot with which the cam bears the arm, at {mu:g} N·mm/mm. Where it is "
-        "negative, as marked on the axis, the cam would have to pull: contact is lost."
+        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. Where it "
+        "is negative, as marked on the axis, the cam would have to pull: contact is lost."
     ),
     (False, False): say(
-        "{formula} is the torque about the pivot with which the cam bears the arm, at {mu:g} N·mm/mm. It is nowhere "
-        "negative: contact is kept."
+        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is "
+        "nowhere negative: contact is kept."
     ),
 }
 """What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""

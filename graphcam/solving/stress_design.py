@@ -38,8 +38,9 @@ STRESS = say(
     "profile and follower, at {mu:g} MPa/mm."
 )
 JUDGED = say(
-    "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
-    "profile and follower, at {mu:g} MPa/mm. The level line is the permitted stress; {verdict}."
+    "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the "
+    "curvatures of profile and follower, at {mu:g} MPa/mm. The horizontal line is the permitted stress; "
+    "{verdict}."
 )
 BEYOND = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
@@ -47,8 +48,8 @@ BEYOND = say(
 )
 FAR = 3.0
 """A permitted stress of more than so many times the greatest would leave no room for the curve."""
-KEPT = say("the curve nowhere passes it")
-PASSED = say("where the curve passes it the axis is marked")
+KEPT = say("the curve does not cross it")
+PASSED = say("where the curve lies above it, the axis is marked")
 ENLARGED = {True: say("the roller and the prime radius"), False: say("the prime radius")}
 """What flattens the contact where it is made larger, with a roller and without one."""
 FLAT = 1e6
@@ -59,9 +60,9 @@ SHAPES = {
     "flat": say_in("a profile", "flat"),
 }
 WITHOUT = {
-    "knife edge": say("a knife edge has no width in which to be flattened: the stress is infinite"),
+    "knife edge": say("a knife edge has no width of contact: the stress is infinite"),
     "undercut": say("the profile is undercut, and ends in an edge there"),
-    "no force": say("nothing presses the follower on the cam"),
+    "no force": say("nothing presses the follower onto the cam"),
 }
 """Why there is no greatest stress that is finite."""
 
@@ -165,7 +166,7 @@ class StressDesign:
             self.forces.cam.motion,
             curve,
             self._said,
-            why=say("Because surfaces pit where they are pressed too hard too often."),
+            why=say("Because surfaces suffer pitting where they are pressed too hard too often."),
             marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
             limit=None if limit is None or self._far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_above(curve, limit)),
@@ -220,10 +221,10 @@ class StressDesign:
     def _results(self) -> Iterator[Row]:
         """The rows of what was found."""
         if self.greatest is None or (at := self.contact) is None:
-            yield say("greatest stress"), say("none"), WITHOUT[str(self.without)]
+            yield say("maximum stress"), say("none"), WITHOUT[str(self.without)]
             return
         yield (
-            say("greatest stress"),
+            say("maximum stress"),
             with_unit(self.greatest.value, "MPa"),
             at_side(self.greatest, self.forces.cam.motion),
         )
@@ -239,7 +240,7 @@ class StressDesign:
             verdicts: dict[bool | None, Words] = {True: say_in("a stress", "kept"), False: say("exceeded"), None: ""}
             yield say("permitted stress"), with_unit(limit, "MPa"), verdicts[self.permitted]
         if self.least_width is not None:
-            yield say("least width for it"), with_unit(self.least_width, "mm"), ""
+            yield say("minimum width for it"), with_unit(self.least_width, "mm"), ""
 
 
 def rounded_up(width: float) -> float:

@@ -47,7 +47,7 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
         remedy = ENLARGE
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
-        said = say("The profile cannot be cut: its undercut is made of loops that cannot be told apart. {remedy}")
+        said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
         yield Caution(said.where(remedy=remedy), "profile")
         return
     if not lost:
@@ -106,7 +106,7 @@ def _limits(cam: Cam, board: Board) -> Iterator[Caution]:
 def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - LAST_DIGIT:
-        said = say("The given prime radius of {given:g} mm is smaller than the least permitted one, {least:.2f} mm.")
+        said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
         yield Caution(said.where(given=given, least=least), "prime radius")
 
 
@@ -115,8 +115,8 @@ def less_round(chain: Chain) -> list[Caution]:
     if chain.rounded:
         return []
     said = say(
-        "No multiples of {rounding:g} mm go with one another within the permitted pressure angles: the prime radius "
-        "{radius:g} mm with the centre distance {distance:g} mm is adopted.",
+        "No combination of multiples of {rounding:g} mm stays within the permitted pressure angles: the prime "
+        "radius {radius:g} mm with the centre distance {distance:g} mm is adopted.",
         rounding=chain.rounding,
         radius=chain.prime_radius,
         distance=chain.place,

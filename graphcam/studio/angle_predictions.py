@@ -50,7 +50,7 @@ def angle_foretold(chain: Chain) -> Foretold:
     given = [*steps_in(chain, "minimum_radius", COMBINED.name)[:2], *steps[:-1]]
     construct = [step for step in shown_steps(chain, "pressure_angle", COMBINED.name) if step.step == steps[-1]]
     way = centre + radius * np.exp(1j * (math.pi / 2 + sigma * np.linspace(0.0, STEEPEST_RAY, POINTS)))
-    question = say("How far does the ray from A lean that shows the greatest pressure angle of the rise?")
+    question = say("At what angle to the motion is the ray from A that shows the maximum pressure angle of the rise?")
     return Foretold(question, COMBINED.name, given, construct, way, complex(way[0]), judged, pole=centre)
 
 
@@ -61,11 +61,17 @@ def _rising(chain: Chain) -> NDArray[np.bool_]:
 
 def _by_degrees(difference: float, lean: float, paper: float) -> Caption:
     if paper <= PENCIL_LINE:
-        return say("Your ray at {lean:.1f}° is the greatest pressure angle to a pencil line.", lean=lean)
+        return say("Your ray at {lean:.1f}° shows the maximum pressure angle to within a pencil line.", lean=lean)
     said = (
-        say("Your ray at {lean:.1f}° leans {difference:.1f}° too far, {paper:.1f} mm on paper at the end of v.")
+        say(
+            "Your ray at {lean:.1f}° is {difference:.1f}° too far from the motion, {paper:.1f} mm on paper at "
+            "the end of v."
+        )
         if difference > 0
-        else say("Your ray at {lean:.1f}° leans {difference:.1f}° too little, {paper:.1f} mm on paper at the end of v.")
+        else say(
+            "Your ray at {lean:.1f}° is {difference:.1f}° too close to the motion, {paper:.1f} mm on paper "
+            "at the end of v."
+        )
     )
     return said.where(lean=lean, difference=abs(difference), paper=paper)
 
@@ -106,18 +112,18 @@ def steepest_foretold(chain: Chain) -> Foretold:
 
     given = steps_in(chain, "integration", VELOCITY.name)
     way = curve[rising]
-    question = say("At which place of the rise will the pressure angle be greatest?")
+    question = say("Where on the rise does the pressure angle have its maximum?")
     construct = shown_steps(chain, "angle_diagram", ANGLE.name)
     return Foretold(question, VELOCITY.name, given, construct, way, complex(way[1]), judged)
 
 
 def _by_phi(difference: float, phi: float, paper: float) -> Caption:
     if paper <= PENCIL_LINE:
-        return say("Your place at φ = {phi:.1f}° is the steepest to a pencil line.", phi=phi)
+        return say("Your point at φ = {phi:.1f}° is the maximum to within a pencil line.", phi=phi)
     said = (
-        say("Your place at φ = {phi:.1f}° lies {difference:.1f}° too late, {paper:.1f} mm on paper.")
+        say("Your point at φ = {phi:.1f}° is {difference:.1f}° too late, {paper:.1f} mm on paper.")
         if difference > 0
-        else say("Your place at φ = {phi:.1f}° lies {difference:.1f}° too early, {paper:.1f} mm on paper.")
+        else say("Your point at φ = {phi:.1f}° is {difference:.1f}° too early, {paper:.1f} mm on paper.")
     )
     return said.where(phi=phi, difference=abs(difference), paper=paper)
 
@@ -128,18 +134,22 @@ def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_
     drawn = chain.angle_diagram.acts["curve"].first.shown[rising]
     fastest = float(curve[rising].real[np.argmax(curve[rising].imag)])
     told = say(
-        "There α is {here:.1f}°, at φ = {phi:.1f}° it is {greatest:.1f}°.",
+        "There α is {here:.1f}°; at φ = {phi:.1f}° it is {greatest:.1f}°.",
         here=float(np.interp(x, drawn.real, drawn.imag)) * per_mm,
         phi=top.real * per_mm,
         greatest=top.imag * per_mm,
     )
     apart = (top.real - fastest) * per_mm
     if abs(apart) < 1:
-        reason = say("The velocity makes the angle, and here its maximum is so sharp that the two fall together.")
+        reason = say("The angle is due to the velocity, whose maximum is so sharp here that the two coincide.")
     elif apart < 0:
         reason = say(
-            "The velocity makes the angle, and a low follower enlarges it: so α is greatest {apart:.1f}° before v is."
+            "The angle is due to the velocity, and a low position of the follower enlarges it: so α has its "
+            "maximum {apart:.1f}° before v."
         )
     else:
-        reason = say("The velocity makes the angle, and here the position of the arm adds to it {apart:.1f}° after v.")
+        reason = say(
+            "The angle is due to the velocity, and here the position of the arm shifts its maximum to "
+            "{apart:.1f}° after that of v."
+        )
     return sequence([told, reason.where(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")

@@ -22,7 +22,7 @@ BEYOND = 1.7
 """The guess may move so many times as far as the lift is high, or as the centre lies away."""
 POINTS = 73
 """Of a curve on which it moves."""
-LEAST_RADIUS = say("least prime radius")
+LEAST_RADIUS = say("minimum prime radius")
 
 
 def centre_foretold(chain: Chain) -> Foretold:
@@ -68,14 +68,17 @@ def _by_curvature(chain: Chain) -> bool:
 
 def _question(chain: Chain, free: bool) -> Caption:
     if _by_curvature(chain):
-        return say("How far below the axis of a does the cam centre A lie, if the radius of the profile is kept?")
+        return say(
+            "How far below the axis of a does the cam centre A lie, if the radius of curvature of the "
+            "profile is just permitted?"
+        )
     if free:
         return say(
-            "Where does the cam centre A lie, if the limits are kept and the prime radius is as small as can be?"
+            "Where does the cam centre A lie, if the limits are satisfied and the prime radius is as small as possible?"
         )
     if _about_pivot(chain):
-        return say("Where on the circle about the pivot does the cam centre A lie, if the prime radius is the least?")
-    return say("Where on the line of the offset does the cam centre A lie, if the prime radius is the least?")
+        return say("Where on the circle about the pivot does the cam centre A lie for the minimum prime radius?")
+    return say("Where on the line of the offset does the cam centre A lie for the minimum prime radius?")
 
 
 def _way(chain: Chain, answer: complex, origin: complex) -> tuple[Points, bool]:
@@ -109,12 +112,12 @@ def _round_up(mm: float) -> float:
 
 def _said(radius: float, difference: float, paper: float) -> Caption:
     if paper <= PENCIL_LINE:
-        return say("Your A lies on the cam centre: {paper:.1f} mm apart on paper.", paper=paper)
+        return say("Your A lies on the cam centre: {paper:.1f} mm off on paper.", paper=paper)
     apart = say("Your A lies {paper:.1f} mm from the cam centre on paper.", paper=paper)
     more = (
-        say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm larger than the least one.")
+        say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm larger than the minimum.")
         if difference >= 0
-        else say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm smaller than the least one.")
+        else say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm smaller than the minimum.")
     ).where(radius=radius, difference=abs(difference))
     return sequence([apart, more], " ")
 
@@ -122,10 +125,10 @@ def _said(radius: float, difference: float, paper: float) -> Caption:
 def _permitted(chain: Chain, guess: complex, origin: complex, mu: float, near: bool) -> Caption:
     """What the pressure angles of a cam with its centre there come to."""
     if near:
-        return say("A line at a permitted angle just touches what was laid off: higher up one limit is passed.")
+        return say("A line at a permitted angle just touches what was laid off: higher up, a limit is exceeded.")
     worst = _worst(chain, guess, origin, mu)
     if worst is None:
-        return say("No follower can stand so: the prime circle does not reach its line of motion.")
+        return say("The follower cannot be in this position: the prime circle does not reach its line of motion.")
     station, angle, limit = worst
     values = {"station": station, "angle": math.degrees(angle), "limit": math.degrees(limit)}
     if angle > limit:
@@ -135,8 +138,8 @@ def _permitted(chain: Chain, guess: complex, origin: complex, mu: float, near: b
         )
         return said.where(**values)
     said = say(
-        "From there all limits are kept, {angle:.1f}° of {limit:.1f}° at station {station}, but from a place nearer to "
-        "B₀ too: the cam would be larger than it need be."
+        "From there all limits are satisfied, with {angle:.1f}° of {limit:.1f}° at station {station}. But they "
+        "are also satisfied nearer to B₀: the cam would be larger than necessary."
     )
     return said.where(**values)
 
@@ -168,11 +171,11 @@ def _convex(chain: Chain, radius: float) -> Caption:
     least = chain.minimum_radius.givens.least_curvature
     rho = radius - need
     if rho < 0:
-        said = say("With it r₀ + s + a would fall to {rho:.1f} mm: the profile would turn inside out and be cut away.")
+        said = say("Then r₀ + s + a would fall to {rho:.1f} mm: the profile would turn inside out and be cut away.")
     elif rho < least:
         said = say(
-            "With it the profile would be as sharp as ρ = {rho:.1f} mm, and {least:g} mm is the least permitted."
+            "With it the profile would be as sharp as ρ = {rho:.1f} mm, and {least:g} mm is the minimum permitted."
         )
     else:
-        said = say("With it the least ρ = r₀ + s + a is {rho:.1f} mm, and {least:g} mm is enough.")
+        said = say("Then the minimum of ρ = r₀ + s + a is {rho:.1f} mm, and {least:g} mm is enough.")
     return said.where(rho=rho, least=least)

@@ -35,7 +35,7 @@ FIELDS: Mapping[str, str] = {
     "roller radius by the rule": "follower.roller_rule",
     "roller rule": "follower.roller_rule",
     "prime radius": "cam.prime_radius",
-    "least prime radius": "cam.prime_radius",
+    "minimum prime radius": "cam.prime_radius",
     "undercut": "cam.prime_radius",
     "permitted pressure angle on the rise": "limits.pressure_angle_rise",
     "permitted pressure angle on the return": "limits.pressure_angle_return",
@@ -105,7 +105,7 @@ def field_of(error: GraphcamError, task: Mapping[str, Any]) -> str:
     if not isinstance(error, DesignError):
         return ""
     field = FIELDS.get(error.quantity) or _place(error.quantity)
-    if error.quantity == "least prime radius" and value_at(task, "cam.prime_radius") is not None:
+    if error.quantity == "minimum prime radius" and value_at(task, "cam.prime_radius") is not None:
         return "follower.distance" if value_at(task, "follower.kind") == "oscillating" else "follower.offset"
     if field == "motion.phases" and value_at(task, "motion.table") is not None:
         return "motion.table"

@@ -17,11 +17,11 @@ from graphcam.tasks.task import Task
 from graphcam.words import Caption, say
 
 CURVES: dict[str, tuple[Caption, str]] = {
-    "least_prime_radius": (say("least prime radius"), "mm"),
+    "least_prime_radius": (say("minimum prime radius"), "mm"),
     "prime_radius": (say("prime radius"), "mm"),
     "pressure_angle_rise": (say("maximum pressure angle, rise"), "°"),
     "pressure_angle_return": (say("maximum pressure angle, return"), "°"),
-    "curvature_radius": (say("least radius of curvature ρ"), "mm"),
+    "curvature_radius": (say("minimum radius of curvature ρ"), "mm"),
     "roller_radius": (say("roller radius"), "mm"),
     "max_v": (say("maximum velocity"), "mm/rad"),
 }

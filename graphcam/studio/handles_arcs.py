@@ -88,7 +88,7 @@ def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:
         return {"follower.roller_radius": snapped(diameter / 2 * mu, room, fine=fine)}
 
     at = complex(np.interp(math.radians(state.phi), phi, places))
-    yield Handle(ROLLER.name, "phi", say("Place of the roller"), at, "xy", (phi_axis(state.phi),), drag)
+    yield Handle(ROLLER.name, "phi", say("Position of the roller"), at, "xy", (phi_axis(state.phi),), drag)
     axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "x")
     rim = start + out * radius / mu
     yield Handle(ROLLER.name, "r", say("Rim of the roller"), rim, "along", (axis,), widened, along=out)

@@ -8,7 +8,7 @@ MODE_WORDS: Mapping[str, Caption] = {
     "locked": say("Sizes and values are locked in this mode."),
     "predict_what": say("What do you predict?"),
     "predict_how": say(
-        "Move the dashed amber mark to where you expect it, by hand, with the arrow keys or by the number below."
+        "Move the dashed amber mark to where you expect it: drag it, use the arrow keys, or type the number below."
     ),
     "guess": say("Your guess"),
     "guess_along": say("Your guess, along its line"),
@@ -20,7 +20,7 @@ MODE_WORDS: Mapping[str, Caption] = {
     "next_variant": say("Next variant"),
     "on_paper": say("on paper"),
     "of_the_machine": say("of the machine"),
-    "nothing_to_predict": say("This task has nothing to predict: take another one in the mode Play."),
+    "nothing_to_predict": say("This task has nothing to predict: choose another one in Play mode."),
     "constructing": say("The construction, step by step: {step}", step="{step}"),
     "tours": say("Tours"),
     "card_of": say("Card {card} of {cards}", card="{card}", cards="{cards}"),
@@ -28,8 +28,8 @@ MODE_WORDS: Mapping[str, Caption] = {
     "right": say("Right."),
     "not_right": say("Not that one. Try another answer."),
     "done_it": say("Done."),
-    "do_it": say("Or try it in the drawing: the card notices."),
-    "do_it_only": say("Do it in the drawing or with the sizes: the card notices."),
+    "do_it": say("Or try it in the drawing; the card will notice."),
+    "do_it_only": say("Do it in the drawing or with the sizes; the card will notice."),
     "finish_tour": say_in("a tour", "Finish"),
     "next_card": say_in("a tour", "Next card"),
     "previous_card": say_in("a tour", "Previous card"),
@@ -40,10 +40,10 @@ MODE_WORDS: Mapping[str, Caption] = {
     "answer_right": say_in("an answer", "right"),
     "answer_wrong": say_in("an answer", "not right"),
     "not_a_number": say("Write a number."),
-    "draw_it": say("Draw it and hand it in with your answers: it is not checked here."),
+    "draw_it": say("Draw it and hand it in with your answers; it is not checked here."),
     "decimals": say("decimals: {count}", count="{count}"),
     "no_checks": say("Answers are not checked here. Hand them in as your course says."),
-    "practice": say("For practice: marks are given only for what you hand in."),
+    "practice": say("For practice only: marks are given for what you hand in."),
     "checked": say("{right} of {checked} right.", right="{right}", checked="{checked}"),
 }
 """By the names that ``predict.js``, ``tour.js`` and ``exercise.js`` ask for."""

@@ -30,16 +30,16 @@ FARTHEST = 1e5
 KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Foretold], Callable[[Chain], bool]]] = {
     "centre": (say("The cam centre"), lambda solution: centre_foretold(solution.chain), lambda chain: True),
     "angle": (
-        say("The greatest pressure angle"),
+        say("The maximum pressure angle"),
         lambda solution: angle_foretold(solution.chain),
         lambda chain: "s0" in chain.minimum_radius.readings,
     ),
     "steepest": (
-        say("Where the pressure angle is greatest"),
+        say("Where the pressure angle has its maximum"),
         lambda solution: steepest_foretold(solution.chain),
         lambda chain: "angle_diagram" in chain.names,
     ),
-    "sharpest": (say("The sharpest place"), sharpest_foretold, lambda chain: True),
+    "sharpest": (say("The sharpest point"), sharpest_foretold, lambda chain: True),
 }
 """What can be foretold: its name, the question of a solution, and whether a chain has it."""
 

@@ -45,7 +45,7 @@ def sharpest_foretold(solution: Solution) -> Foretold:
 
     steps = steps_in(chain, "inversion", PROFILE.name)
     question = (
-        say("Where on the pitch curve is the cam sharpest, of all its convex places?")
+        say("Where on the convex parts of the pitch curve is the cam sharpest?")
         if cam.kinematics.takes_roller
         else say("Where on the profile is the cam sharpest?")
     )
@@ -63,10 +63,10 @@ def _convex_radii(curvature: Floats, hollows: bool) -> Floats:
 
 def _said(paper: float, radius: float, difference: float) -> Caption:
     if paper <= PENCIL_LINE:
-        return say("Your place is the sharpest: {paper:.1f} mm apart on paper.", paper=paper)
-    apart = say("Your place lies {paper:.1f} mm from the sharpest one on paper.", paper=paper)
+        return say("Your point is the sharpest: {paper:.1f} mm off on paper.", paper=paper)
+    apart = say("Your point is {paper:.1f} mm from the sharpest one on paper.", paper=paper)
     if math.isinf(radius):
-        return sequence([apart, say("There the curve is hollow.")], " ")
+        return sequence([apart, say("There the curve is concave.")], " ")
     there = say("There ρ is {radius:.1f} mm, {difference:.1f} mm more.", radius=radius, difference=max(difference, 0.0))
     return sequence([apart, there], " ")
 
@@ -75,12 +75,13 @@ def _why(solution: Solution, phi: float, least: float, at: float) -> Caption:
     """The accelerations at the guess and at the sharpest place."""
     here, there = (float(solution.cam.motion(np.array(angle))[2]) for angle in (phi, at))
     said = say(
-        "A negative acceleration, a < 0, bends the curve more sharply; a positive one makes it flatter, or hollow. At "
-        "your place a = {here:.3g} {unit}, at φ = {phi:.1f}° it is {there:.3g} {unit}, and ρ = {least:.2f} mm."
+        "A negative acceleration, a < 0, bends the curve more sharply; a positive one makes it flatter, or "
+        "concave. At your point a = {here:.3g} {unit}, at φ = {phi:.1f}° it is {there:.3g} {unit}, and ρ = "
+        "{least:.2f} mm."
     )
     unit = solution.chain.integration.readings["a"].unit
     said = said.where(here=here, there=there, unit=unit, phi=math.degrees(at), least=least)
     if math.isclose(here, there, rel_tol=AS_SHARP):
-        alike = say("Where a is the same, the place nearer to the cam centre is the sharper one.")
+        alike = say("Where a is the same, the point nearer to the cam centre is sharper.")
         return sequence([said, alike], " ")
     return said

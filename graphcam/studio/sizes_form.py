@@ -36,7 +36,7 @@ RATIO = SizeRange(0.2, 5.0, 0.1)
 """Of the accelerations of the rectangular law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 TURNING = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
-LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its tip, mm")}
+LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
 AT_REST = {True: say("within the limit"), False: say("not limited")}
 LANGUAGES = {"en": "English", "ru": "русский"}
 """Each in itself; another one by its sign."""
@@ -150,7 +150,7 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     else:
         yield make.number("limits.pressure_angle_rise")
         yield make.open_number("limits.pressure_angle_return", None)
-        yield make.choice("limits.rest", LIMITS, say("Angle at the low dwell"), AT_REST.items())
+        yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), AT_REST.items())
     if solution.spring is not None:
         yield from _spring(make, solution.spring)
     if solution.task.material is not None:

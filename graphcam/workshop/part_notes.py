@@ -42,15 +42,15 @@ def requirements(
         *_keyway(part),
         say("Both ends of the bore are chamfered {chamfer} × 45°.", chamfer=size(part.chamfer)),
         _zero(part, outline),
-        say("θ is counted against the rotation, so that the follower meets the profile in the order of the table."),
+        say("θ is counted against the rotation, so the follower meets the profile in the order of the table."),
         say(
-            "The radii of the table are exact: computed, not measured on a drawing. Interpolated linearly they are "
-            "within {bound:g} mm of the exact profile, before rounding.",
+            "The radii of the table are exact: computed, not measured on a drawing. Interpolated linearly, they "
+            "are within {bound:g} mm of the exact profile before rounding.",
             bound=round(table.bound, 6),
         ),
         *_cutter(part),
         _runs_on(solution),
-        *([say("The profile is what can be cut: an undercut leaves a corner.")] if outline.corners else []),
+        *([say("The profile is the part that can be cut: an undercut leaves a corner.")] if outline.corners else []),
         say(
             "In the files of the profile the zero mark lies at {angle} from the x axis.",
             angle=degrees(round(outline.zero % (2 * math.pi), 7)),
@@ -68,7 +68,7 @@ def _keyway(part: CamPart) -> list[Caption]:
 def _zero(part: CamPart, outline: Outline) -> Caption:
     if not outline.zero_met:
         return say(
-            "The zero mark, θ = 0°, is scribed on the face, over the middle of a keyway; the place at which the "
+            "The zero mark, θ = 0°, is scribed on the face, over the middle of a keyway; the point at which the "
             "follower would meet the cam at cam angle 0 is lost to the undercut."
         )
     if part.keyway is None:

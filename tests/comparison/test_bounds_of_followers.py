@@ -28,7 +28,7 @@ def solved(follower: str) -> list[Solution]:
         try:
             found.append(solve(FOLLOWERS[follower](seed)))
         except DesignError as why:
-            assert why.quantity in {"least prime radius", "roller radius"}, why  # noqa: PT017
+            assert why.quantity in {"minimum prime radius", "roller radius"}, why  # noqa: PT017
         if len(found) == TASKS:
             return found
     raise AssertionError("too few of the tasks can be solved")

@@ -366,7 +366,7 @@ def test_limits_that_no_cam_keeps_leave_no_radius_to_adopt(motion, distance, per
     assert [type(mark) for mark in last.marks] == ([Arc] if distance is not None else [])  # it misses the hatching
     with pytest.raises(DesignError, match=r"least prime radius .* give .*cam.prime_radius"):
         _ = Chain(board).prime_radius
-    with pytest.raises(DesignError, match="least prime radius"):
+    with pytest.raises(DesignError, match="minimum prime radius"):
         _ = Chain(board)["inversion"]
 
 

@@ -87,7 +87,7 @@ def test_lines_that_cross_below_one_degree_leave_no_radius_to_adopt(offset, degr
     assert last.marks == ()
     with pytest.raises(DesignError, match=r"least prime radius .* give .*cam.prime_radius"):
         _ = chain.prime_radius
-    with pytest.raises(DesignError, match="least prime radius"):
+    with pytest.raises(DesignError, match="minimum prime radius"):
         _ = chain["inversion"]
 
 

@@ -423,7 +423,7 @@ def test_in_the_dwells_the_lines_lie_on_the_other_side_of_the_normal(name):
 
 def test_without_the_limits_in_the_dwells_the_arms_are_produced():
     region, steps = steps_of(REACH, "minimum_radius")
-    step, top = titled(steps, "The arm produced"), names_of(region)[int(np.argmax(motion(region)[0]))]
+    step, top = titled(steps, "The arm extended"), names_of(region)[int(np.argmax(motion(region)[0]))]
     assert f"produce CB₀ and the highest arm, {top}, beyond their ends" in str(step.caption)
     assert [draws(part) for part in step.parts] == [{"limits: reach": [0]}, {"limits: reach": [1]}]
     assert f"arm {top}" in str(step.parts[1].caption)
@@ -445,7 +445,7 @@ def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
     _, outward, _, tips = positions(region)
     (shaded,), (centre,) = (
         marks(titled(steps, "The permitted region"), Region),
-        marks(titled(steps, "The least prime radius"), Dots),
+        marks(titled(steps, "The minimum prime radius"), Dots),
     )
     corners, place = shaded.boundary, complex(centre.points[0])
     assert from_edge(place, corners) < 1e-6
@@ -464,7 +464,7 @@ def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
 def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(name, pencil):
     region, steps = steps_of(name, "minimum_radius", pencil)
-    step, mu, given = titled(steps, "The least prime radius"), region.givens.mu_l.per_mm, region.givens.distance
+    step, mu, given = titled(steps, "The minimum prime radius"), region.givens.mu_l.per_mm, region.givens.distance
     (*_, to_start), (to_pivot,) = marks(step, Line, Role.LIMIT), marks(step, Line, Role.AXIS)
     start, place = (complex(each) for each in to_start.points)
     assert abs(start + region.givens.arm / mu) < (MANY * SIGMA if pencil else EXACT)
@@ -507,7 +507,7 @@ WHERE = {
 @EVERY
 def test_the_lines_that_bind_are_named_and_the_centre_lies_on_them(name):
     region, steps = steps_of(name, "minimum_radius")
-    step = titled(steps, "The least prime radius")
+    step = titled(steps, "The minimum prime radius")
     (place,), (*bind, _) = marks(step, Dots)[0].points, marks(step, Line, Role.LIMIT)
     for start, end in (line.points for line in bind):
         share = (place - start) / (end - start)

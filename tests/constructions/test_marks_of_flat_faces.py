@@ -34,7 +34,7 @@ OWN = ("minimum_radius", "inversion", "curvature")
 LAID_OFF = "minimum_radius", "Displacement over acceleration"
 JOINED = "minimum_radius", "The curve of s over a"
 TANGENT = "minimum_radius", "The tangent at 45 degrees"
-FOUND = "minimum_radius", "The least prime radius"
+FOUND = "minimum_radius", "The minimum prime radius"
 CIRCLE = "inversion", "Prime circle"
 RAYS = "inversion", "Rays of the inverted positions"
 FACES = "inversion", "Faces"
@@ -191,7 +191,7 @@ def test_the_axes_of_s_and_a_reach_beyond_all_that_is_drawn(name):
         of_kind(step_of(name, *FOUND), Dots)[0].points[0],
         of_kind(step_of(name, *TANGENT), Dots)[1].points[0],
     )
-    adopted = of_kind(step_of(name, "curvature", "The least radius of curvature"), Dots)[0].points[0]
+    adopted = of_kind(step_of(name, "curvature", "The minimum radius of curvature"), Dots)[0].points[0]
     assert up.start == pytest.approx(1j * (min(centre.imag, zero.imag, adopted.imag) - 8), abs=EXACT)
     assert up.end == pytest.approx(1j * (curve.imag.max() + 8))
     assert (across.start, across.end) == (pytest.approx(curve.real.min()), pytest.approx(curve.real.max() + 8))
@@ -304,7 +304,7 @@ def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_ta
     drawn = chain(name, pencil)
     curved, region = drawn["curvature"], drawn["minimum_radius"]
     step, mu = (
-        step_of(name, "curvature", "The least radius of curvature", pencil),
+        step_of(name, "curvature", "The minimum radius of curvature", pencil),
         float(np.ravel(region.readings["need"].scale)[0]),
     )
     (dot,), (measure,) = of_kind(step, Dots), of_kind(step, Dimension)

@@ -343,7 +343,7 @@ def test_what_short_chords_may_miss_is_reckoned_and_what_chords_twice_as_wide_re
     k = names_of(chain).index(str(only(step, Label)[0].text)) + 1
     chord = (abs(pitch[k] - pitch[k - 1]) + abs(pitch[k + 1] - pitch[k])) / 2
     missed = 4 * 0.15 * rho / mu / chord**2
-    by = f"{100 * missed:.0f} %" if missed < 1 else "more than itself"
+    by = f"{100 * missed:.0f} %" if missed < 1 else "more than ρ itself"
     assert f"by {by}: 4 × 0.15 mm × ρ/h², with h = {chord:.1f} mm and ρ = {rho / mu:.1f} mm" in caption
     wide = re.search(
         r"over ([\d′, ]+), miss.* ρ = ([\d.]+) mm instead of ([\d.]+) mm\. (By hand|So the short)", caption
@@ -363,7 +363,7 @@ def test_chords_that_a_hand_cannot_tell_from_a_line_are_said_to_be_so():
     drawn = Chain(coursework("3-4-5", divisions=96))["curvature"]
     caption = str(drawn.steps()[0].caption)
     assert "ρ may be wrong by more than itself" in caption
-    assert caption.endswith("By hand these are the better ones.")
+    assert caption.endswith("For drawing by hand the longer chords are better.")
 
 
 @every
@@ -532,7 +532,7 @@ def test_roller_circles_stand_about_the_pitch_points(name, hand):
 
 @every
 def test_touch_points_lie_a_roller_radius_inward_square_to_the_pitch_curve(name, hand):
-    chain, step = chain_of(name, hand), profile_step(name, hand, "Touch points")
+    chain, step = chain_of(name, hand), profile_step(name, hand, "Contact points")
     pitch = only(steps(name, hand, "inversion")[2], Dots)[0].points
     radius, (dots,) = chain.roller_radius / chain.profile_scale.per_mm, only(step, Dots)
     assert f"{radius:.1f} mm inward" in str(step.caption)

@@ -328,13 +328,13 @@ def test_every_limit_is_a_part_that_says_angle_lean_side_and_touch(name, hand):
 def test_the_caption_of_the_region_says_which_side_each_line_cuts_off(name, hand):
     step = diagram(name, hand)[3]
     for bound in bounds(name, hand):
-        level = "at zero lift" if bound.title == "rest" else f"on the {bound.title}"
+        level = "in the lower dwell" if bound.title == "rest" else f"on the {bound.title}"
         side_of = f"A cam centre {beside(-bound.inward.real)} of the {bound.title} line"
         assert f"{side_of} would give more than {math.degrees(bound.limit):g}° {level}." in str(step.caption)
     hatching, *others = step.parts
     assert [drawn.act for drawn in hatching.draws] == [one(step, Region).of]
     for part, (title, place) in zip(others, crosses(name, hand).items(), strict=True):
-        found = {"foot from B₀": "foot of the perpendicular"}.get(title, title)
+        found = {"foot of the perpendicular": "foot of the perpendicular"}.get(title, title)
         assert str(part.caption).lower().startswith(f"{found.lower()}: ")
         assert says(part, r"([\d.]+) mm (?:long|from B₀)\.") == [pytest.approx(abs(place), abs=0.051)]
         assert part.draws[0].place == place
@@ -357,7 +357,7 @@ def test_the_region_holds_just_what_no_limit_cuts_off(name, hand):
     assert within.any()
 
 
-FOOT, CENTRAL = "foot from B₀", "central (e = 0)"
+FOOT, CENTRAL = "foot of the perpendicular", "central (e = 0)"
 
 
 def crosses(name: str, hand: str) -> dict[str, complex]:
@@ -756,7 +756,7 @@ def test_a_negative_angle_leaves_its_magnitude_for_the_transmission():
     assert gamma == pytest.approx(90 + alpha, abs=0.011)
     # There the level of the start cuts the upright before any line does.
     assert "enters the hatching, level with B₀, is A₀" in str(region[4].caption)
-    assert "s₀ = 0, as it lies level with B₀" in str(region[4].caption)
+    assert "s₀ = 0, because it lies level with B₀" in str(region[4].caption)
 
 
 @EVERY

@@ -238,9 +238,9 @@ def test_chord_k_bears_the_number_of_the_ray_that_it_is_parallel_to_and_climbs_a
         k = stations.index(own)
         assert said[:4] == (own, own, stations[k - 1], own)
         rise = (ends[k] - ends[k - 1]).imag
-        words = {1: "it climbs", -1: "it falls"}.get(np.sign(rise) * (abs(rise) >= 0.005), "it runs level")
+        words = {1: "it climbs", -1: "it falls"}.get(np.sign(rise) * (abs(rise) >= 0.005), "it is horizontal")
         assert said[4].startswith(words)
-        if words != "it runs level":
+        if words != "it is horizontal":
             assert float(said[4].split()[2]) == pytest.approx(abs(rise), abs=CENTI)
         width = (ends[k] - ends[k - 1]).real
         loose = 1e-9 if hand == "perfect" else MANY * SIGMA * (2 + 3 * abs(ray[own]))

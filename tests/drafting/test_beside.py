@@ -23,7 +23,7 @@ def names_of(moves: Moves) -> dict[str, tuple[int, ...]]:
 
 
 def test_in_whose_scale_a_length_is_laid_off_is_not_lit(lit):
-    upright = names_of(lit["minimum_radius", "The least prime radius"][0])
+    upright = names_of(lit["minimum_radius", "The minimum prime radius"][0])
     assert set(upright) == {"start of the lift"}
     assert not any(
         "curve" in name for name in names_of(lit["pressure_angle", "The cam centre at the adopted radius"][1])

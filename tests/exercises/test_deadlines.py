@@ -105,7 +105,7 @@ def test_every_day_that_has_begun_costs_its_part_and_a_second_of_the_last_minute
     group = (course / "out" / "grades.html").read_text(encoding="utf-8")
     assert "from the times at which the files were changed: 3" in group
     assert group.count("2026-12-05 00:59:00+01:00") == 1
-    assert "Without the penalty for lateness" in group
+    assert "Without the late penalty" in group
 
 
 def test_without_a_deadline_nothing_is_told_of_times_and_without_a_penalty_nothing_is_lost(course: Path):

@@ -14,8 +14,8 @@ from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Diagnosis, Marked
 
-NO_MISTAKE = "No usual mistake explains these answers; go through the wrong steps once more."
-NOT_TOLD = "These answers do not tell this mistake from another one; that may be it as well:"
+NO_MISTAKE = "No usual mistake explains these answers; go through the wrong steps again."
+NOT_TOLD = "These answers do not distinguish this mistake from another one, which is also possible:"
 
 
 def test_it_is_said_that_no_usual_mistake_explains_what_is_wrong_and_only_then():

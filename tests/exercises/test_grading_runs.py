@@ -216,7 +216,7 @@ def test_a_folder_that_may_not_be_looked_into_is_one_hand_in(tmp_path: Path):
         os.seteuid(user)
         (tmp_path / "Anna").chmod(0o700)
     assert submission.files == {}
-    assert [str(error) for error in submission.errors] == ["the hand-in is not a folder"]
+    assert [str(error) for error in submission.errors] == ["the submission is not a folder"]
 
 
 @pytest.mark.usefixtures("threads")

@@ -81,7 +81,7 @@ def test_without_pages_there_are_no_links_and_without_questions_nothing_is_said_
     html = out.with_suffix(".html").read_text(encoding="utf-8")
     assert asked(html)[0][:3] == ["Anna", "in all", "Why?"]
     assert "href" not in html
-    assert "Questions of students" not in page(course, HEAD)
+    assert "Questions from students" not in page(course, HEAD)
 
 
 @pytest.mark.parametrize(

@@ -405,6 +405,6 @@ def test_a_page_draws_the_construction_up_to_the_first_step_that_is_off_and_no_f
     at = board.origin.real + board.factor * given / per_mm(chain, asked)
     assert float(found.picture.own.split(",")[0]) == pytest.approx(at, abs=0.06)
     assert first_step_off(exercise, records["Anna"]) is None
-    assert "The first step that is off" not in page_of(pages, "Anna").read_text()
+    assert "The first wrong step" not in page_of(pages, "Anna").read_text()
     # What was never read has no variant either where the record knows none.
     assert first_step_off(exercise, records["Boris"] | {"parameters": {}}) is None

@@ -86,7 +86,7 @@ def test_no_limit_is_exceeded_by_the_exact_extremes(name):
 def test_a_smaller_cam_exceeds_a_limit(name):
     """A thousandth of a mm less of prime radius, whatever the neighbouring offset and roller: none is permitted."""
     (motion, load, asked), found = CASES[name], sized(name)
-    if "least prime radius" in found.binding:  # nothing smaller is in the range
+    if "minimum prime radius" in found.binding:  # nothing smaller is in the range
         assert found.cam.prime_radius == pytest.approx(asked["prime_radius"][0], rel=1e-12)
         return
     radius, limit = found.cam.prime_radius - 1e-3, asked.get("rise", 25 * DEG)
@@ -119,11 +119,11 @@ def test_where_pressure_angles_alone_bind_the_closed_form_is_met():
 
 def test_what_binds_is_named():
     assert "stress" in sized("2015, stress").binding
-    assert "greatest face width" in sized("2015, stress").binding
+    assert "maximum face width" in sized("2015, stress").binding
     assert {"pressure angle on the rise", "stress"} < set(sized("angle and stress").binding)
     easy = gc.size_cam(motion_of(12, (120, 60, 120, 60)), constant(1000), **TRAN)
     assert easy.cam.prime_radius == 75
-    assert set(easy.binding) == {"least prime radius", "least face width"} | set(easy.binding) & {"least offset"}
+    assert set(easy.binding) == {"minimum prime radius", "minimum face width"} | set(easy.binding) & {"minimum offset"}
 
 
 def test_the_cam_of_a_mirror_has_the_offset_on_the_other_side():

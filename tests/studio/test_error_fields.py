@@ -38,7 +38,7 @@ NOT_REACHED = {
     "contact force": "Hertzian stress is worked out in Python only",
     "permitted stress": "sizing stands in Python and in exercises only",
     "smallest cam": "sizing stands in Python and in exercises only",
-    "least contact force": "sizing stands in Python and in exercises only",
+    "minimum contact force": "sizing stands in Python and in exercises only",
     "range of the *": "sizing stands in Python and in exercises only",
     "damping": "elastic followers stand in Python only",
     "n": "elastic followers stand in Python only",
@@ -135,7 +135,7 @@ def test_no_reason_is_out_of_date():
 
 def test_quantities_are_collected():
     """The search sees plain texts, texts with places, and those that a check is given."""
-    assert {"least prime radius", "offset", "poles[*]", "cam angle", "arm", "drawing.ordinate"} <= set(quantities())
+    assert {"minimum prime radius", "offset", "poles[*]", "cam angle", "arm", "drawing.ordinate"} <= set(quantities())
 
 
 def test_fields_agree_with_those_of_task_files():

@@ -66,7 +66,7 @@ def test_undo_skips_what_was_refused(page):
 def test_what_is_no_number_is_refused_at_once(page):
     typed(page, OFFSET, "left")
     assert page.locator(OFFSET).input_value() == "left"
-    assert page.locator(".error:visible").inner_text() == "This is no number."
+    assert page.locator(".error:visible").inner_text() == "This is not a number."
     assert task_of(page)["follower"]["offset"] == -10
     page.locator(OFFSET).press("Escape")
     assert page.locator(OFFSET).input_value() == "−10"

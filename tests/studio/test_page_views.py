@@ -196,7 +196,7 @@ def test_a_first_picture_is_there_before_the_engine_answers(opened, served):
     page = opened(config={"first": first, "transport": "parent", "id": "one"}, settle=False)
     page.wait_for_selector("#steps > g")
     assert page.locator("#steps > g").count() == 8
-    assert page.locator("#told-limits").inner_text() == "All limits are kept"
+    assert page.locator("#told-limits").inner_text() == "All limits are satisfied"
 
 
 def test_no_text_of_a_task_ends_the_script_that_holds_it():

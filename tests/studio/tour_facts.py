@@ -57,5 +57,5 @@ def right_choice(task: dict, card: dict) -> int:
     ):
         if key in rests:
             return int(np.argmin(np.abs(np.array(rests[key]) - value)))
-    said = {1: "It grows", 0: "It stays as it is", -1: "It falls"}[trend(task, rests)]
+    said = {1: "It grows", 0: "It stays the same", -1: "It falls"}[trend(task, rests)]
     return card["choices"].index(said)

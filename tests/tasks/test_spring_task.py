@@ -287,4 +287,4 @@ def test_a_preload_that_is_not_needed_is_a_plain_zero(tmp_path):
     found = solution.to_dict()["spring"]
     assert repr(found["least_preload"]["value"]) == repr(found["preload"]["value"]) == "0.0"
     rows = {str(name): str(value) for name, value, _ in solution.spring.table().rows}
-    assert rows["least preload"] == rows["preload F₀"] == "0 N"
+    assert rows["minimum preload"] == rows["preload F₀"] == "0 N"

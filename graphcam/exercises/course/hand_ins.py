@@ -164,7 +164,7 @@ def _assigned(
         elif all(said and not _is_folder(folder / name, said) for name, said in listed):
             found += _files(folder, student, [(name, said) for name, said in listed if said])
         else:
-            why = say("several of these are {student}'s; leave one", student=student)
+            why = say("several of these belong to {student}; keep one", student=student)
             refused += [Refused(name, why) for name, _ in listed]
     return sorted(found, key=_order), sorted(refused, key=lambda one: one.place)
 
@@ -176,7 +176,7 @@ def _is_folder(path: Path, said: ExportName | None) -> bool:
 
 def _why(meant: list[str]) -> Caption:
     if meant:
-        return say("it may be that of several students: {students}", students=", ".join(meant))
+        return say("it may belong to several students: {students}", students=", ".join(meant))
     return say("no student of the course has this id, address or name")
 
 

@@ -39,7 +39,7 @@ def instructions(variant: Variant) -> str:
 
 def answer_file(exercise: Exercise) -> str:
     """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong."""
-    how = say("Take the # away before an answer and write the number behind the = sign, with a decimal point.")
+    how = say("Remove the # before an answer and write the number after the = sign, with a decimal point.")
     lines = [f"# {exercise.title}. {exercise.tell(how)}", ""]
     for asked in exercise.answers:
         blank = "" if asked.kind == "number" else "[[x, y], [x, y]]"
@@ -51,7 +51,7 @@ def notebook(variant: Variant) -> NotebookNode:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
     asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
-    how = say("Write your answers into the next cell: plain numbers with a decimal point, nothing else.")
+    how = say("Write your answers in the next cell: plain numbers with a decimal point, nothing else.")
     blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
     cells = [
         nb.new_markdown_cell(f"# {exercise.title}\n\n{instructions(variant)}", id="task"),
@@ -75,7 +75,7 @@ def answer_table(exercise: Exercise) -> Table:
     """The table for the answers, to be filled in."""
     blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
     rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
-    return Table(say("Answers"), (say("asked"), say("name"), say("unit"), say("answer")), rows)
+    return Table(say("Answers"), (say("question"), say("name"), say("unit"), say("answer")), rows)
 
 
 def key_sheet(variant: Variant, student: Student, answer_key: AnswerKey) -> Drawing:

@@ -48,11 +48,11 @@ BESIDE = 5.0
 ROW = 2.8
 """Height of the rows of the answers, in heights of the letters: wide enough for handwriting."""
 HOW = say(
-    "Draw in pencil. Write down what each bar measures on your print, to half a millimetre. Draw nothing on the black "
-    "squares and the code. Photograph each page from above, with all of its edges."
+    "Draw in pencil. Write down the length of each scale bar on your print, to half a millimetre. Draw nothing "
+    "on the black squares or the code. Photograph each page from above, with all its edges."
 )
 
-TAPE = say("First lay the two halves edge to edge and tape them together from behind.")
+TAPE = say("First lay the two halves edge to edge and tape them together on the back.")
 
 
 @dataclass(frozen=True, eq=False)

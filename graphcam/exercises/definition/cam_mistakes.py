@@ -16,7 +16,7 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
 
 
-@usual(say("The offset looks laid off on the other side of the cam centre."))
+@usual(say("You seem to have laid off the offset on the other side of the cam centre."))
 def offset_sign(chain: Chain) -> Chain:
     """The follower's line on the other side of the cam centre."""
     follower = chain.board.follower
@@ -25,33 +25,43 @@ def offset_sign(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-follower.place)))
 
 
-@usual(say("The cam looks turned in the other sense: v is turned by 90° in the sense of the cam's rotation."))
+@usual(
+    say("You seem to have turned the cam in the other sense: v is turned by 90° in the sense of the cam's rotation.")
+)
 def rotation_sense(chain: Chain) -> Chain:
     """The cam turned in the other sense."""
     return redrawn(chain, replace(chain.board, rotation=_other(chain.board.rotation)))
 
 
-@usual(say("The positions look numbered with the rotation: by inversion the frame goes round against it."))
+@usual(say("You seem to have numbered the positions with the rotation: in the inversion the frame turns against it."))
 def numbering_sense(chain: Chain) -> Chain:
     """The positions of the follower numbered with the rotation."""
     return _inverted(chain, chain.prime_radius, _other(chain.board.rotation))
 
 
-@usual(say("The base circle looks taken for the prime circle: the prime circle runs through the roller's centre."))
+@usual(
+    say(
+        "You seem to have used the base circle as the prime circle: the prime circle passes through the "
+        "roller's centre."
+    )
+)
 def base_circle(chain: Chain) -> Chain:
     """The circle of the profile's least radius where the prime circle is asked."""
     return _about_circle(chain, chain.prime_radius - chain.roller_radius)
 
 
 @usual(
-    say("The roller's radius looks added to the prime radius: the prime circle is that of the roller's centre already.")
+    say(
+        "You seem to have added the roller radius to the prime radius: the prime circle already passes through "
+        "the roller's centre."
+    )
 )
 def roller_added(chain: Chain) -> Chain:
     """The prime radius taken for that of the profile's least circle, and the roller's radius added."""
     return _about_circle(chain, chain.prime_radius + chain.roller_radius)
 
 
-@usual(say("The prime radius looks taken for a diameter."))
+@usual(say("You seem to have taken the prime radius for a diameter."))
 def prime_diameter(chain: Chain) -> Chain:
     """A prime circle of half the size."""
     return _about_circle(chain, chain.prime_radius / 2)
@@ -65,14 +75,19 @@ def _about_circle(chain: Chain, radius: float) -> Chain:
     return _inverted(chain.going_on_from(measured), radius, board.rotation)
 
 
-@usual(say("The displacements look laid off from the offset circle: they start at the prime circle."))
+@usual(say("You seem to have laid off the displacements from the offset circle: they start at the prime circle."))
 def offset_circle(chain: Chain) -> Chain:
     """The displacements laid off from the points where the tangents touch the circle e."""
     # A hair more than the circle e itself, which a tangent meets in one point or, by rounding, in none.
     return _inverted(chain, abs(chain.place) * (1 + 1e-9), chain.board.rotation)
 
 
-@usual(say("Cam angles look used as polar angles of the points: a point does not lie on the ray of its cam angle."))
+@usual(
+    say(
+        "You seem to have used cam angles as polar angles of the points: a point does not lie on the ray of "
+        "its cam angle."
+    )
+)
 def polar_angle(chain: Chain) -> Chain:
     """The points of the pitch curve, at their radii, on the rays of the cam angles from the first of them on."""
     inverted, stations = chain.inversion, chain.board.stations
@@ -90,8 +105,8 @@ def polar_angle(chain: Chain) -> Chain:
 
 @usual(
     say(
-        "The tangent's angle looks laid off where v and s have different scales: redraw v in the scale of s, "
-        "or correct the angle."
+        "You seem to have laid off the angle of the tangent where v and s have different scales: redraw v in the "
+        "scale of s, or correct the angle."
     )
 )
 def unequal_scales(chain: Chain) -> Chain:
@@ -103,7 +118,7 @@ def unequal_scales(chain: Chain) -> Chain:
     return chain.going_on_from(region)
 
 
-@usual(say("The permitted angles of rise and return look exchanged."))
+@usual(say("You seem to have exchanged the permitted angles of rise and return."))
 def limits_swapped(chain: Chain) -> Chain:
     """The rise at the return's permitted angle, the return at the rise's."""
     limits = chain.board.limits
@@ -112,7 +127,9 @@ def limits_swapped(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, limits=Limits(limits.return_, limits.rise, limits.rest)))
 
 
-@usual(say("The permitted angle looks laid off from the wrong axis: it is measured from the line of motion."))
+@usual(
+    say("You seem to have laid off the permitted angle from the wrong axis: it is measured from the line of motion.")
+)
 def limit_from_the_horizontal(chain: Chain) -> Chain:
     """The permitted angles laid off from the axis across the motion."""
     limits = chain.board.limits
@@ -120,13 +137,18 @@ def limit_from_the_horizontal(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, limits=Limits(math.pi / 2 - limits.rise, back, limits.rest)))
 
 
-@usual(say("A diameter looks given for the radius of curvature."))
+@usual(say("You seem to have given the diameter instead of the radius of curvature."))
 def diameter_for_radius(chain: Chain) -> Chain:
     """The radius of curvature doubled."""
     return chain.going_on_from(read_as(chain.curvature, "rho", 2 * chain.curvature.readings["rho"].paper))
 
 
-@usual(say("The profile looks drawn on the far side of the roller: it lies between the roller's centre and the cam's."))
+@usual(
+    say(
+        "You seem to have drawn the profile on the far side of the roller: it lies between the roller's "
+        "centre and the cam centre."
+    )
+)
 def roller_outside(chain: Chain) -> Chain:
     """The outer envelope of the roller's circles."""
     profile, pitch = chain.working_profile, chain.inversion.points["pitch"]
@@ -134,13 +156,13 @@ def roller_outside(chain: Chain) -> Chain:
     return chain.going_on_from(read_as(profile, "radius", outer))
 
 
-@usual(say("The roller looks drawn with its diameter for its radius."))
+@usual(say("You seem to have drawn the roller with its diameter as the radius."))
 def roller_diameter(chain: Chain) -> Chain:
     """Circles of the roller's diameter about its centre, where its radius is given."""
     return chain.going_on_from(working_profile(chain.inversion, 2 * chain.roller_radius, chain.pencil))
 
 
-@usual(say("The greater of the rule's candidates looks taken: the smaller one is the limit."))
+@usual(say("You seem to have taken the larger value of the rule: the smaller one is the limit."))
 def rule_greater(chain: Chain) -> Chain:
     """The greatest of what the rule for the roller proposes."""
     greatest = chain.roller.readings["candidates"].paper.max(axis=-1)

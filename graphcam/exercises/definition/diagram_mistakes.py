@@ -19,7 +19,10 @@ Moving = Rise | Return
 
 
 @usual(
-    say("The diagram looks drawn by another law of motion ({argument}): read in the task which law is asked."),
+    say(
+        "You seem to have drawn the diagram by another law of motion ({argument}): check in the task which law "
+        "is required."
+    ),
     takes=A_LAW,
 )
 def wrong_law(law: str) -> Change:
@@ -34,19 +37,19 @@ def wrong_law(law: str) -> Change:
     return lambda chain: _moved_by(chain, [by_law(phase) for phase in chain.board.motion.phases])
 
 
-@usual(say("The laws of rise and return look exchanged: each phase has its own."))
+@usual(say("You seem to have exchanged the laws of rise and return: each phase has its own."))
 def laws_swapped(chain: Chain) -> Chain:
     """The law of the first moving phase in the second, and that of the second in the first."""
     return _two_phases(chain, lambda own, other: replace(own, law=other.law, ratio=other.ratio))
 
 
-@usual(say("The cam angles of rise and return look exchanged: each phase has its own."))
+@usual(say("You seem to have exchanged the cam angles of rise and return: each phase has its own."))
 def angles_swapped(chain: Chain) -> Chain:
     """The first moving phase over the angle of the second, and the second over that of the first."""
     return _two_phases(chain, lambda own, other: replace(own, angle=other.angle))
 
 
-@usual(say("Half the lift looks drawn: the follower rises by the whole of it."))
+@usual(say("You seem to have drawn half the lift: the follower rises by the whole lift."))
 def lift_halved(chain: Chain) -> Chain:
     """All moving phases with half of their lift."""
     return _two_phases(chain, lambda own, _: replace(own, lift=own.lift / 2))
@@ -68,14 +71,17 @@ def _moved_by(chain: Chain, phases: list[Phase]) -> Chain:
 
 
 @usual(
-    say("Both ordinates look chosen freely: only one is chosen, the other follows from the areas that must be equal.")
+    say(
+        "You seem to have chosen both ordinates freely: only one is chosen, the other follows because the areas "
+        "must be equal."
+    )
 )
 def ordinates_equal(chain: Chain) -> Chain:
     """Every phase drawn with the ordinate that was chosen for the first rise."""
     return _other_ordinates(chain, lambda ratio: 1 / ratio)
 
 
-@usual(say("The ratio of the ordinates looks turned round: the shorter phase has the longer ordinate."))
+@usual(say("You seem to have inverted the ratio of the ordinates: the shorter phase has the longer ordinate."))
 def ordinates_swapped(chain: Chain) -> Chain:
     """The ratio of the other phases' ordinates to the chosen one turned round."""
     return _other_ordinates(chain, lambda ratio: 1 / ratio**2)
@@ -88,7 +94,10 @@ def _other_ordinates(chain: Chain, change: Callable[[NDArray[np.float64]], NDArr
 
 
 @usual(
-    say("The ordinate at the end of each part looks taken for the one at its middle, where the chord has its slope.")
+    say(
+        "You seem to have used the ordinate at the end of each part instead of the one at its middle, where the "
+        "chord has its slope."
+    )
 )
 def end_ordinate(chain: Chain) -> Chain:
     """The ordinate at the end of each part in place of the one at its middle."""
@@ -98,7 +107,10 @@ def end_ordinate(chain: Chain) -> Chain:
 
 
 @usual(
-    say("The scale of the cam angle looks taken in degrees: derivatives are per radian, so it counts in rad/mm."),
+    say(
+        "You seem to have used the scale of the cam angle in degrees: derivatives are per radian, so it must be "
+        "in rad/mm."
+    ),
     takes=A_DIAGRAM,
 )
 def degree_for_radian(name: str) -> Change:
@@ -108,8 +120,8 @@ def degree_for_radian(name: str) -> Change:
 
 @usual(
     say(
-        "The pole distance looks left out of a scale: a longer pole makes a flatter curve, and the scale "
-        "makes up for it."
+        "You seem to have left the pole distance out of a scale: a longer pole distance makes a flatter curve, "
+        "and the scale compensates for it."
     ),
     takes=A_DIAGRAM,
 )
@@ -136,7 +148,7 @@ def rescaled_by(construction: Construction, name: str, factor: float) -> Constru
 
 
 @usual(
-    say("A length looks given as it was measured on paper: times its scale it is the value that was asked."),
+    say("You seem to have given a length as measured on paper: multiply it by its scale."),
     takes=A_READING,
 )
 def scale_forgotten(place: str) -> Change:
@@ -151,7 +163,7 @@ def scale_forgotten(place: str) -> Change:
     return forgotten
 
 
-@usual(say("The slope looks turned upside down: it is the rise over the run."))
+@usual(say("You seem to have inverted the slope: it is the rise over the run."))
 def slope_inverted(chain: Chain) -> Chain:
     """Run over rise for rise over run: every ordinate H/(rise/run)."""
     derived = chain.differentiation
@@ -160,7 +172,7 @@ def slope_inverted(chain: Chain) -> Chain:
         return chain.going_on_from(read_as(derived, "v", derived.givens.poles[0] ** 2 / v))
 
 
-@usual(say("The slope of a chord looks set down at its end: it belongs to the middle of the part."))
+@usual(say("You seem to have plotted the slope of a chord at its end: it belongs to the middle of the part."))
 def chord_at_its_end(chain: Chain) -> Chain:
     """The value of a chord set down at its end: in the middle of the next part stands the mean of two chords."""
     derived = chain.differentiation
@@ -169,7 +181,10 @@ def chord_at_its_end(chain: Chain) -> Chain:
 
 
 @usual(
-    say("The two pole distances look exchanged on the drawing, while the scales are those of the right ones."),
+    say(
+        "You seem to have exchanged the two pole distances on the drawing, while the scales are computed with "
+        "the right ones."
+    ),
     takes=A_DIAGRAM,
 )
 def poles_swapped(name: str) -> Change:
@@ -187,7 +202,7 @@ def poles_swapped(name: str) -> Change:
 
 
 @usual(
-    say("The diagrams look read one place too late: count the stations, or the parts, as the task does."),
+    say("You seem to have read the diagrams one station too late: count the stations, or the parts, as the task does."),
     takes=A_DIAGRAM,
 )
 def station_too_late(name: str) -> Change:

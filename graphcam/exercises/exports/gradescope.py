@@ -62,7 +62,7 @@ def _test(exercise: Exercise, asked: Asked, answer: dict[str, Any], parameters: 
 
 def _nothing(exercise: Exercise, email: str) -> dict[str, Any]:
     """What somebody gets who was given no variant: no marks, and a sentence that says why."""
-    why = say("No variant was handed out to {email}. Tell your teacher, who has the list of addresses.", email=email)
+    why = say("No variant was issued to {email}. Tell your teacher, who has the list of addresses.", email=email)
     shown = {"output_format": "text", "visibility": "visible", "stdout_visibility": "hidden"}
     return {"score": 0.0, "output": exercise.tell(why), "tests": [], **shown}
 

@@ -36,11 +36,11 @@ SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
 def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> None:
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
     tell = exercise.tell
-    stub = "# " + tell(say("Write what you read in place of None."))
+    stub = "# " + tell(say("Replace None by your reading."))
     (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
-    how = say("Your parameters stand on your own sheet. Replace each `None` by what you read.")
+    how = say("Your parameters are on your own sheet. Replace each `None` by your reading.")
     cells = [_markdown("task", f"# {exercise.title}\n\n{tell(how)}")]
     for asked in exercise.answers:
         cells += [_markdown(f"{asked.name}-asked", _question(asked, tell)), _answer(asked)]

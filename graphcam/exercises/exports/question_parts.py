@@ -18,7 +18,7 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import Caption, say
 
 RIGHT = say("Right.")
-FAR_OFF = say("Farther off than a careful hand draws or calculates.")
+FAR_OFF = say("The deviation is larger than careful drawing and calculation allow.")
 """Of an answer that is neither right nor a catalogued mistake's."""
 PRINT_IT = say("The worksheet: print it true to scale and draw on it.")
 APART = say("Hand it in separately: its marks are not part of this question.")

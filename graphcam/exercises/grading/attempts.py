@@ -90,11 +90,13 @@ def _counted(exercise: Exercise, made: Sequence[tuple[HandIn, dict[str, Any]]], 
 def _note(count: int, number: int, rule: AttemptRule) -> Caption:
     if rule.first is not None and count > rule.first:
         return say(
-            "{count} attempts were handed in, of which the first {first} may count; number {number} counts",
+            "{count} attempts were handed in, of which the first {first} may count; attempt {number} counts",
             count=count,
             number=number,
             first=rule.first,
         )
     if rule.which == "best":
-        return say("{count} attempts were handed in; the best one counts, number {number}", count=count, number=number)
+        return say(
+            "{count} attempts were handed in; the best one, attempt {number}, counts", count=count, number=number
+        )
     return say("{count} attempts were handed in; the last one counts", count=count)

@@ -46,7 +46,7 @@ Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
 Finished = dict[str, tuple[str, dict[str, Any]]]
 """By the name of a folder the digest of the hand-in and its record."""
-CRASHED = say("the grader broke down over this hand-in; look at it by hand")
+CRASHED = say("grading this submission failed; mark it by hand")
 
 
 PAGES = "pages"

@@ -118,7 +118,7 @@ def grade(assignment: Assignment, submission: Submission) -> Graded:
             record = mark(assignment.exercise, answer_key, answers, level=assignment.level)
             return Graded(replace(record, memory=assignment.memory), text)
     except (Exception, LateError) as error:  # noqa: BLE001
-        why = say("this hand-in could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
+        why = say("this submission could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
         return Graded(unmarked(assignment, submission.student, why), text)
 
 

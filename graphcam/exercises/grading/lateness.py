@@ -67,8 +67,8 @@ def _said(late: dict[str, Any], earned: float, left: float, *, by_hand: bool) ->
     if by_hand or late["part"] == 1:
         return say("Handed in late: {submitted}, but the deadline was {deadline}.", **times)
     return say(
-        "Handed in late: {submitted}, but the deadline was {deadline}. Of the {earned:g} marks that it earned "
-        "{part:.3g} % are left: {marks:g}.",
+        "Handed in late: {submitted}, but the deadline was {deadline}. Of the {earned:g} marks earned, "
+        "{part:.3g} % count: {marks:g}.",
         **times,
         earned=earned,
         part=100 * late["part"],

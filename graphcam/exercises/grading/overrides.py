@@ -96,8 +96,8 @@ def _told(one: Override, most: float) -> Caption:
     said: dict[str, Any] = {"marks": one.marks, "of": most, "comment": one.comment}
     if one.answer == TOTAL:
         if one.comment:
-            return say("Your teacher gives {marks:g} of {of:g} marks in all: {comment}", **said)
-        return say("Your teacher gives {marks:g} of {of:g} marks in all.", **said)
+            return say("Your teacher gives {marks:g} of {of:g} marks in total: {comment}", **said)
+        return say("Your teacher gives {marks:g} of {of:g} marks in total.", **said)
     if one.comment:
         return say("{name}: your teacher gives {marks:g} of {of:g} marks: {comment}", name=one.answer, **said)
     return say("{name}: your teacher gives {marks:g} of {of:g} marks.", name=one.answer, **said)

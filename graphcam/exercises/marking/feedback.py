@@ -28,11 +28,11 @@ def feedback(
         captions += _mistake(diagnosis)
         if most is not None:
             said = say(
-                "With this mistake a hand-in earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
+                "With this mistake a submission earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
             )
             captions.append(said)
     elif any(each.outcome in ("wrong", "partial") for each in marked):
-        captions.append(say("No usual mistake explains these answers; go through the wrong steps once more."))
+        captions.append(say("No usual mistake explains these answers; go through the wrong steps again."))
     return tuple(map(exercise.tell, captions))
 
 
@@ -49,13 +49,13 @@ def _about(answer: Marked, answers: Answers) -> Caption:
             return say("{name}: the answer cannot be read.", name=name)
         case "follow-through" if answer.marks < answer.of:
             return say(
-                "{name}: it follows rightly from your own earlier answers and earns {marks:g} of {of:g} marks.",
+                "{name}: it follows correctly from your earlier answers and earns {marks:g} of {of:g} marks.",
                 name=name,
                 marks=answer.marks,
                 of=answer.of,
             )
         case "follow-through":
-            return say("{name}: it follows rightly from your own earlier answers, so it earns its marks.", name=name)
+            return say("{name}: it follows correctly from your earlier answers, so you get the marks.", name=name)
         case "partial":
             return _partial(answer)
         case "wrong":
@@ -65,8 +65,9 @@ def _about(answer: Marked, answers: Answers) -> Caption:
 def _partial(answer: Marked) -> Caption:
     assert answer.station is not None
     return say(
-        "{name}: a part of the curve is right and earns its part of the marks. The rest is off or missing, most of all "
-        "at point {number}, the first station being point one and the arcs of the dwells having points every 15°.",
+        "{name}: part of the curve is right and earns its share of the marks. The rest is wrong or missing, most "
+        "of all at point {number}. Count the first station as point 1; the arcs of the dwells have a point every "
+        "15°.",
         name=answer.name,
         number=answer.station + 1,
     )
@@ -74,7 +75,8 @@ def _partial(answer: Marked) -> Caption:
 
 def _near(answer: Marked) -> Caption:
     return say(
-        "{name}: a little farther off than a careful hand draws or calculates; it earns {marks:g} of {of:g} marks.",
+        "{name}: your answer is slightly farther off than careful drawing and calculation allow; it earns "
+        "{marks:g} of {of:g} marks.",
         name=answer.name,
         marks=answer.marks,
         of=answer.of,
@@ -85,23 +87,24 @@ def _wrong(answer: Marked) -> Caption:
     name, number = answer.name, answer.station
     if number is not None:
         return say(
-            "{name}: farther off than a careful hand draws, most of all at point {number}, the first station being "
-            "point one.",
+            "{name}: your drawing is farther off than careful drawing allows, most of all at point {number}. "
+            "Count the first station as point 1.",
             name=name,
             number=number + 1,
         )
     if isinstance(answer.given, list):
         return say(
-            "{name}: points read: {count}; another number is asked. Mark every place once, and nothing else.",
+            "{name}: {count} points were read, but another number is required. Mark each required point once, "
+            "and nothing else.",
             name=name,
             count=len(answer.given),
         )
-    return say("{name}: farther off than a careful hand draws or calculates.", name=name)
+    return say("{name}: your answer is farther off than careful drawing and calculation allow.", name=name)
 
 
 def _mistake(diagnosis: Diagnosis) -> list[Caption]:
     said = [misconception(diagnosis.misconception).said]
     if diagnosis.alike:
-        said.append(say("These answers do not tell this mistake from another one; that may be it as well:"))
+        said.append(say("These answers do not distinguish this mistake from another one, which is also possible:"))
         said += [misconception(name).said for name in diagnosis.alike]
     return said

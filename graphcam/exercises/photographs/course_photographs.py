@@ -182,7 +182,7 @@ def _read(
 
 
 def _crashed(name: str, exercise: Exercise) -> ReadPhoto:
-    why, remedy = say("the reader broke down over it"), say("save it as JPEG anew, or photograph the sheet again")
+    why, remedy = say("reading it failed"), say("save it as JPEG again, or photograph the sheet again")
     return ReadPhoto(name, "", why=exercise.tell(why), remedy=exercise.tell(remedy))
 
 
@@ -220,7 +220,7 @@ def _line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) 
     answers = [one for one in student.answers if one.page == photo.page] if student is not None and counts else []
     open_ones = [one for one in answers if one.status == "refused"]
     status = "counts" if counts else "half a page" if photo.half else "not needed"
-    status = "refused" if photo.why else "to be looked at" if open_ones else status
+    status = "refused" if photo.why else "to check" if open_ones else status
     why = [photo.why] if photo.why else [f"{one.asked.name}: {exercise.tell(one.why)}" for one in open_ones]
     remedy = [photo.remedy] if photo.why else list(dict.fromkeys(exercise.tell(one.remedy) for one in open_ones))
     return [

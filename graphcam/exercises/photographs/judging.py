@@ -25,7 +25,7 @@ FAINT_BAND = 2.5
 """mm about a place in which a faint point is taken for the one that is missing there."""
 MOST_FAINT = 0.4
 """Share of the places whose points may be faint: of a foreign drawing most are without."""
-LOOK = say("a teacher looks at it on the review page")
+LOOK = say("the teacher will check it on the review page")
 """What becomes of what is not taken."""
 
 
@@ -97,9 +97,9 @@ def not_taken(exercise: Exercise, asked: Asked, value: Given, answer_key: Answer
         if off <= SEARCH_BAND:
             return None
     if not math.isfinite(off):
-        return say("it is like neither what is right nor a usual mistake")
+        return say("it resembles neither the right drawing nor a usual mistake")
     return say(
-        "it lies {off:.0f} mm from what is right and from every usual mistake, at most {band:g} mm is taken",
+        "it lies {off:.0f} mm from the right drawing and from every usual mistake; at most {band:g} mm is accepted",
         off=math.ceil(off),
         band=SEARCH_BAND,
     )

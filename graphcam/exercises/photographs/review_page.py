@@ -31,7 +31,7 @@ MOST = 600
 TEXTS = {
     "point": say("{answer}: point {number} of {count} at x {x}, y {y} mm"),
     "progress": say("{done} of {count} done"),
-    "noNumber": say("no number"),
+    "noNumber": say("not a number"),
     "measureAgain": say("no printer scales by so much; measure again: from {low} to {high} mm"),
 }
 """What the page says while it is used; the page itself fills the places."""

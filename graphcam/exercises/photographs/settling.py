@@ -91,7 +91,7 @@ class SettledStudent:
         """Sentences for the teacher."""
         found: list[Words] = [
             say(
-                "{answer} was looked at on another photograph than {photo}, which counts now; look again",
+                "{answer} was checked on another photograph than {photo}, which counts now; check it again",
                 answer=one.asked.name,
                 photo=self.pages[one.page].name,
             )
@@ -165,7 +165,7 @@ def settled(
         if not asked.drawn_as:
             answers.append(_typed(asked, correction))
         elif photo is None:
-            why = say("no photograph that can be read shows it")
+            why = say("no readable photograph shows it")
             remedy = say("photograph the page on which it is drawn")
             answers.append(SettledAnswer(asked, None, "not seen", why=why, remedy=remedy))
         else:
@@ -179,7 +179,7 @@ def settled(
 
 def _typed(asked: Asked, correction: Correction | None) -> SettledAnswer:
     if correction is None:
-        why = say("the table of answers is not read; type it on the review page")
+        why = say("the answer table is not read; type it in on the review page")
         return SettledAnswer(asked, None, "not typed", why=why)
     return SettledAnswer(asked, None, "typed", correction.value)
 
@@ -212,7 +212,7 @@ class _Judge:
             # As long as the bars measure: a page that was printed small is not foreign for that.
             given = self.given(points, self.stretch)
             if given is None:
-                why = say("{count} points are seen, other than are asked", count=int(points.size))
+                why = say("{count} points are seen, not the required number", count=int(points.size))
             else:
                 why = not_taken(self.exercise, self.asked, given, self.answer_key)
         return points, None if why is None else (why, LOOK)
@@ -224,7 +224,7 @@ def _drawn(judge: _Judge, read: ReadAnswer, correction: Correction | None) -> Se
     points, refused = judge.judged(read)
     as_read = judge.given(points, UNSCALED) if points is not None and not refused else None
     if correction is not None and correction.verdict == "left out":
-        return SettledAnswer(asked, read, "left out", None, as_read, points, say("the teacher leaves it out"))
+        return SettledAnswer(asked, read, "left out", None, as_read, points, say("the teacher has excluded it"))
     if correction is not None:
         said = np.asarray(correction.value) if correction.verdict == "corrected" else points
         given = None if said is None else judge.given(said, judge.stretch)

@@ -164,10 +164,10 @@ def grading_notes(student: SettledStudent) -> list[Words]:
     ]
     missing = [one.asked.name for one in student.answers if one.status == "not typed"]
     if missing:
-        found.append(say("not typed from the table of answers yet: {names}", names=", ".join(missing)))
+        found.append(say("not yet typed in from the answer table: {names}", names=", ".join(missing)))
     refused = [photo for photo in student.others if photo.why]
     found += [
-        say("the photograph {name} is refused: {why}; {remedy}", name=one.name, why=one.why, remedy=one.remedy)
+        say("the photograph {name} is rejected: {why}; {remedy}", name=one.name, why=one.why, remedy=one.remedy)
         for one in refused
         if one.page not in student.pages
     ]

@@ -14,7 +14,7 @@ from graphcam.photo.printed import PrintedPage
 from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
-TAKE_IN_THE_CODE = say("take in the whole sheet, its QR code too, and keep the picture sharp")
+TAKE_IN_THE_CODE = say("include the whole sheet with its QR code, and keep the picture sharp")
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,11 @@ class PrintedSheets:
         """What must be known of a page to read it."""
         if code.version != self.version:
             raise PhotographError(
-                say("it is of version {found} of the exercise, not {wanted}", found=code.version, wanted=self.version),
+                say(
+                    "it belongs to version {found} of the exercise, not {wanted}",
+                    found=code.version,
+                    wanted=self.version,
+                ),
                 say("read it with the course that it was printed for"),
             )
         path = self.teacher / PRINTED / f"{folder_name(code.student)}-{code.page}.json"
@@ -74,7 +78,7 @@ class PrintedSheets:
         # The parameters of a student change if the course is made anew after others were added before.
         if page is None or page.code != code.text(self.secret):
             raise PhotographError(
-                say("it is not as the sheets of this course were printed"),
+                say("it differs from the printed sheets of this course"),
                 say("read it with the course that it was printed for"),
             )
         return page
@@ -85,5 +89,7 @@ def _nobodys(errors: Sequence[TaskError], *, tags: bool) -> PhotographError:
         error = errors[0]
         return PhotographError(f"{error.field} is {error.value}, but must be {error.expected}", error.remedy)
     if tags:
-        return PhotographError(say("the QR code is not seen"), TAKE_IN_THE_CODE)
-    return PhotographError(say("it shows no worksheet: neither its QR code nor its marks are seen"), TAKE_IN_THE_CODE)
+        return PhotographError(say("the QR code cannot be seen"), TAKE_IN_THE_CODE)
+    return PhotographError(
+        say("it shows no worksheet: neither the QR code nor the marks can be seen"), TAKE_IN_THE_CODE
+    )

@@ -95,7 +95,7 @@ def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableErr
         if all(len(row) == 2 for row in rows):
             return np.array([complex(decimal(answer, x), decimal(answer, y)) for x, y in rows])
         if len(rows) > 1:
-            raise UnreadableError(say("{answer} is answered {count} times", answer=shown(answer), count=len(rows)))
+            raise UnreadableError(say("{answer} has {count} answers", answer=shown(answer), count=len(rows)))
         if len(rows[0]) != 1:
             raise UnreadableError(say("{answer} must have one value, or x and y", answer=shown(answer)))
         return decimal(answer, rows[0][0])

@@ -142,7 +142,7 @@ class CadDrawing:
         layer = self._layer(name)
         if layer.strange:
             why = say(
-                "the layer {layer} holds {kinds}, which is no plain curve; draw lines, arcs, polylines or splines",
+                "the layer {layer} holds {kinds}, which is not a plain curve; draw lines, arcs, polylines or splines",
                 layer=name,
                 kinds=", ".join(sorted(layer.strange)),
             )

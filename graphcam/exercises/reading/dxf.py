@@ -102,7 +102,7 @@ def _millimetres(name: str, document: Drawing) -> float:
     except (ValueError, TypeError, IndexError):
         unit = shown(str(code))
         raise UnreadableError(
-            say("{name}: the drawing's unit ($INSUNITS {code}) is no length; set it to mm", name=name, code=unit)
+            say("{name}: the drawing's unit ($INSUNITS {code}) is not a length; set it to mm", name=name, code=unit)
         ) from None
 
 
@@ -118,7 +118,7 @@ def _dissolved(entities: Iterable[Any], block_layer: str, depth: int) -> Generat
             yield entity, layer
             continue
         if depth == DEEPEST_BLOCK:
-            raise UnreadableError(say("blocks stand within blocks more than {most} deep", most=DEEPEST_BLOCK))
+            raise UnreadableError(say("blocks are nested more than {most} deep", most=DEEPEST_BLOCK))
         for single in entity.multi_insert() if entity.mcount > 1 else (entity,):
             yield single, layer
             yield from _dissolved(single.virtual_entities(), layer, depth + 1)
@@ -145,8 +145,8 @@ def _place(at: Any, factor: float) -> complex:
     if not (abs(z.real) <= LARGEST and abs(z.imag) <= LARGEST):
         raise UnreadableError(
             say(
-                "a point lies {far:.3g} mm from the origin, and no sheet is so large; check the unit of the drawing "
-                "($INSUNITS)",
+                "a point lies {far:.3g} mm from the origin, but no sheet is that large; check the unit of the "
+                "drawing ($INSUNITS)",
                 far=abs(z),
             )
         )

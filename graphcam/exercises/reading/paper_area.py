@@ -23,16 +23,16 @@ FINE = 0.1
 VERTICES = 400
 """So many of a curve's vertices are enough to see whether it is moved."""
 ELSEWHERE = say(
-    "the drawing on the layer {layer} lies far from where it can be, counted from the POINT on the layer ORIGIN; check "
-    "that it marks the origin of this drawing"
+    "the drawing on the layer {layer} lies far from where it should be, counted from the POINT on the layer "
+    "ORIGIN; check that it marks the origin of this drawing"
 )
 ELSEWHERE_UNMARKED = say(
-    "the drawing on the layer {layer} lies far from where it can be, counted from the drawing's own zero; mark the "
-    "origin of the paper by a POINT on the layer ORIGIN"
+    "the drawing on the layer {layer} lies far from where it should be, counted from the drawing's own zero; "
+    "mark the origin of the paper by a POINT on the layer ORIGIN"
 )
 MOVED_UNMARKED = say(
-    "the drawing on the layer {layer} looks moved as a whole, and it marks no origin; mark the origin of the paper by "
-    "a POINT on the layer ORIGIN"
+    "the drawing on the layer {layer} seems to be moved as a whole, and has no origin marked; mark the origin of "
+    "the paper by a POINT on the layer ORIGIN"
 )
 
 
@@ -71,7 +71,7 @@ it can be, counted from the drawing's own zero; mark the origin of the paper by 
         sizes = [_size(_points(each)) for each in self.known]
         if not min(sizes) / SIZES <= _size(points) <= max(sizes) * SIZES:
             why = say(
-                "the drawing on the layer {layer} is {size:.3g} mm across, and no answer is of such a size; draw the "
+                "the drawing on the layer {layer} is {size:.3g} mm across, but no answer has this size; draw the "
                 "whole of it in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
                 layer=name,
                 size=_size(points),

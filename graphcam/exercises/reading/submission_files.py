@@ -39,7 +39,7 @@ def read_files(
     try:
         descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
     except OSError:
-        return {}, [say("the hand-in is not a folder")]
+        return {}, [say("the submission is not a folder")]
     found: dict[str, bytes] = {}
     errors: list[Caption] = []
     try:
@@ -52,7 +52,7 @@ def read_files(
             except UnreadableError as error:
                 errors.append(error.why)
     except OSError:
-        return {}, [say("the hand-in is not a folder")]
+        return {}, [say("the submission is not a folder")]
     finally:
         os.close(descriptor)
     if not found and not errors and not notes:
@@ -82,7 +82,7 @@ def answer_files(there: Iterable[str]) -> tuple[dict[str, str], list[Caption]]:
             notes.append(say("{other} is read as {name}", other=others[0], name=name))
         elif others:
             said = ", ".join(others[:3])
-            notes.append(say("none of {others} is read: call the right one {name}", others=said, name=name))
+            notes.append(say("none of {others} is read: rename the right one to {name}", others=said, name=name))
     return chosen, notes
 
 
@@ -150,7 +150,10 @@ def _answers(
         except UnreadableError as error:
             problems[one.name] = error.why
     if unmarked:
-        notes = [*notes, say("{name} marks no origin by a POINT on the layer ORIGIN; its own zero is taken", name=DXF)]
+        notes = [
+            *notes,
+            say("{name} marks no origin by a POINT on the layer ORIGIN; the drawing's own zero is used", name=DXF),
+        ]
     if not values and not problems:
         notes = [*notes, say("none of the answers is given")]
     return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown(asked, given)))
@@ -173,8 +176,8 @@ def _drawn(asked: Asked, drawing: CadDrawing, room: PaperArea | None) -> tuple[G
     if not (marked and room.moved(points)):
         return points, []
     moved = say(
-        "the drawing on the layer {layer} looks moved as a whole against the POINT on the layer ORIGIN; check that it "
-        "marks the origin of this drawing",
+        "the drawing on the layer {layer} seems to be moved as a whole relative to the POINT on the layer "
+        "ORIGIN; check that it marks the origin of this drawing",
         layer=asked.layer,
     )
     # It is marked as it lies: the place is part of the answer.
@@ -205,5 +208,13 @@ def _unknown(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption
         return []
     first = shown(strange[0])
     if close := get_close_matches(first, names, n=1):
-        return [say("{answer} is not asked; did you mean {meant}?", answer=first, meant=close[0])]
-    return [say("{answer} is not asked; asked are {names}", answer=first, names=", ".join(names))]
+        return [
+            say("there is no answer {answer} in this exercise; did you mean {meant}?", answer=first, meant=close[0])
+        ]
+    return [
+        say(
+            "there is no answer {answer} in this exercise; the answers are {names}",
+            answer=first,
+            names=", ".join(names),
+        )
+    ]

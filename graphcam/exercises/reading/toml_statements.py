@@ -77,7 +77,7 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
             counts[id(table), key] = count = counts.get((id(table), key), 0) + 1
             table[key] = value
             if count > 1:
-                why = say("{answer} is answered {count} times", answer=shown(key), count=count)
+                why = say("{answer} has {count} answers", answer=shown(key), count=count)
                 errors[key] = UnreadableError(why)
         if not found:
             errors[said] = _bad_line(name, number)

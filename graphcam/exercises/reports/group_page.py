@@ -223,7 +223,7 @@ def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
     others = [
         (say("Without follow-through"), [part_left(record) * record["without_follow_through"] for record in records]),
         (say("Without caps on mistakes"), [part_left(record) * record["without_caps"] for record in records]),
-        (say("Without the penalty for lateness"), [earned(record) for record in records]),
+        (say("Without the late penalty"), [earned(record) for record in records]),
     ]
     # Marks with a penalty are rounded to hundredths.
     paying = [(said, marks) for said, marks in others if not np.allclose(marks, own, rtol=0, atol=0.01)]

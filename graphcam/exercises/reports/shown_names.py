@@ -53,4 +53,4 @@ class ShownNames:
         """
         if not self.hidden or not refused:
             return list(refused)
-        return [Refused(table, say("it tells what is not graded, {count} in all", count=len(refused)))]
+        return [Refused(table, say("it lists what was not graded, {count} in total", count=len(refused)))]

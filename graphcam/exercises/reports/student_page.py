@@ -16,9 +16,9 @@ from graphcam.words import Caption, Words, say
 
 OUTCOMES = {
     "right": say("right"),
-    "follow-through": say("follows from your own values"),
-    "partial": say("right in part"),
-    "wrong": say("off"),
+    "follow-through": say("correct follow-through from your values"),
+    "partial": say("partly right"),
+    "wrong": say("wrong"),
     "unreadable": say("cannot be read"),
     "missing": say("not answered"),
 }
@@ -122,11 +122,11 @@ def _right(asked: Asked, answer_key: AnswerKey | None) -> Words:
 def _caption(answer: dict[str, Any], *, told: bool) -> Caption:
     name, off = answer["name"], answer["outcome"] in ("wrong", "partial") and answer["station"] is not None
     if told and off:
-        return say("{name}: your drawing red, the right one blue; circled where you are farthest off.", name=name)
+        return say("{name}: your drawing is red, the right one blue; the largest deviation is circled.", name=name)
     if told:
-        return say("{name}: your drawing red, the right one blue.", name=name)
+        return say("{name}: your drawing is red, the right one blue.", name=name)
     if off:
-        return say("{name}: your drawing; look again about the circle, which stands enlarged beside it.", name=name)
+        return say("{name}: your drawing; check it near the circle, which is shown enlarged beside it.", name=name)
     return say("{name}: your drawing.", name=name)
 
 

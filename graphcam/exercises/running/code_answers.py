@@ -42,13 +42,13 @@ def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
     """The last whole line that says something: an answer may be given again, improved."""
     lines = [line for line in data.split(b"\n")[:-1] if line.strip() not in (b"", b"{}")]
     if not lines:
-        return {}, [say("{name} hands out no answers", name=name)]
+        return {}, [say("{name} returns no answers", name=name)]
     try:
         found = json.loads(lines[-1], object_pairs_hook=_once)
     except (ValueError, RecursionError):
-        return {}, [say("{name}: what it hands out cannot be read", name=name)]
+        return {}, [say("{name}: what it returns cannot be read", name=name)]
     if not isinstance(found, dict):
-        return {}, [say("{name}: what it hands out is no table of answers", name=name)]
+        return {}, [say("{name}: what it returns is not a table of answers", name=name)]
     inner = found.pop("answers", {})
     return {**(inner if isinstance(inner, dict) else {}), **found}, []
 

@@ -64,7 +64,7 @@ def review(course) -> Path:
         course.photograph("Anna", course.reading("Anna", dense(course, "Anna"))),
         course.photograph("Boris", course.reading("Boris", dense(course, "Boris")[:90], **refused)),
         course.photograph(CLARA, course.reading(CLARA, 1.4 * dense(course, CLARA))),
-        course.photograph("", None, "nobody.jpg", page=0, why="the QR code is not seen", remedy="take it in"),
+        course.photograph("", None, "nobody.jpg", page=0, why="the QR code cannot be seen", remedy="take it in"),
     )
     path = course.place.parent / "review.html"
     course.read(review=path)
@@ -95,7 +95,7 @@ def of(page: Page, student: str):
 )
 def test_axe_core_finds_nothing_and_nothing_sticks_out(review, opened, window, scheme):
     page = opened(review, window, scheme)
-    page.get_by_label("Show what is right").check()
+    page.get_by_label("Show the right drawing").check()
     page.locator("summary").click()
     of(page, "Anna").get_by_label("across, 250 mm").fill("200")
     found = Axe().run(page).response["violations"]
@@ -113,12 +113,12 @@ def test_each_student_has_a_row_with_what_became_of_the_drawing(review, opened):
     assert "60 % of the curve can be seen; draw over it" in of(page, "Boris").inner_text()
     assert "every usual mistake" in of(page, "Clara").inner_text()
     assert "nobody.jpg: the QR code is not seen; take it in" in page.locator("main").inner_text()
-    page.get_by_label("Only what is to be looked at").check()
+    page.get_by_label("Only what needs checking").check()
     assert not of(page, "Anna").is_visible()
     assert of(page, "Boris").is_visible()
     # The right curve is not in the way of a look at the pencil.
     assert page.locator(".right path").count() == 0
-    page.get_by_label("Show what is right").check()
+    page.get_by_label("Show the right drawing").check()
     assert page.locator(".right path").count() > 0
 
 
@@ -188,7 +188,7 @@ def test_what_is_dragged_typed_and_confirmed_is_taken_and_comes_back(review, ope
         == {"Anna": {2: (251.5, None)}, "Boris": {}, CLARA: {}}
     )
     # As it was read: what was kept goes.
-    of(again, "Anna").get_by_role("button", name="As it was read").click()
+    of(again, "Anna").get_by_role("button", name="As read").click()
     of(again, "Anna").get_by_label("across, 250 mm").fill("")
     of(again, "Anna").locator(f"[data-number={first}]").fill("")
     found = course.read(corrections=exported(again, course))

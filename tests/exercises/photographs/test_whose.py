@@ -38,7 +38,7 @@ def code(course, **changes: object) -> SheetCode:
     return SheetCode(**{**said, "page": 2, **changes})
 
 
-@pytest.mark.parametrize(("tags", "why"), [(True, "the QR code is not seen"), (False, "it shows no worksheet")])
+@pytest.mark.parametrize(("tags", "why"), [(True, "the QR code cannot be seen"), (False, "it shows no worksheet")])
 def test_without_a_code_nobodys_page_is_guessed(sheets, tags, why):
     with pytest.raises(PhotographError, match=why):
         sheets.page([], tags=tags)
