@@ -30,9 +30,9 @@ from graphcam.notebooks import Question, chart, picture_of, show_steps, table
 # ## Background
 #
 # A cam turns steadily and lifts a follower. While the cam turns through the *phase angle* $\varPhi$ the follower rises
-# by the *lift* $h$; then it rests, returns, rests again. How it rises in between is our choice: the **motion law**. We
-# measure the progress of the phase by $u = \varphi/\varPhi$, from 0 to 1, and write the law as a function $f(u)$ that
-# rises from 0 to 1:
+# by the *lift* $h$; then it dwells, returns, and dwells again. How it rises in between is our choice: the **motion
+# law**. We measure the progress of the phase by $u = \varphi/\varPhi$, from 0 to 1, and write the law as a function
+# $f(u)$ that rises from 0 to 1:
 #
 # $$ s = h\,f(u), \qquad v = \frac{ds}{d\varphi} = \frac{h}{\varPhi}\,f'(u), \qquad
 # a = \frac{d^2s}{d\varphi^2} = \frac{h}{\varPhi^2}\,f''(u). $$
@@ -42,7 +42,7 @@ from graphcam.notebooks import Question, chart, picture_of, show_steps, table
 # motion belongs to the cam, the speed comes later.
 #
 # **Why begin with the acceleration?** Because the forces do. The follower's inertia is $m\,\omega^2 a$; where $a$
-# jumps, the force jumps, and the mechanism knocks. One speaks of
+# jumps, the force jumps, and the mechanism knocks. We distinguish
 #
 # - a **rigid impact** where the *velocity* jumps: the acceleration is infinite there;
 # - a **soft impact** where the *acceleration* jumps: the force does too, but stays finite;
@@ -67,13 +67,13 @@ picture_of(
     figure,
     "Three charts over u from 0 to 1 for the rectangular, cosine and cycloidal laws: displacement, velocity, acceleration."
     " The rectangular acceleration is +4, then -4; the cosine falls from 4.9 to -4.9; the cycloidal is a full sine wave.",
-    "Displacement, velocity and acceleration of three laws; only the cycloidal acceleration begins and ends with zero",
+    "Displacement, velocity and acceleration of three laws; only the cycloidal acceleration begins and ends at zero",
 )
 
 # %% [markdown]
-# The rectangular law keeps the acceleration as small as it can be, and knocks three times. The cycloidal law does not
-# knock, and pays with an acceleration more than one and a half times as great. The price of a law is told by two
-# numbers, the greatest values of $f'$ and $f''$:
+# The rectangular law keeps the acceleration as small as possible and causes three impacts. The cycloidal law causes
+# none, but its acceleration is more than one and a half times as large. Two numbers tell the price of a law, the
+# maximum values of $f'$ and $f''$:
 #
 # $$ v_{\max} = C_v\,\frac{h}{\varPhi}, \qquad a_{\max} = C_a\,\frac{h}{\varPhi^2}. $$
 
@@ -106,23 +106,23 @@ table(("phase", "angle, °", "lift, mm", "law"),
       [(p.kind, p.angle, getattr(p, "lift", "–"), getattr(p, "law", "–")) for p in task.motion.phases], digits=0)
 
 # %% [markdown]
-# The lift is 30 mm up and 30 mm down. Now comes the trick that the schools teach. We do **not** compute accelerations
-# and divide them by a scale. We *choose* the length of the first ordinate, because it looks well on the sheet, and leave
-# the scale open. Only what follows must fit together:
+# The lift is 30 mm up and 30 mm down. Now comes the trick. We do **not** compute accelerations and divide them by a
+# scale. We *choose* the length of the first ordinate, to suit the sheet, and leave the scale open. Only the following must be
+# consistent:
 #
 # 1. Lay off one revolution on the axis: at 1° to the millimetre it is 360 mm long.
-# 2. Choose the greatest ordinate of the rise, $y_1 = 50$ mm.
-# 3. **Compute** the greatest ordinate of the return. Both movements end at rest and have the same lift, so the two
+# 2. Choose the maximum ordinate of the rise, $y_1 = 50$ mm.
+# 3. **Compute** the maximum ordinate of the return. Both movements end at rest and have the same lift, so the two
 #    accelerations must be in the ratio of $C_a h/\varPhi^2$:
 #
 # $$ \frac{y_2}{y_1} = \frac{C_{a2}\,h_2/\varPhi_2^{\,2}}{C_{a1}\,h_1/\varPhi_1^{\,2}}. $$
 #
-# It is the square of the angles that decides: the return has 60° where the rise has 80°, so with equal laws its ordinate
-# is $(80/60)^2 = 1.78$ times as long. If both ordinates are chosen freely, the displacement does not come back to the
-# axis, and no fairing with a French curve will hide it.
+# The square of the angles decides: the return has 60° where the rise has 80°, so with equal laws its ordinate is
+# $(80/60)^2 = 1.78$ times as long. If both ordinates are chosen freely, the displacement does not return to the axis,
+# and no smoothing with a French curve will hide it.
 #
 # 4. Plot the law in each phase. A rise begins with acceleration *upwards*, a return with acceleration *downwards*.
-# 5. Divide each phase into $n$ equal parts and erect the ordinate in the **middle** of every part. These middle
+# 5. Divide each phase into $n$ equal parts and draw the ordinate at the **middle** of every part. These middle
 #    ordinates are all that the next construction will use.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -131,13 +131,13 @@ diagram = solution.drawn["acceleration"]
 show_steps(diagram, within=solution)
 
 # %% [markdown]
-# The areas above and below the axis are equal in each phase: the velocity that the follower gains it must lose again.
-# That is the first thing an examiner looks at, and you can check it with the eye.
+# The areas above and below the axis are equal in each phase: whatever velocity the follower gains, it must lose
+# again. That is the first thing an examiner checks, and you can check it by eye.
 #
 # ## Try it yourself
 #
 # A second task: a rise of 25 mm over **120°** by the **cosine** law, a dwell, a return over **90°** by the **cycloidal**
-# law. You choose 40 mm for the rise. How long is the greatest ordinate of the return?
+# law. You choose 40 mm for the rise. How long is the maximum ordinate of the return?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 ordinate = Question(
@@ -148,8 +148,8 @@ ordinate = Question(
      "the lifts are equal and the ratio of the angles is inverted": 40 * (2 * np.pi * 90**2) / (np.pi**2 / 2 * 120**2)},
 )
 second_ordinate = Question(
-    30.0, 0.5, "mm of paper", "the areas: a third of the phase times 60 mm equals two thirds of it times what you seek",
-    {"ν is turned round: braking lasts longer, so its ordinate is shorter": 120.0,
+    30.0, 0.5, "mm of paper", "the areas: a third of the phase times 60 mm equals two thirds of it times the ordinate required",
+    {"ν is inverted: braking lasts longer, so its ordinate is shorter": 120.0,
      "with equal ordinates the areas would differ": 60.0},
 )
 
@@ -196,15 +196,16 @@ assert np.allclose(greatest * mu_a, exact, rtol=1e-9)
 # %% [markdown]
 # ## Where the error comes from
 #
-# The ordinates are *given*, not measured, so a perfect hand makes no error here. A real hand makes three: the ordinates
-# are laid off with a ruler (half a division is 0.5 mm, 1 % of 50 mm), the middle of a part is found with the eye, and
-# the curve is plotted through few points. The first one hurts most: an error of the return's ordinate by 1 % leaves the
-# displacement 1 % of the lift away from the axis at the end. Notebook 7 follows these errors through the whole chain.
+# The ordinates are *given*, not measured, so an ideal pencil makes no error here. Drawing by hand makes three: the
+# ordinates are laid off with a ruler (half a division is 0.5 mm, 1 % of 50 mm), the middle of a part is found by eye,
+# and the curve is plotted through few points. The first one matters most: an error of the return's ordinate by 1 %
+# leaves the displacement 1 % of the lift away from the axis at the end. Notebook 7 follows these errors through the
+# whole chain.
 #
 # ## Questions
 #
 # 1. Why can no law have $C_a < 4$? (Consider the triangle under $f'$: it must enclose the area 1.)
-# 2. A cam for an engine valve runs at 3000 rpm, one for a sewing machine at 300 rpm. How much greater are the
+# 2. A cam for an engine valve runs at 3000 rpm, one for a sewing machine at 300 rpm. How much larger are the
 #    accelerations, and which law would you choose for each?
 # 3. The 2-3 law has the smallest $C_v$ of all and still a soft impact. Where does its acceleration jump?
 # 4. The task gives the return 30° instead of 60°. What happens to its ordinate, and what would you change on the sheet?

@@ -15,7 +15,7 @@
 # # 2. Integration with a pole, and differentiation back
 #
 # **Aim.** At the end you can turn a drawn acceleration into a velocity and a displacement with nothing but ruler and
-# pencil, say what a millimetre of each diagram means, and go the way back from a displacement.
+# pencil, say what a millimetre of each diagram means, and go back again from a displacement.
 #
 # **You need** the acceleration diagram of notebook 1. On paper: A3, ruler, two set squares (for parallels), pencil.
 # **Time:** 60 minutes, 35 of them with the pencil.
@@ -46,11 +46,13 @@ from graphcam.notebooks import (
 # $$ \tan\beta = \frac{y}{H}. $$
 #
 # A **chord** drawn parallel to this ray across a part of the width $\Delta x$ climbs by $\Delta Y = y\,\Delta x/H$. Chord
-# after chord, each from the end of the one before, that is the sum $\frac{1}{H}\sum y\,\Delta x$: the area, divided by $H$.
+# after chord, each from the end of the previous one, this adds up to $\frac{1}{H}\sum y\,\Delta x$: the area, divided by
+# $H$.
 #
 # **Which ordinate stands for a part?** The one in its *middle*. A part whose curve is straight has exactly the area
-# middle ordinate times width, so only the *bend* of the curve inside a part makes an error, and it shrinks with the
-# square of the number of parts. With the ordinate at the end of each part it would shrink only in proportion.
+# "middle ordinate times width", so only the *curvature* of the curve inside a part causes an error, and it shrinks
+# with the square of the number of parts. With the ordinate at the end of each part it would shrink only in
+# proportion.
 #
 # **What does a millimetre mean?** Let $\mu_\varphi$ be radians per mm of the axis and $\mu_a$, $\mu_v$, $\mu_s$ the machine
 # units per mm of the three diagrams. A chord of the first integration stands for
@@ -77,14 +79,14 @@ solution = gc.solve(task)
 integration = solution.drawn["integration"]
 
 # %% [markdown]
-# **First integration, a to v.** The acceleration is constant in each half of the rise, so all its rays of that half fall on
-# one another. In a phase the chords start on the axis and must come back to it: the follower rests before and after.
+# **First integration, a to v.** The acceleration is constant in each half of the rise, so all rays of that half coincide.
+# In a phase the chords start on the axis and must return to it: the follower is at rest before and after.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(integration, 1, 2, 3, within=solution)
 
 # %% [markdown]
-# **Second integration, v to s.** The same once more, with the middle ordinates of $v$. They are read from the polygon just
+# **Second integration, v to s.** The same again, with the middle ordinates of $v$. They are read from the polygon just
 # drawn: halfway between the ends of a chord. The return's chords go down because its velocity is negative; where they end
 # shows whether the ordinates of notebook 1 were right.
 
@@ -101,7 +103,7 @@ show_steps(integration, 7, 8, 9, within=solution)
 # ## Try it yourself
 #
 # The sheet of a fellow student: the axis has **2° to the millimetre**, the poles are $H_1 = 30$ mm and $H_2 = 50$ mm, the lift is
-# 24 mm and the greatest displacement on paper measures 60 mm. What are the three scales?
+# 24 mm and the maximum displacement on paper measures 60 mm. What are the three scales?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 mu_phi = np.radians(2)
@@ -133,7 +135,7 @@ your_mu_a = None  # (mm/rad²)/mm
 scale_a.check(your_mu_a)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
 # More parts, another pole. Before you look: does a longer pole distance make the next diagram higher or flatter? And does
 # it change the *velocity*, in mm/rad?
@@ -150,9 +152,9 @@ gc.studio(smooth, view="velocity", stills={
 # %% [markdown]
 # ## The way back: differentiation
 #
-# A measured displacement has to be differentiated. Everything is turned round: draw the **chord** of the curve across a
-# part, draw the parallel to it through the pole, and read off on the vertical axis the ordinate that it cuts. It belongs to
-# the *middle* of the part. Here the displacement just drawn is differentiated twice, with the same poles:
+# A measured displacement has to be differentiated. Everything is reversed: draw the **chord** of the curve across a part,
+# draw the parallel to it through the pole, and read off the ordinate that it cuts on the vertical axis. It belongs to the
+# *middle* of the part. Here the displacement just drawn is differentiated twice, with the same poles:
 
 # %%
 s = integration.readings["s"]
@@ -166,23 +168,23 @@ back = differentiation(axis[rise], s.paper[rise], solution.chain.board.mu_phi, g
 show_steps(back, 2, 3, 4)
 
 # %% [markdown]
-# A perfect hand gets the velocity back. A real hand does not, and this is the great difference between the two directions:
-# **integration smooths an error away, differentiation enlarges it.** An error of 0.2 mm at one end of a chord 6.7 mm wide turns
-# the chord by 1.7°, and at a pole distance of 40 mm that is 1.2 mm of velocity; the second differentiation does it again.
+# An ideal pencil gets the velocity back. Drawing by hand does not, and this is the great difference between the two directions:
+# **integration smooths errors, differentiation amplifies them.** An error of 0.2 mm at one end of a chord 6.7 mm wide turns the
+# chord by 1.7°, and at a pole distance of 40 mm that is 1.2 mm of velocity; the second differentiation does it again.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 hand = gc.Pencil.of(0.2, seed=3)
 trembling = differentiation(axis[rise], s.paper[rise], solution.chain.board.mu_phi, gc.Scale(float(s.scale), "mm"),
                             poles, hand)
 figure, axes = chart("axis, mm", "ordinate on paper, mm", 2.8)
-for c, style, label in ((back, "-", "perfect hand"), (trembling, "o", "pencil of 0.2 mm")):
+for c, style, label in ((back, "-", "ideal pencil"), (trembling, "o", "pencil of 0.2 mm")):
     for name, colour in (("v", "#0b57a4"), ("a", "#b3201c")):
         points = c.points[name]
         axes.plot(points.real, points.imag, style, color=colour, label=f"{name}, {label}", markersize=4, linewidth=1)
 axes.legend(fontsize=8)
-picture_of(figure, "Velocity and acceleration found by differentiating a displacement of a rise: with a perfect hand a triangle "
-           "and two level lines; with a pencil of 0.2 mm the velocity scatters a little, the acceleration very much.",
-           "Differentiated twice: the velocity (blue) trembles, the acceleration (red) is lost")
+picture_of(figure, "Velocity and acceleration found by differentiating a displacement of a rise: with an ideal pencil a triangle "
+           "and two horizontal lines; with a pencil of 0.2 mm the velocity scatters a little, the acceleration very much.",
+           "Differentiated twice: the velocity (blue) is noisy, the acceleration (red) is lost")
 
 # %% [markdown]
 # That is why the coursework starts from the acceleration.
@@ -198,9 +200,9 @@ assert abs(float(integration.readings["max_v"].value) - 2 * 30 / np.radians(60))
 assert abs(float(s.paper[rise].max()) - 50.0) < 1e-9
 
 # %% [markdown]
-# For constant acceleration the two agree to the last digit: straight lines have no bend. With a law that bends they do
-# not. The cycloidal law by this method gives the lift $\frac{\pi/n}{\sin(\pi/n)}$ times too large; the scale, fixed from the lift,
-# takes that back, and what is left is a small error of *shape*, about $\pi/(6n^2)$ of the lift:
+# For constant acceleration the two agree to the last digit: straight lines have no curvature. For other laws they do not. The
+# cycloidal law by this method gives the lift $\frac{\pi/n}{\sin(\pi/n)}$ times too large; the scale, which is fixed by the lift,
+# removes this factor, and a small error of *shape* remains, about $\pi/(6n^2)$ of the lift:
 
 # %%
 errors = {}
@@ -208,7 +210,7 @@ for parts in (6, 12, 24, 48):
     finer = gc.solve(changed(smooth, {"drawing.divisions": parts}))
     stations = finer.comparison
     errors[parts] = float(np.abs(stations.drawn_stations["s"] - stations.exact_stations.values[0]).max()) / 30
-table(("parts n", "greatest error of s, % of the lift", "π/(6n²), %"),
+table(("parts n", "maximum error of s, % of the lift", "π/(6n²), %"),
       [(n, 100 * e, 100 * np.pi / (6 * n**2)) for n, e in errors.items()])
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
@@ -217,19 +219,20 @@ assert abs(errors[12] / errors[24] - 4) < 0.2
 
 # %% [markdown]
 # Twice the parts, a quarter of the error: the method is of *second order*. At 12 parts the error of 0.4 % is already
-# smaller than what a pencil does. Drawing 24 parts is work for nothing.
+# smaller than the drawing errors. Drawing 24 parts is wasted work.
 #
 # ## Where the error comes from
 #
-# 1. **The method**: the bend inside a part; second order in $n$, zero for straight ordinates.
-# 2. **The hand**: each chord starts where the last one ended, with its error. Independent errors add as $\sqrt n$: more parts are
-#    *worse* for the hand. The best $n$ is a compromise, and notebook 7 finds it.
-# 3. **The closing error**: what is left of $v$ at the end of a phase is taken up by turning the base line; what is left of $s$ is
-#    shared out along the return. It must be *stated* on the sheet: a sheet that closes perfectly has been bent.
+# 1. **The method**: the curvature inside a part; second order in $n$, zero for straight ordinates.
+# 2. **The drawing errors**: each chord starts where the last one ended, with its error. Independent errors add as $\sqrt n$: with
+#    more parts the drawing errors *grow*. The best $n$ is a compromise, and notebook 7 finds it.
+# 3. **The closing error**: the residual of $v$ at the end of a phase is removed by rotating the base line; the residual of $s$ is
+#    distributed over the return. It must be *stated* on the sheet: a sheet that closes perfectly has been adjusted.
 #
 # ## Questions
 #
 # 1. What happens to the three scales if you take $H_1$ twice as long? And to the readings in machine units?
 # 2. Why is the end ordinate of a part the wrong choice, and for which law does it make no difference?
-# 3. The velocity diagram of a rise does not come back to the axis. Name two causes, and how you tell them apart.
+# 3. The velocity diagram of a rise does not come back to the axis. Name two causes, and say how to tell them
+#    apart.
 # 4. A displacement was measured every 5° to 0.05 mm. Would you differentiate it once with chords of 5° or of 10°?

@@ -14,8 +14,8 @@
 # %% [markdown]
 # # 3. The velocity plan and the pressure angle
 #
-# **Aim.** At the end you can find the pressure angle at any station from three lengths, without the profile, and you will not be
-# caught by the sign of the offset or the direction of rotation again.
+# **Aim.** At the end you can find the pressure angle at any station from three lengths, without the profile, and the sign of the
+# offset and the direction of rotation will no longer mislead you.
 #
 # **You need** the readings of displacement and velocity (notebook 2), vectors that are added head to tail.
 # On paper: A4, ruler, protractor. **Time:** 45 minutes, 20 of them with the pencil.
@@ -35,13 +35,13 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 # the direction in which the follower can move, its guide. A student who has drawn the profile can measure it there, but the
 # profile depends on the size of the cam, and the size is what we are looking for. We need $\alpha$ *before* the profile.
 #
-# Consider the point $B$, the roller's centre. It belongs to the follower, which moves with $\vec v_2$ along its guide. The point of
-# the *cam* that lies under it moves with $\vec v_1$, of the size $\omega\cdot AB$, square to the radius $AB$. The two differ by the sliding
+# Consider the point $B$, the roller's centre. It belongs to the follower, which moves with $\vec v_2$ along its guide. The point of the
+# *cam* that lies under it moves with $\vec v_1$, of magnitude $\omega\cdot AB$, square to the radius $AB$. The two differ by the sliding
 # $\vec v_{21}$ along the profile:
 #
 # $$ \vec v_2 = \vec v_1 + \vec v_{21}. $$
 #
-# Two directions and one whole vector are known: the **velocity plan** is a triangle that can be drawn.
+# Two directions and one complete vector are known: the **velocity plan** is a triangle that can be drawn.
 #
 # Now the trick. In the mechanism draw through the cam centre $A$ the perpendicular to the motion; it meets the normal of the
 # profile in $C$. The triangle $ABC$ has its sides square to the three vectors: $AB \perp \vec v_1$, $BC \perp \vec v_{21}$ (the normal and the
@@ -54,7 +54,8 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 # the profile has not been used.
 #
 # In practice one draws the congruent triangle on the other side: lay the length $v$ off from $B$, square to the motion, **turned
-# from $\vec v_2$ by 90° in the sense of the cam's rotation**, to $D$. Then the angle of $DA$ with the motion is $\alpha$. In numbers
+# from $\vec v_2$ by 90° in the sense of the cam's rotation**, to $D$. Then the angle between $DA$ and the motion is $\alpha$. In
+# numbers
 #
 # $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad s_0 = \sqrt{r_0^2 - e^2}, $$
 #
@@ -62,7 +63,7 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 #
 # ## The construction
 #
-# The coursework cam, $r_0 = 44$ mm, $e = -10$ mm, clockwise, at the station of the greatest velocity of the rise.
+# The coursework cam, $r_0 = 44$ mm, $e = -10$ mm, clockwise, at the station of the maximum velocity of the rise.
 
 # %%
 task = gc.builtin_task()
@@ -71,7 +72,7 @@ plan = solution.drawn["pressure_angle"]
 show_steps(plan, within=solution, on=solution.drawn["minimum_radius"])
 
 # %% [markdown]
-# Then the angle is found at every station and plotted over the cam angle. The greatest values are what the limits are for.
+# Then the angle is found at every station and plotted over the cam angle. The maximum values are compared with the limits.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(solution.drawn["angle_diagram"], within=solution)
@@ -81,11 +82,11 @@ show_steps(solution.drawn["angle_diagram"], within=solution)
 #
 # ## The sign of the offset, tried out
 #
-# The follower's line may pass the cam centre on either side. On one side the rise gains and the return loses, on the other the
+# The follower's line may pass the cam centre on either side. On one side the rise gains and the return loses; on the other it is the
 # reverse. Which one? Look at $\tan\alpha = (v - \sigma e)/(s_0 + s)$: on the rise $v > 0$, and the angle shrinks if $\sigma e > 0$. So
 #
-# > **The favourable offset of the rise lies on the side to which the top of the cam does not run:** right of the centre for an
-# > anticlockwise cam, left of it for a clockwise one.
+# > **The favourable offset for the rise lies on the side that the top of the cam moves away from:** right of the centre for
+# > an anticlockwise cam, left of it for a clockwise one.
 #
 # Try all four cases on one cam, $r_0 = 45$ mm, $|e| = 10$ mm, with a smooth law:
 
@@ -100,13 +101,13 @@ for rotation in ("ccw", "cw"):
         cam = gc.Cam(motion, gc.Translating(offset=offset), prime_radius=45, rotation=rotation)
         extremes = cam.extremes()
         cases[rotation, offset] = degrees(extremes.pressure_angle_rise[0]), degrees(extremes.pressure_angle_return[0])
-table(("rotation", "e, mm", "greatest α on the rise, °", "on the return, °"),
+table(("rotation", "e, mm", "maximum α on the rise, °", "on the return, °"),
       [(rotation, f"{offset:+g}", *angles) for (rotation, offset), angles in cases.items()], digits=2)
 
 # %% [markdown]
 # Rotation and offset enter only together, as $\sigma e$: turn the cam the other way *and* put the follower on the other side, and you
-# have the mirror image of the same mechanism. What the rise gains the return pays. With a spring (force closure) the return's angle
-# does not matter, and the offset costs nothing.
+# have the mirror image of the same mechanism. What the rise gains, the return pays for. With a spring (force closure) the return's
+# angle does not matter, and the offset costs nothing.
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert cases["ccw", 10.0] == cases["cw", -10.0]
@@ -189,14 +190,14 @@ assert abs(rise.error) < 0.01
 #
 # A pressure angle is the quotient of two lengths. Let each be off by $\delta$ mm of paper; then $\alpha$ is off by about
 # $\delta\cos\alpha/\overline{AD}$ radians, where $\overline{AD}$ is the length on paper. At 75 mm and $\delta = 0.3$ mm that is 0.2°. The
-# protractor adds half a degree, more than all the rest: **compute $\alpha$ from the two measured legs** rather than measure the angle.
+# protractor adds half a degree, more than everything else: **compute $\alpha$ from the two measured legs** rather than measure the angle.
 #
-# The greatest angle lies *between* stations, so it is read from the faired curve. If you take the greatest of the plotted points you
-# are always on the unsafe side.
+# The maximum angle lies *between* stations, so it is read from the smooth curve. The largest of the plotted points is always on the
+# unsafe side.
 #
 # ## Questions
 #
-# 1. Why is the profile not needed to find $\alpha$? Which of its properties is used all the same?
+# 1. Why is the profile not needed to find $\alpha$? Which of its properties is used nevertheless?
 # 2. Where does the pressure angle vanish during the rise of an offset follower, and what does the velocity plan look like there?
-# 3. Your neighbour's cam has 22.8° on the rise where you have 37.0°, with the same $r_0$ and $|e|$. What do you ask him?
+# 3. Your neighbour's cam has 22.8° on the rise where you have 37.0°, with the same $r_0$ and $|e|$. What do you ask?
 # 4. During a dwell the follower does not move. Is the pressure angle zero then?

@@ -12,10 +12,10 @@
 # ---
 
 # %% [markdown]
-# # 4. The shaded region and the least radius
+# # 4. The shaded region and the minimum radius
 #
-# **Aim.** You find the smallest cam that never pushes too much sideways: you draw the combined diagram, shade the region
-# in which the cam centre may lie, and choose the centre. And you can say *why* the region lies where it lies.
+# **Aim.** At the end you can find the smallest cam that never pushes too much sideways: draw the combined diagram, shade
+# the region in which the cam centre may lie, and choose the centre. And you can say *why* the region lies where it does.
 #
 # **You need** the displacement and velocity diagrams of notebook 2 (their readings are given below if you missed it) and
 # the idea of the pressure angle (it is repeated below). On paper: A4, ruler, protractor, dividers.
@@ -41,41 +41,41 @@ from graphcam.notebooks import (
 # ## What is asked
 #
 # The cam pushes the follower along the common normal of profile and roller. The follower can only move along its guide.
-# The angle between the two directions is the **pressure angle** $\alpha$. Only the share $\cos\alpha$ of the force
-# lifts; the share $\sin\alpha$ presses the follower against the side of its guide. At 30° that is half the force, and
-# not far beyond it the follower of a common guide jams. So the task sets a limit $[\alpha]$: usually 30° on the rise,
-# where the cam does work, and 60° to 80° on the return, where a spring pushes back.
+# The angle between the two directions is the **pressure angle** $\alpha$. Only the component $\cos\alpha$ of the force
+# lifts; the component $\sin\alpha$ presses the follower against the side of its guide. At 30° that is half the force,
+# and not far beyond it the follower of an ordinary guide jams. So the task sets a limit $[\alpha]$: usually 30° on the
+# rise, where the cam does work, and 60° to 80° on the return, where a spring pushes back.
 #
 # A large cam has small pressure angles, because the same lift is spread over a longer profile. A small cam is lighter
-# and cheaper, and slides less. **What is the smallest cam that keeps the limit everywhere?** One could try radii and
-# compute $\alpha$ for each. The construction finds all permitted cams at once.
+# and cheaper, and slides less. **What is the smallest cam that stays within the limit everywhere?** One could try
+# radii and compute $\alpha$ for each. The construction finds all permitted cams at once.
 #
 # ## The one idea
 #
 # From the velocity plan (notebook 3) we know the pressure angle without knowing the profile. With the lift $s$, the
-# velocity $v = ds/d\varphi$, the offset $e$ and the height $s_0$ of the lowest place above the cam centre
+# velocity $v = ds/d\varphi$, the offset $e$ and the height $s_0$ of the lowest position above the cam centre
 #
 # $$ \tan\alpha = \frac{v - \sigma e}{s_0 + s}, $$
 #
 # where $\sigma = +1$ for a cam that turns anticlockwise and $-1$ for one that turns clockwise. Do not compute it.
 # *Look* at it: it is the ratio of a horizontal and a vertical length. So draw a right triangle:
 #
-# - the vertical leg $s_0 + s$ runs from the level of the cam centre $A$ up to the level $s$ of the follower;
+# - the vertical leg $s_0 + s$ runs from the height of the cam centre $A$ up to the height $s$ of the follower;
 # - the horizontal leg runs from the follower's line, at the distance $e$ from the centre, out to the end $D$ of a
-#   segment of the length $v$ that is drawn *at the height* $s$.
+#   segment of length $v$ that is drawn *at the height* $s$.
 #
 # Then **the angle at $A$ between the vertical and the line $AD$ is the pressure angle itself.** Standing at $A$ and
-# looking up at the point $D$ of some station, we see it under the very angle at which the cam pushes there.
+# looking up at the point $D$ of some station, we see it at exactly the pressure angle of that station.
 #
-# Turn this round. The points $D_0, D_1, \dots$ depend only on the motion: $s$ and $v$. They can be drawn *before* there
-# is a cam. Then each possible centre $A$ is a place from which we look at them. A place is good if from there no $D$ of
-# the rise is seen under more than $[\alpha]$. Every $D$ forbids all the places on one side of a line through it; what
-# no point forbids is the region.
+# Turn this round. The points $D_0, D_1, \dots$ depend only on the motion: $s$ and $v$. They can be drawn *before* the
+# cam exists. Then each possible centre $A$ is a point from which we look at them. A point is good if no $D$ of the rise
+# is seen from it at more than $[\alpha]$. Every $D$ forbids all points on one side of a line through it; the region is
+# what no $D$ forbids.
 #
 # ## The construction, step by step
 #
-# Our task is the coursework task with one limit more, so that you see all that can occur: 30° on the rise, 50° on the
-# return. The cam turns clockwise; the follower's offset shall be found.
+# Our task is the coursework task with one more limit, so that you see everything that can occur: 30° on the rise, 50°
+# on the return. The cam turns clockwise; the follower's offset is to be found.
 
 # %%
 task = changed(gc.builtin_task(), {
@@ -87,9 +87,9 @@ solution = gc.solve(task)
 region = solution.drawn["minimum_radius"]
 
 # %% [markdown]
-# What we bring along from notebook 2, at the stations of the rise (12 parts) and of the return. The scale of the
-# displacement is $\mu_s = 0.6$ mm per mm of paper. **Segments and heights must have the same scale**, else the angles
-# are wrong, so each $v$ (in mm/rad) is divided by $\mu_s$ and not by $\mu_v$:
+# The readings from notebook 2, at the stations of the rise (12 parts) and of the return. The scale of the
+# displacement is $\mu_s = 0.6$ mm per mm of paper. **Segments and heights must have the same scale**, otherwise the
+# angles are wrong, so each $v$ (in mm/rad) is divided by $\mu_s$ and not by $\mu_v$:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 read = solution.drawn["integration"].readings
@@ -103,48 +103,48 @@ table(
 )
 
 # %% [markdown]
-# **First the points.** Draw the follower's line of motion upright and mark the start of the lift on it: the lowest place
-# of the follower, $s = 0$. Mark the heights $s_1, s_2, \dots$ above it. At each height lay off $v$ *turned from the
-# direction of motion by 90° in the sense in which the cam rotates*. Our cam turns clockwise and on the rise the follower
-# moves up; up, turned clockwise by a quarter, is to the **right**. On the return it moves down, so the segments go to the
-# **left**. No rule of signs needs to be remembered: turn the arrow of the velocity with the cam.
+# **First the points.** Draw the follower's line of motion vertical and mark the start of the lift on it: the lowest
+# position of the follower, $s = 0$. Mark the heights $s_1, s_2, \dots$ above it. At each height lay off $v$ *turned from
+# the direction of motion by 90° in the sense in which the cam rotates*. Our cam turns clockwise and on the rise the
+# follower moves up; up, turned clockwise by a quarter turn, is to the **right**. On the return it moves down, so the
+# segments go to the **left**. No rule of signs needs to be remembered: turn the arrow of the velocity with the cam.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(region, 1, within=solution)
 
 # %% [markdown]
-# The ends are faired into two curves. At the lowest and at the highest place the follower rests, $v = 0$, and the curves
-# meet the line of motion. With constant acceleration $v^2$ grows in proportion to $s$, so the curves are parabolas, and
-# in the middle, where the acceleration jumps, they have a corner.
+# The ends are joined by two smooth curves. In the lowest and in the highest position the follower dwells, $v = 0$, and
+# the curves meet the line of motion. With constant acceleration $v^2$ grows in proportion to $s$, so the curves are
+# parabolas, and in the middle, where the acceleration jumps, they have a corner.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(region, 2, within=solution)
 
 # %% [markdown]
-# **Then the lines.** Take one end, say $D_3$. From which places $A$ is it seen under *exactly* 30° to the vertical? From
-# all those on the line through $D_3$ that leans 30° out of the vertical. From the left of this line and above it, $D_3$ is
-# seen under more than 30°; from the *right of it and below*, under less. So $D_3$ permits one half of the paper. Do this
-# for every $D$ of the rise: you get a bundle of **parallel** lines, for the angle is always the same, and only the
-# outermost one matters, because who keeps that one keeps all the others. The outermost of parallel lines that still
-# touches a curve is its **tangent**. That is why *one* line replaces twelve: **the tangent to the rise's curve at the
-# permitted angle**.
+# **Then the lines.** Take one end, say $D_3$. From which points $A$ is it seen at *exactly* 30° to the vertical? From all
+# points of the line through $D_3$ at 30° to the vertical. From the left of this line and above it, $D_3$ is seen at more
+# than 30°; from the *right of it and below*, at less. So $D_3$ permits one half of the paper. Do this for every $D$ of the
+# rise: you get a set of **parallel** lines, because the angle is always the same. Only the outermost one matters: whatever
+# satisfies it satisfies all the others. The outermost of parallel lines that still touches a curve is its **tangent**.
+# That is why *one* line replaces twelve: **the tangent to the curve of the rise at the permitted angle**.
 #
 # Set the protractor to 30°, lean the ruler, and shift it parallel until it just touches the curve. Here it touches the
-# corner at station 6, the greatest velocity; with a smooth law it touches a little below.
+# corner at station 6, the maximum velocity; with a smooth law it touches a little below.
 #
 # The return's curve lies on the other side, so its tangent leans the other way, at its own limit of 50°. And there is
-# a third line, easily forgotten: at the low rest the follower does not move, $v = s = 0$, yet the cam still bears it,
-# and the angle there is $\tan\alpha = -\sigma e/s_0$. Its point $D_0$ is the start of the lift, and the line through
-# it at 30° is the **rest line**.
+# a third line, easily forgotten: in the lower dwell the follower does not move, $v = s = 0$, yet the cam still
+# supports it, and the angle there is $\tan\alpha = -\sigma e/s_0$. Its point $D_0$ is the start of the lift, and the
+# line through it at 30° is the **dwell line**.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(region, 3, within=solution)
 
 # %% [markdown]
 # **The region** is what all three lines permit. It is open downwards: the further down, the larger the cam, and a large
-# cam is always permitted. It is convex, for each line cuts off a half of the paper. It lies to the *right* of the line
-# of motion because $v$ on the rise was laid off to the right: a centre on that side sees the points of the rise more
-# steeply. That is what a favourable offset means; for a clockwise cam the follower stands to the *left* of the centre.
+# cam is always permitted. It is convex, because each line cuts off half of the paper. It lies to the *right* of the
+# line of motion because $v$ on the rise was laid off to the right: a centre on that side sees the points of the rise
+# more steeply. That is what a favourable offset means; for a clockwise cam the follower stands to the *left* of the
+# centre.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(region, 4, within=solution)
@@ -155,29 +155,29 @@ show_steps(region, 4, within=solution)
 #
 # $$ r_0 = \sqrt{s_0^2 + e^2}. $$
 #
-# So the smallest permitted cam has its centre in the *place of the region nearest to the start of the lift*. Often that
-# is a corner of the region, sometimes the foot of a perpendicular on a side: measure both. Three cases are asked for:
+# So the smallest permitted cam has its centre at the *point of the region nearest to the start of the lift*. Often that
+# is a corner of the region, sometimes the foot of a perpendicular to a side: measure both. There are three cases:
 #
 # | the task says | the centre is |
 # |:--|:--|
 # | nothing about the offset | the region's point nearest to the start of the lift |
-# | the offset $e$ | where the upright line at the distance $e$ enters the region |
+# | the offset $e$ | where the vertical line at the distance $e$ enters the region |
 # | a central follower, $e = 0$ | where the line of motion itself enters the region |
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(region, 5, within=solution)
 
 # %% [markdown]
-# In our task the nearest place is the *apex*, where the two tangents cross, and many books always take the apex. That is
+# In our task the nearest point is the *apex*, where the two tangents cross, and many books always take the apex. That is
 # not always right. For a cycloidal rise over 60° and return over 240° with limits of 30° and 85° the apex gives a radius
-# of 46.98 mm, but there it breaks the rest line; the smallest permitted cam has 49.16 mm. Who forgets the rest line
-# altogether finds 42.58 mm. So look at the region, not at a rule.
+# of 46.98 mm, but this violates the dwell line; the smallest permitted cam has 49.16 mm. Without the dwell line you
+# would find 42.58 mm. So look at the region, not at a rule.
 #
 # ## Do not believe it: look from every place
 #
-# The following map does what we could not do by hand. For every place of the paper it looks at all the points $D$ of the
-# rise and of the return and at the low rest, and notes whether some limit is exceeded. No tangent is drawn, no formula
-# of the region is used. White is permitted. The lines are those of our construction.
+# The following map does what we could not do by hand. For every point of the paper it looks at all points $D$ of the
+# rise, the return and the lower dwell, and notes whether a limit is exceeded. No tangent is drawn, no formula of the
+# region is used. White is permitted. The lines are those of our construction.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 ends = region.points["ends"]
@@ -206,12 +206,12 @@ picture_of(
     figure,
     "A map of the paper: grey where some pressure angle exceeds its limit. The white rest is "
     "a wedge open downwards, bounded by the three drawn lines, with A at its point nearest to the start.",
-    "Where some limit is exceeded (grey), found by looking from every place; the drawn lines bound what is left",
+    "Where some limit is exceeded (grey), found by looking from every point; the drawn lines bound what is left",
 )
 
 # %% [markdown]
 # The white wedge found by brute force is the shaded region of the drawing. The lines *are* its boundary, because each
-# of them is the place from which one point is seen under exactly its limit.
+# of them is the set of points from which one point is seen at exactly its limit.
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 # A millimetre inside the region no limit is exceeded, a millimetre outside, towards the start, one is.
@@ -226,19 +226,19 @@ assert abs(exceeded(centre)) < 0.05
 # %% [markdown]
 # ## Do it on paper
 #
-# 1. Line of motion upright, start of the lift marked; heights $s_i/\mu_s$ above it.
+# 1. Line of motion vertical, start of the lift marked; heights $s_i/\mu_s$ above it.
 # 2. At each height $v_i/\mu_s$ (the *same* scale) turned from the velocity with the cam's rotation; number the ends.
-# 3. Fair the two curves.
-# 4. Tangent to the rise's curve at $[\alpha]$, to the return's at its limit (none if a spring closes the mechanism),
+# 3. Draw the two smooth curves.
+# 4. Tangent to the curve of the rise at $[\alpha]$, to that of the return at its limit (none with force closure),
 #    line through the start at $[\alpha]$ on the other side.
-# 5. Shade what all lines permit, downwards.
+# 5. Shade the region that all lines permit, downwards.
 # 6. Choose the centre; measure its distance from the start; times $\mu_s$ it is $r_0$. Measure $e$ and $s_0$ too.
 # 7. Round $r_0$ **up**: a larger cam is permitted, a smaller one is not.
 #
 # ## Try it yourself
 #
-# Let the limit on the rise be **35°** instead of 30°, everything else as above. Two new lines on your drawing are enough.
-# Measure the distance from the start of the lift to the new centre.
+# Let the limit on the rise be **35°** instead of 30°, with everything else unchanged. Two new lines on your drawing are
+# enough. Measure the distance from the start of the lift to the new centre.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 eased = gc.solve(changed(task, {"limits.pressure_angle_rise": 35.0})).drawn["minimum_radius"].readings
@@ -275,7 +275,7 @@ your_r0 = None  # mm
 prime_radius.check(your_r0)
 
 # %% [markdown]
-# Back to 30°. The follower shall now be **central**. Draw nothing new; one more measurement on your drawing is enough.
+# Back to 30°. Now the follower is to be **central**. Draw nothing new; one more measurement on your drawing is enough.
 # What is $r_0$?
 
 # %% tags=["try-it"]
@@ -283,20 +283,20 @@ your_central_r0 = None  # mm
 central.check(your_central_r0)
 
 # %% [markdown]
-# A fellow student took $v$ in its own scale, $\mu_v = 0.859$ (mm/rad)/mm, beside $s$ in $\mu_s = 0.6$ mm/mm, and leaned
-# the tangent at 30°. Which angle should it have been? The drawn slope is
-# $\tan\alpha_{\text{drawn}} = \tan\alpha\;\mu_s/\mu_v$, because a length of $v$ has become shorter than one of $s$.
+# A fellow student took $v$ in its own scale, $\mu_v = 0.859$ (mm/rad)/mm, beside $s$ in $\mu_s = 0.6$ mm/mm, and drew
+# the tangent at 30°. Which angle should it have been? The drawn slope is $\tan\alpha_{\text{drawn}} =
+# \tan\alpha\;\mu_s/\mu_v$, because a length of $v$ has become shorter than one of $s$.
 
 # %% tags=["try-it"]
 your_angle_deg = None  # degrees
 drawn_angle.check(your_angle_deg)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
-# The limits move the lines, the offset moves the place on them. Say before you look: which way does the rise's tangent
-# go when its limit grows from 30° to 40°? What does force closure (no limit on the return) do? What happens with an offset
-# on the wrong side (for this clockwise cam a positive one)?
+# The limits move the lines, the offset moves the point on them. Answer before you look: which way does the tangent of the
+# rise move when its limit grows from 30° to 40°? What does force closure (no limit on the return) do? What happens with an
+# offset on the wrong side (for this clockwise cam a positive one)?
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -315,7 +315,7 @@ gc.studio(task, view="combined", stills={
 # s_0\tan[\alpha'] - \sigma e \ge \max_{\text{return}}\,(|v| - s\tan[\alpha']), \quad
 # \sigma e \le s_0\tan[\alpha] $$
 #
-# for the least $r_0$, with the closed formulas of the law. The maxima are the intercepts of our tangents.
+# for the minimum $r_0$, with the closed formulas of the law. The maxima are the intercepts of our tangents.
 
 # %%
 compared(solution, "minimum_prime_radius", "minimum_offset")
@@ -332,11 +332,12 @@ assert abs(float(before.value) - 42.919) < 0.001
 # %% [markdown]
 # ## Where the error comes from
 #
-# With a perfect pencil only from the readings of $s$ and $v$: the region needs nothing but points and tangents. If the
-# tangent is laid through *plotted* points instead of the faired curve it may only lie too far inside, so the radius
-# comes out **too small, on the unsafe side**, whenever the true point of touch lies between two stations.
+# With an ideal pencil only from the readings of $s$ and $v$: the region needs nothing but points and tangents. If the
+# tangent is drawn through *plotted* points instead of the smooth curve, it can only lie too far inside, so the radius
+# comes out **too small, on the unsafe side**, whenever the true point of contact lies between two stations.
 #
-# With a real pencil the tangent's angle is the weak place. How much does one degree of the protractor cost?
+# With a real pencil the angle of the tangent is the weak point. How much does one degree of the protractor
+# cost?
 
 # %%
 def radius_at(limit):
@@ -355,7 +356,8 @@ print(f"one degree more on the rise changes the radius by {per_degree:.2f} mm")
 #
 # 1. Why are the lines of all stations parallel, and why would they not be if the limit differed from station to station?
 # 2. The region is never closed below. What does that say about a cam that is large enough?
-# 3. Which two of the three lines bind in our task? How do you see on the drawing that the third does not matter?
+# 3. Which two of the three lines are active in our task? How do you see on the drawing that the third does not
+#    matter?
 # 4. The same motion with a cam that turns anticlockwise: which part of the drawing changes, and how does the sign
-#    of the best offset?
+#    of the best offset change?
 # 5. In which case is the nearest point of the region *not* a corner?

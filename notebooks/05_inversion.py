@@ -15,7 +15,7 @@
 # # 5. Inversion: translating follower, arm and flat face
 #
 # **Aim.** At the end you can draw the pitch curve of a cam for the three kinds of followers, number the positions in the right sense,
-# and explain why one numbers *against* the rotation.
+# and explain why they are numbered *against* the rotation.
 #
 # **You need** the displacement diagram (notebook 2) and an adopted prime radius (notebook 4). On paper: A3, compass, protractor,
 # dividers. **Time:** 75 minutes, 45 of them with the pencil.
@@ -31,9 +31,9 @@ from graphcam.notebooks import Question, changed, show_steps, table
 # %% [markdown]
 # ## Background: stop the cam
 #
-# In the machine the cam turns and the follower's guide stands still. On paper the cam must stand still, because its profile shall be
+# In the machine the cam turns and the follower's guide stands still. On paper the cam must stand still, because its profile is to be
 # drawn. So we give the *whole* mechanism an additional rotation, opposite to the cam's: the cam stops, and the frame with the
-# follower's guide travels round the cam **against the cam's rotation**. What moves relative to what has not changed, so the path of the
+# follower's guide travels round the cam **against the cam's rotation**. The relative motion has not changed, so the path of the
 # follower's trace point relative to the cam is the same. That path, drawn on the resting cam, is the **pitch curve**.
 #
 # This is the whole method of *inversion*. For every follower it reads:
@@ -50,14 +50,14 @@ from graphcam.notebooks import Question, changed, show_steps, table
 # ## The translating follower
 #
 # The follower's line does not pass through the centre but at the distance $e$. In every turned position it touches the *offset circle* of
-# the radius $|e|$. So one divides the offset circle, not the prime circle, and draws tangents.
+# the radius $|e|$. So divide the offset circle, not the prime circle, and draw tangents.
 
 # %%
 solution = gc.solve(gc.builtin_task())
 show_steps(solution.drawn["inversion"], within=solution)
 
 # %% [markdown]
-# Two mistakes are made again and again:
+# Two mistakes are common:
 #
 # - **Numbering with the rotation.** The cam comes out as its mirror image: the follower would rise on the return.
 # - **Laying $s$ off from the offset circle.** The foot of the tangent is at the height 0, the lowest position of the trace point at
@@ -81,8 +81,8 @@ show_steps(arm.drawn["inversion"], within=arm)
 
 # %% [markdown]
 # The polar angle of a point of the pitch curve is **not** the cam angle: the trace point moves on an arc about the pivot and drifts
-# sideways while it rises. Whoever plots radius over cam angle shifts the points by degrees; a published table has that error, up to
-# 3.6°.
+# sideways while it rises. Plotting the radius over the cam angle shifts the points by degrees; a published table has that error, up
+# to 3.6°.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 read = arm.drawn["inversion"].readings
@@ -98,10 +98,10 @@ table(("station", "cam angle φ, °", "polar angle from the start, °", "differe
 # %% [markdown]
 # ## The flat-faced follower
 #
-# The follower ends in a plane face, square to its motion. There is no trace point, but each position of the *face* is a tangent of the
-# cam: on the ray turned by $\varphi_i$ lay off $r_0 + s_i$ and draw the perpendicular. The cam is the **envelope** of these lines. Where does
-# the face touch? At the distance $v$ beside the ray: again the velocity diagram contains a length of the mechanism, and its greatest values
-# to both sides say how wide the face must be.
+# The follower ends in a plane face, square to its motion. There is no trace point, but each position of the *face* is a tangent of the cam:
+# on the ray turned by $\varphi_i$ lay off $r_0 + s_i$ and draw the perpendicular. The cam is the **envelope** of these lines. Where does the
+# face touch? At the distance $v$ beside the ray: again the velocity diagram contains a length of the mechanism, and its maximum values to
+# both sides give the width of the face.
 
 # %%
 flat = gc.solve(gc.builtin_task("flat"))
@@ -109,8 +109,8 @@ show_steps(flat.drawn["inversion"], within=flat)
 
 # %% [markdown]
 # The pressure angle of this follower is always zero, so there is nothing to shade with tangents of $v$. What limits the radius is that the
-# envelope must not turn back on itself: the radius of curvature $\rho = r_0 + s + a$ must stay positive. Draw $s$ against $a$ in
-# equal scales; the line at 45° that touches the curve from below gives the least radius.
+# envelope must not turn back on itself: the radius of curvature $\rho = r_0 + s + a$ must stay positive. Draw $s$ against $a$ in equal
+# scales; the line at 45° that touches the curve from below gives the minimum radius.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(flat.drawn["minimum_radius"], within=flat)
@@ -129,7 +129,7 @@ distance = Question(
      "s was laid off from the offset circle": 2 * np.hypot(10, 15), "s was added to r₀ as if the follower were central": 2 * 59.0},
 )
 sense = Question(
-    1.0, 0.01, "+1 or −1", "the background: which way does the frame travel round the resting cam?",
+    1.0, 0.01, "+1 or −1", "the background: which way does the frame travel round the fixed cam?",
     {"that is the sense in which the cam turns": -1.0},
 )
 
@@ -142,9 +142,9 @@ your_sense = None  # +1 if the stations are numbered anticlockwise, -1 if clockw
 sense.check(your_sense)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
-# The prime radius is a decision; see what the profile makes of it. Watch the flanks: on a small cam they become hollow.
+# The prime radius is a decision; see how it changes the profile. Watch the flanks: on a small cam they become concave.
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -173,14 +173,17 @@ assert abs(float(np.hypot(*exact.pitch[0])) - 44) < 1e-9
 assert abs(np.abs(degrees(turned[rise][-1])) - 75) > 1
 
 # %% [markdown]
-# For constant acceleration the displacements carry no error of the method, so a perfect hand hits the curve.
+# For constant acceleration the displacements carry no error of the method, so an ideal pencil reproduces the
+# curve exactly.
 #
 # ## Where the error comes from
 #
-# 1. **From the displacements**: whatever notebook 2 left in $s$ goes into the profile at full size times the scale.
-# 2. **From the division of the circle**: a protractor set wrongly by half a degree moves a point of a 60 mm radius by 0.5 mm *along*
-#    the curve, which hurts only where the curve is steep. Step the angles off from the start, not one from the other: errors of steps add.
-# 3. **From tangents**: the point of touch on a circle of 10 mm is badly defined; draw the radius first and the tangent square to it.
+# 1. **From the displacements**: whatever error notebook 2 left in $s$ goes into the profile in full, times the
+#    scale.
+# 2. **From the division of the circle**: a protractor set wrongly by half a degree moves a point of a 60 mm radius by 0.5 mm *along* the
+#    curve, which matters only where the curve is steep. Set each angle off from the start, not from the previous one: errors of steps add.
+# 3. **From tangents**: the point of contact on a circle of 10 mm is badly defined; draw the radius first and the tangent square to
+#    it.
 #
 # ## Questions
 #

@@ -14,7 +14,7 @@
 # %% [markdown]
 # # 6. Three points, chords, the roller and undercut
 #
-# **Aim.** At the end you can find the sharpest place of a drawn curve with the compass, choose a roller that fits it, and recognise a
+# **Aim.** At the end you can find the sharpest point of a drawn curve with the compass, choose a roller that fits it, and recognise a
 # profile that cannot be cut.
 #
 # **You need** a drawn pitch curve (notebook 5). On paper: A4, compass, ruler. **Time:** 50 minutes, 25 of them with the pencil.
@@ -30,18 +30,18 @@ from graphcam.notebooks import Question, changed, compared, show_steps, table
 # %% [markdown]
 # ## Background
 #
-# Three points determine a circle. Three *near* points of a curve determine, almost, its circle of curvature: the circle that fits the
-# curve best there. Its centre lies where the perpendicular bisectors of the two chords meet; its radius $\rho$ is the radius of
+# Three points determine a circle. Three *close* points of a curve determine, almost, its circle of curvature: the circle that fits
+# the curve best there. Its centre lies where the perpendicular bisectors of the two chords meet; its radius $\rho$ is the radius of
 # curvature.
 #
-# Why do we ask? The roller rolls *outside* the working profile, and its centre draws the pitch curve. The working profile is the inner parallel
-# of the pitch curve at the distance $r$, so its own radius of curvature is
+# Why does it matter? The roller rolls *outside* the working profile, and its centre draws the pitch curve. The working profile is the inner
+# parallel of the pitch curve at the distance $r$, so its own radius of curvature is
 #
 # $$ \rho_{\text{profile}} = \rho - r $$
 #
 # where the cam is convex. If $r < \rho$ all is well. If $r = \rho$ the profile has a point, which wears away at once. If $r > \rho$ the
 # parallel curve turns back on itself in two cusps: the cutter that makes one flank removes what the other flank needs, and the cam that
-# is left no longer moves the follower by the law. That is **undercut**. So the roller must stay well below the *least* convex radius:
+# is left no longer moves the follower by the law. That is **undercut**. So the roller must stay well below the *minimum* convex radius:
 #
 # | school | rule |
 # |:--|:--|
@@ -49,7 +49,8 @@ from graphcam.notebooks import Question, changed, compared, show_steps, table
 # | of the cam alone | $r = 0.45\,r_0$ |
 # | a margin | $r = \rho_{\min} - (3\ldots5)$ mm |
 #
-# A large roller is good: it turns more slowly and presses less. The rule is a bargain again.
+# A large roller is good: it turns more slowly and the contact pressure is lower. The rule is a compromise
+# again.
 #
 # ## The construction
 
@@ -60,7 +61,7 @@ curvature = solution.drawn["curvature"]
 show_steps(curvature, within=solution)
 
 # %% [markdown]
-# Where is the sharpest place? Not where the curve *looks* pointed at first glance: move the compass along the curve. For this task it lies at
+# Where is the sharpest point? Not where the curve *looks* pointed at first glance: move the compass along the curve. For this task it lies at
 # the beginning of the return, where the acceleration is most negative while the follower is high: a strongly negative $a$ bends the pitch
 # curve. Never take three points across a jump of the acceleration: the curvature jumps there too, and the circle would be a mean of two.
 #
@@ -106,8 +107,8 @@ roller.check(your_roller)
 # %% [markdown]
 # ## Undercut, seen
 #
-# A smooth law on a cam that is much too small. Move the roller and watch the circles: where the profile should be, one circle covers the touch
-# points of its neighbours.
+# A smooth law on a cam that is much too small. Move the roller and watch the circles: where the profile should be, one circle covers the
+# contact points of its neighbours.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 small = changed(task, {
@@ -119,7 +120,7 @@ gc.studio(small, view="profile", stills={
     f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (8, 24)})
 
 # %% [markdown]
-# What the exact side says of the roller of 24 mm, and the largest one that avoids the cusps:
+# The exact result for the roller of 24 mm, and the largest roller that avoids the cusps:
 
 # %%
 cam = gc.solve(changed(small, {"follower.roller_radius": 24.0})).cam
@@ -147,10 +148,11 @@ assert abs(rho.error_paper) <= rho.tolerance_paper
 #
 # ## Where the error comes from
 #
-# Two enemies pull in opposite directions. Let the points be $h$ apart and each off by $\sigma$ mm.
+# Two effects pull in opposite directions. Let the points be $h$ apart and each off by $\sigma$ mm.
 #
 # - **The points are too far apart.** The circle is a mean over the arc. For equal chords the curvature is off by $\kappa'' h^2/12$.
-# - **The points are too near.** A bow of the height $h^2/(2\rho)$ is measured; an error of $\sigma$ in it scatters the radius, relatively, by
+# - **The points are too close.** What is measured is the height of the arc, $h^2/(2\rho)$; an error of $\sigma$ in it gives the radius a
+#   relative scatter of
 #
 # $$ \frac{\Delta\rho}{\rho} \approx \frac{\sqrt6\,\sigma\,\rho}{h^2}. $$
 
@@ -159,16 +161,16 @@ sigma, rho_on_paper = 0.2, 60.0
 table(("chord h, mm", "scatter of ρ, %"), [(f"{h}", 100 * 6**0.5 * sigma * rho_on_paper / h**2) for h in (5, 10, 15, 20, 30)], digits=1)
 
 # %% [markdown]
-# With chords of 13 mm, as in our drawing, a pencil of 0.2 mm makes a scatter of 17 %. With chords of 5 mm the radius is pure chance. **Take
-# points 20 to 30 mm apart, and say on the sheet how far apart they were.** The best distance balances the two:
-# $h \approx 2.33\,(\sigma/|\kappa''|)^{1/4}$.
+# With chords of 13 mm, as in our drawing, a pencil of 0.2 mm gives a scatter of 17 %. With chords of 5 mm the radius is pure chance. **Take
+# points 20 to 30 mm apart, and state on the sheet how far apart they were.** The best distance balances the two: $h \approx
+# 2.33\,(\sigma/|\kappa''|)^{1/4}$.
 #
-# Our task has a third source: the least radius is a *one-sided limit* at the jump of the acceleration. The three points must stay on one side
-# of it, so the middle one cannot lie at the place itself; that error falls only in proportion to the step.
+# Our task has a third source: the minimum radius is a *one-sided limit* at the jump of the acceleration. The three points must stay on one
+# side of it, so the middle one cannot lie at the sharpest point itself; that error falls only in proportion to the step.
 #
 # ## Questions
 #
-# 1. The profile is concave on a flank. Which condition must the roller keep there?
+# 1. The profile is concave on a flank. Which condition must the roller satisfy there?
 # 2. Why does the knife-edge follower never undercut, and why is it not used?
 # 3. A cam is undercut with a roller of 20 mm. Name three things to change. Which one changes the sheet least?
-# 4. Derive $\sqrt6\,\sigma\rho/h^2$: the height of the bow is $B - (A + C)/2$, and all three points are off by $\sigma$.
+# 4. Derive $\sqrt6\,\sigma\rho/h^2$: the height of the arc is $B - (A + C)/2$, and all three points are off by $\sigma$.

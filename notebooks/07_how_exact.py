@@ -15,7 +15,7 @@
 # # 7. How exact is a drawing?
 #
 # **Aim.** At the end you can say, for every number on your sheet, how far it can be trusted; you know how many parts are worth drawing, and
-# what a computer buys.
+# what a computer adds.
 #
 # **You need** notebooks 2 and 4, and an idea of mean and standard deviation. **Time:** 40 minutes, no pencil.
 
@@ -41,20 +41,19 @@ from graphcam.notebooks import (
 # %% [markdown]
 # ## Background: two kinds of error
 #
-# **The method's error** is made by a perfect hand too: a curve is replaced by chords. It depends on the number of parts $n$ and falls, for the
-# pole construction, with $1/n^2$.
+# **The error of the method** remains with an ideal pencil: a curve is replaced by chords. It depends on the number of parts $n$ and falls, for
+# the pole construction, with $1/n^2$.
 #
-# **The hand's error** is made by the best method too: a sharp line is 0.1 to 0.2 mm wide; dividers repeat to 0.1 to 0.3 mm; a scale is read to half a
-# division, 0.5 mm; a protractor to half a degree. These errors are random, so they do not simply add: of $n$ independent errors of the
-# size $\sigma$ the sum is about $\sqrt n\,\sigma$. But each chord passes its error on to all that follow, so **more parts make the hand
-# worse**.
+# **The drawing error** remains with the best method: a sharp line is 0.1 to 0.2 mm wide; dividers repeat to 0.1 to 0.3 mm; a rule is read to half a
+# division, 0.5 mm; a protractor to half a degree. These errors are random, so they do not simply add: $n$ independent errors of size $\sigma$ add up
+# to about $\sqrt n\,\sigma$. But each chord passes its error on to all that follow, so **with more parts the drawing error grows**.
 #
 # One falls with $n$, the other grows. There is a best number of parts.
 #
 # ## A construction with a thousand hands
 #
-# graphcam draws each construction with a *pencil*. The default pencil is perfect. Another one misses every line and every divider setting by a random
-# amount, and every angle by as much at the edge of a protractor of 100 mm; and it can draw a thousand sheets at once. Four students with a pencil of 0.5 mm (a bad one, so that you see it):
+# graphcam draws each construction with a *pencil*. The default pencil is ideal. Any other misses every line and every divider setting by a random amount, and every angle by as much at the
+# edge of a protractor of 100 mm; and it can draw a thousand sheets at once. Four students with a pencil of 0.5 mm (a bad one, so that you see it):
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -75,7 +74,7 @@ explore(
 )
 
 # %% [markdown]
-# Each found another least radius. The spread of many such results is what "how exact" means.
+# Each found a different minimum radius. The spread of many such results is what "how exact" means.
 #
 # ## The best number of parts
 
@@ -89,19 +88,19 @@ for parts in (4, 6, 8, 12, 16, 24, 48):
     hands = gc.solve(finer, gc.Pencil.of(0.2, samples=400, seed=1)).drawn["integration"]
     both = np.abs(hands.readings["s"].value - exact).max(axis=-1).mean()
     rows.append((parts, 100 * method / 30, 100 * both / 30))
-table(("parts n", "perfect hand, % of the lift", "pencil of 0.2 mm, % of the lift"), rows, digits=2)
+table(("parts n", "ideal pencil, % of the lift", "pencil of 0.2 mm, % of the lift"), rows, digits=2)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 n, method, both = np.transpose(rows)
-figure, axes = chart("parts of a phase", "greatest error of s, % of the lift", 2.8)
-axes.loglog(n, method, "o-", color="#5a5a5a", label="perfect hand: falls with 1/n²")
+figure, axes = chart("parts of a phase", "maximum error of s, % of the lift", 2.8)
+axes.loglog(n, method, "o-", color="#5a5a5a", label="ideal pencil: falls with 1/n²")
 axes.loglog(n, both, "o-", color="#0b57a4", label="pencil of 0.2 mm (mean of 400)")
 axes.legend(fontsize=8)
 axes.set_xticks(n, [f"{int(k)}" for k in n], minor=False)
 axes.minorticks_off()
-picture_of(figure, "Error against the number of parts, both axes logarithmic: the perfect hand's error falls steadily from 3.4 to 0.02 "
+picture_of(figure, "Error against the number of parts, both axes logarithmic: the ideal pencil's error falls steadily from 3.4 to 0.02 "
            "percent; that of a 0.2 mm pencil falls to about 3 percent at 8 to 12 parts and then rises to 5 percent at 48.",
-           "More parts help a perfect hand; a real one is best at 8 to 12")
+           "More parts help an ideal pencil; a real one is best at 8 to 12")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert n[np.argmin(both)] in (8, 12)
@@ -110,17 +109,18 @@ slope = np.polyfit(np.log(n[2:]), np.log(method[2:]), 1)[0]
 assert abs(slope + 2) < 0.1
 
 # %% [markdown]
-# With this pencil **eight to twelve parts are best**. That is why the schools divide by 8 or 12, and why a sheet with 24 parts deserves pity, not
-# praise. A better pencil moves the optimum to the right, a larger drawing too: what counts is $\sigma$ compared with the size of the diagram.
+# With this pencil **eight to twelve parts are best**. That is why courses divide a phase into 8 or 12 parts, and why a sheet with 24 parts is
+# wasted work. A better pencil moves the optimum to the right, a larger drawing too: what counts is $\sigma$ compared with the size of the
+# diagram.
 #
 # ## Error budget of the sheet
 #
-# The readings of one construction are the givens of the next: acceleration, velocity, displacement, least radius, curvature, roller. An error
-# travels down this chain. The standard deviations of 400 sheets by a pencil of 0.2 mm, as parts of the value:
+# The readings of one construction are the data of the next: acceleration, velocity, displacement, minimum radius, curvature, roller. An error
+# travels down this chain. The standard deviations of 400 sheets by a pencil of 0.2 mm, relative to the value:
 
 # %%
-names = {"maximum v": ("integration", "max_v"), "least radius": ("minimum_radius", "prime_radius"),
-         "least radius of curvature": ("curvature", "rho"), "roller radius": ("roller", "roller_radius")}
+names = {"maximum v": ("integration", "max_v"), "minimum radius": ("minimum_radius", "prime_radius"),
+         "minimum radius of curvature": ("curvature", "rho"), "roller radius": ("roller", "roller_radius")}
 hands = gc.solve(smooth, gc.Pencil.of(0.2, samples=400, seed=1))
 budget = []
 for title, (construction, name) in names.items():
@@ -129,10 +129,10 @@ for title, (construction, name) in names.items():
 table(("quantity", "mean", "standard deviation", "%"), budget, digits=2)
 
 # %% [markdown]
-# Which acts bring this about? Let the same hands draw again, with errors in one kind of act alone: only the marks that the dividers divide an axis by,
-# only the circles, only the bisectors. Each kind brings a share of the variance, the square of the standard deviation; independent errors add by their
-# squares, so the shares of a row make 100 %. What is left over stands under *together*: errors can make the eye choose another place as the
-# sharpest one, and no kind of act is to blame for that alone.
+# Which operations cause this? Draw the same sheets again, with errors in one kind of operation only: only the marks that the dividers divide an axis
+# by, only the circles, only the bisectors. Each kind causes a share of the variance, the square of the standard deviation; independent errors add by
+# their squares, so the shares of a row make 100 %. The remainder is listed under *together*: errors can make the eye choose another point as the
+# sharpest one, and no single kind of operation causes that alone.
 
 # %%
 error_budget(gc.solve(smooth), gc.Pencil.of(0.2))
@@ -141,7 +141,7 @@ error_budget(gc.solve(smooth), gc.Pencil.of(0.2))
 assert budget[2][3] > 2 * budget[0][3]
 
 # %% [markdown]
-# Velocity and radius are good to a few per cent. The radius of curvature is the weak member, as notebook 6 foretold.
+# Velocity and radius are good to a few per cent. The radius of curvature is the weak point, as notebook 6 predicted.
 #
 # ## Try it yourself
 #
@@ -151,7 +151,7 @@ assert budget[2][3] > 2 * budget[0][3]
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 walk = Question(
     0.8, 0.03, "mm of paper", "how independent errors add",
-    {"independent errors do not add; their squares do": 3.2, "each chord passes its error on to the next": 0.2, "they do not average out either: the sum is asked, not the mean": 0.05},
+    {"independent errors do not add; their squares do": 3.2, "each chord passes its error on to the next": 0.2, "they do not average out either: the question is about the sum, not the mean": 0.05},
 )
 halved = Question(
     12.0, 0.5, "parts", "second order: twice the parts, a quarter of the error",
@@ -163,7 +163,8 @@ your_last_end = None  # mm of paper
 walk.check(your_last_end)
 
 # %% [markdown]
-# With 6 parts a perfect hand leaves an error of 1.3 % of the lift. How many parts bring it to a quarter of that?
+# With 6 parts an ideal pencil leaves an error of 1.3 % of the lift. How many parts bring it to a quarter of
+# that?
 
 # %% tags=["try-it"]
 your_parts = None  # parts
@@ -172,7 +173,7 @@ halved.check(your_parts)
 # %% [markdown]
 # ## Drawn and exact: speed against error
 #
-# What does the exact side cost? One sheet of 12 parts, drawn by the computer, and the exact cam:
+# What does the exact computation cost? One sheet of 12 parts, drawn by the computer, and the exact cam:
 
 # %%
 start = perf_counter()
@@ -180,7 +181,7 @@ drawn = gc.solve(smooth).drawn["minimum_radius"].readings["prime_radius"].value
 middle = perf_counter()
 exact = gc.minimum_radius(smooth.motion(), gc.Translating(offset=-10), rotation="cw", rise=np.radians(30), offset=-10.0)
 end = perf_counter()
-table(("", "least radius, mm", "time, ms"), [("drawn, 12 parts", float(drawn), 1000 * (middle - start)),
+table(("", "minimum radius, mm", "time, ms"), [("drawn, 12 parts", float(drawn), 1000 * (middle - start)),
                                              ("exact", exact.prime_radius, 1000 * (end - middle))])
 
 # %%
@@ -190,20 +191,20 @@ compared(gc.solve(smooth), "max_v", "minimum_prime_radius", "min_pitch_curvature
 assert abs(float(drawn) - exact.prime_radius) < 0.5
 
 # %% [markdown]
-# Both take milliseconds here; by hand the drawing takes an afternoon. What the drawing gives is not speed and not digits. It shows *which* line binds and
-# where the sensitive place is, and it catches the gross mistakes of a computation, which have many digits too. `graphcam bench` measures all this
+# Both take milliseconds here; by hand the drawing takes an afternoon. What the drawing gives is not speed and not digits. It shows *which* line is active
+# and where the sensitive point is, and it reveals gross mistakes of a computation, which also come with many digits. `graphcam bench` measures all this
 # for every construction.
 #
 # ## Where the error comes from
 #
-# Summed up, by the table of shares, from the most harmful to the least: chords that pass their errors on (the parallels: half to two thirds of velocity and
-# least radius); settings of the dividers; the marks of the axis and the uprights on them, wherever a curve is steep; too short chords at the three
-# points, where errors that are harmless alone move the place; the protractor, in the inversion; the method with 12 parts. Who wants a better sheet
-# draws it *larger*, not finer.
+# In summary, by the table of shares, from the largest to the smallest: chords that pass their errors on (the parallels: half to two thirds of velocity and
+# minimum radius); settings of the dividers; the marks of the axis and the uprights on them, wherever a curve is steep; chords that are too short at the
+# three points, where errors that are harmless alone move the point; the protractor, in the inversion; the method with 12 parts. For a better sheet draw it
+# *larger*, not with more parts.
 #
 # ## Questions
 #
 # 1. The sheet is drawn on A3 instead of A1, with the same pencil. What happens to each column of the first table?
-# 2. Why is the mean of 400 drawn least radii not exactly the radius of the perfect hand?
-# 3. Two students differ by 1.5 mm in the least radius. Must one of them have made a mistake?
+# 2. Why is the mean of 400 drawn minimum radii not exactly the radius of the ideal pencil?
+# 3. Two students differ by 1.5 mm in the minimum radius. Must one of them have made a mistake?
 # 4. Which reading of your own sheet would you repeat if you had ten minutes?

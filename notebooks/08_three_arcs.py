@@ -14,8 +14,8 @@
 # %% [markdown]
 # # 8. Cams of three circular arcs
 #
-# **Aim.** At the end you can design a cam flank from circular arcs with ruler and compass, say which of the two solutions can be built, and read the
-# acceleration off the drawing that such a cam gives.
+# **Aim.** At the end you can design a cam flank from circular arcs with ruler and compass, say which of the two solutions can be made, and read the
+# acceleration of such a cam off the drawing.
 #
 # **You need** circles that touch, perpendicular bisectors, notebook 3. On paper: A3, compass, ruler. **Time:** 60 minutes, 40 of them with the pencil.
 
@@ -32,7 +32,8 @@ from graphcam.notebooks import Question, compared, show_steps, table
 # the outer circle is made of **three arcs that touch one another**: the first leaves the base circle in $A$ and ends in $G$, the second runs from $G$ to $F$,
 # the third from $F$ to $D$ on the outer circle. The motion follows from the arcs.
 #
-# Everything rests on one theorem: **where two circles touch, their centres and the point of touch lie on one line.** So
+# Everything rests on one theorem: **where two circles touch, their centres and the point of contact lie on one line.**
+# So
 #
 # - the centre $C_1$ of the arc that ends in $D$ lies on the line from the cam centre $O$ to $D$, at the distance $\rho_1$ from $D$;
 # - the centre $C_2$ of the arc that begins in $A$ lies on the line $OA$, equally far from $A$ and from $G$: on the *perpendicular bisector* of $AG$;
@@ -47,8 +48,8 @@ solution = gc.solve(task)
 show_steps(solution.drawn["three_arcs"], within=solution)
 
 # %% [markdown]
-# **Why two roots?** $\rho_1$ can be laid off from $G$ to either side. One root is a profile; in the other the arcs touch from the wrong side, and the profile would
-# turn back in a cusp. The test is the *order* on the lines of centres: $F, C_1, C_3$ and $G, C_3, C_2$ must follow each other so.
+# **Why two roots?** $\rho_1$ can be laid off from $G$ to either side. One root is a profile; in the other the arcs touch on the wrong side, and the profile would
+# turn back in a cusp. The test is the *order* on the lines of centres: it must be $F, C_1, C_3$ and $G, C_3, C_2$.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 table(("root", "C3 x, mm", "C3 y, mm", "can be built", "why"), [
@@ -67,8 +68,8 @@ table(("root", "C3 x, mm", "C3 y, mm", "can be built", "why"), [
 show_steps(solution.drawn["arc_roller"], within=solution)
 
 # %% [markdown]
-# At $G$ and $F$ the rod changes its length in an instant. The velocity does not notice, the **acceleration jumps**: the curvature of the profile jumps there. Three
-# arcs mean four soft impacts a flank.
+# At $G$ and $F$ the length of the rod changes suddenly. The velocity stays continuous, the **acceleration jumps**: the curvature of the profile jumps there. Three
+# arcs mean four soft impacts per flank.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(solution.drawn["arc_diagrams"], 1, 2, within=solution)
@@ -101,14 +102,14 @@ your_y = None  # mm
 centre_y.check(your_y)
 
 # %% [markdown]
-# And how great is the lift of this cam? The rise begins in $A(0,\ 40)$.
+# And how large is the lift of this cam? The rise begins in $A(0,\ 40)$.
 
 # %% tags=["try-it"]
 your_lift = None  # mm
 lift.check(your_lift)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -116,7 +117,7 @@ gc.studio(task, view="acceleration", stills={
     f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (0, 20)})
 
 # %% [markdown]
-# A larger roller makes the rods longer. The great step at $F$, where the short rod takes over, shrinks; the others hardly change, and none vanishes.
+# A larger roller makes the rods longer. The large step at $F$, where the short rod takes over, shrinks; the others hardly change, and none vanishes.
 #
 # ## Drawn and exact
 
@@ -129,17 +130,17 @@ assert abs(solution.comparison.quantities["rho3"].exact - 53.228) < 0.001
 assert [root.sound for root in solution.roots] == [True, False]
 
 # %% [markdown]
-# A perfect hand is exact here: ruler and compass constructions have no error of the method. That is their charm.
+# An ideal pencil is exact here: ruler and compass constructions have no error of the method.
 #
 # ## Where the error comes from
 #
-# From lines that cross flatly. The bisector of $PC_1$ and the line $C_2G$ meet at a small angle; there a pencil line of 0.2 mm becomes a millimetre or more in the place of
-# $C_3$. It does less harm than it seems: $C_3$ slides *along* the line through $G$, and the arc still passes through $G$ with the right tangent. Check $F$: it must lie on both
-# arcs.
+# From lines that cross at a flat angle. The bisector of $PC_1$ and the line $C_2G$ meet at a small angle; there a pencil line of 0.2 mm becomes a millimetre or more in the
+# position of $C_3$. It does less harm than it seems: $C_3$ slides *along* the line through $G$, and the arc still passes through $G$ with the right tangent. Check $F$: it must
+# lie on both arcs.
 #
 # ## Questions
 #
 # 1. Why do the arcs touch with a common tangent, and what would happen to the *velocity* if they did not?
-# 2. Which impact (notebook 1) has a cam of arcs? Where?
+# 2. Which kind of impact (notebook 1) does a cam of arcs have? Where?
 # 3. The flank may be a straight line instead of the middle arc. Where is $C_3$ then?
 # 4. Why does the follower's acceleration jump *down* from the second to the third arc? Which rod is longer?

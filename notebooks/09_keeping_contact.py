@@ -31,20 +31,20 @@ from graphcam.tasks.task import SpringTable
 # %% [markdown]
 # ## Background
 #
-# The cam can push, it cannot pull. While the follower is braked on the rise, or accelerated downwards on the return, something else must move it: the **spring**. Let the follower
-# of the mass $m$ be pressed down by a spring of the stiffness $c$ and the preload $F_0$. The cam bears it with the force
+# The cam can push, it cannot pull. While the follower is braked on the rise, or accelerated downwards on the return, something else must move it: the **spring**. Let the
+# follower, of mass $m$, be pressed down by a spring of stiffness $c$ and preload $F_0$. The cam pushes it with the force
 #
 # $$ \xi = m\,\omega^2 a + c\,s + F_0 . $$
 #
-# Contact is kept as long as $\xi \ge 0$. The inertia $m\omega^2a$ is negative where $a$ is; the spring force $c\,s$ helps more the higher the follower is. So the least preload
-# is
+# Contact is kept as long as $\xi \ge 0$. The inertia $m\omega^2a$ is negative where $a$ is; the higher the follower is, the more the spring force $c\,s$ helps. So the minimum
+# preload is
 #
 # $$ F_{0} \ge \max_\varphi\,\bigl(-m\,\omega^2 a - c\,s\bigr). $$
 #
-# It is *not* enough to look at the greatest negative acceleration: what counts is the sum with the spring. On the $s$ and $a$ diagrams: lay off $c\,s$ and $-m\omega^2a$ in one scale of force; the
-# greatest height by which the second exceeds the first is the preload.
+# It is *not* enough to look at the largest negative acceleration: the sum with the spring force counts. On the $s$ and $a$ diagrams: lay off $c\,s$ and $-m\omega^2a$ in the same scale of force;
+# the maximum height by which the second exceeds the first is the preload.
 #
-# Mind the units: $a$ in mm/rad² times $\omega^2$ in 1/s² is mm/s². In newtons: $m\,[\text{kg}]\;\omega^2\,a\,[\text{mm/rad}^2]/1000$.
+# Note the units: $a$ in mm/rad² times $\omega^2$ in 1/s² is mm/s². In newtons: $m\,[\text{kg}]\;\omega^2\,a\,[\text{mm/rad}^2]/1000$.
 #
 # ## The construction
 #
@@ -67,7 +67,7 @@ axes.plot(np.degrees(phi), design.contact.load.preload + 3 * s + 0.5 * omega**2 
 axes.axhline(0, color="black", linewidth=0.6)
 axes.legend(fontsize=8)
 picture_of(figure, "Over the cam angle: the spring force c s, which is 90 N during the upper dwell; the force needed to brake the follower, which exceeds the "
-           "spring just before 155 degrees by 9 N; and the contact force with the least preload, which touches zero there.",
+           "spring just before 155 degrees by 9 N; and the contact force with the minimum preload, which touches zero there.",
            "What the inertia needs (red) exceeds what the spring gives (grey) by 9 N just before 155°")
 
 # %% [markdown]
@@ -75,7 +75,7 @@ picture_of(figure, "Over the cam angle: the spring force c s, which is 90 N duri
 # already half way down: $s = 15$ mm, $c\,s = 45$ N, but $m\omega^2|a| = 54$ N. The missing 9 N are the preload.
 
 # %%
-print(f"least preload {design.least.preload:.2f} N at {degrees(design.least.phi):.0f}°")
+print(f"minimum preload {design.least.preload:.2f} N at {degrees(design.least.phi):.0f}°")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(design.least.preload - 9) < 1e-9
@@ -83,20 +83,21 @@ assert abs(degrees(design.least.phi) - 155) < 1e-6
 assert abs(gc.spring_preload(motion, 0.5, 300, 3).preload - 9) < 1e-9
 
 # %% [markdown]
-# **The force plan.** At a station all the forces on the follower are in balance: the load $Q$ (inertia, spring, preload) along the motion, the contact force $F$ along the normal,
-# at the pressure angle $\alpha$, and the reaction of the guide across the motion. Three directions and one size are known: a triangle. It
-# is similar to the velocity plan of notebook 3.
+# **The force plan.** At a station all forces on the follower are in equilibrium: the load $Q$ (inertia, spring, preload) along the motion, the contact force $F$ along the normal,
+# at the pressure angle $\alpha$, and the reaction of the guide across the motion. Three directions and one magnitude are known, which determine a triangle. It is similar to the
+# velocity plan of notebook 3.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(design.force_plan, within=solution)
 
 # %% [markdown]
-# The contact force is $F = Q/\cos\alpha$, so a pressure angle of 30° costs 15 %. The guide bears $Q\tan\alpha$: that is what wears it, and with friction what jams it.
+# The contact force is $F = Q/\cos\alpha$, so a pressure angle of 30° costs 15 %. The guide carries $Q\tan\alpha$: this wears it, and with friction it makes the
+# follower jam.
 #
 # ## Try it yourself
 #
-# The speed is doubled to **600 rpm**; everything else stays. First think: which of the two forces changes, and how? Then find the least preload. (The critical place does
-# not move.)
+# The speed is doubled to **600 rpm**; everything else is unchanged. Think first: which of the two forces changes, and how? Then find the minimum preload. (The critical
+# position does not move.)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 double = Question(
@@ -116,14 +117,14 @@ your_preload = None  # N
 double.check(your_preload)
 
 # %% [markdown]
-# At a station the load is $Q = 100$ N and the pressure angle 25°. How great is the contact force?
+# At a station the load is $Q = 100$ N and the pressure angle 25°. How large is the contact force?
 
 # %% tags=["try-it"]
 your_contact_force = None  # N
 contact_force.check(your_contact_force)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
 # Speed and preload. Where the blue curve is below zero the follower leaves the cam, flies, and comes down with a knock.
 
@@ -148,15 +149,15 @@ explore(
 # %% [markdown]
 # ## Friction at the cam
 #
-# The cam slides past the follower, always in its own sense, and drags it along the profile with $\mu N$. Along the motion that takes $\mu N\sin\alpha$ away:
+# The cam slides past the follower, always in its own sense, and drags it along the profile with $\mu N$. Along the motion this takes away $\mu N\sin\alpha$:
 #
 # $$ m\,(a\,\omega^2 + v\,\varepsilon) = N\,(\cos\alpha - \mu\sin\alpha) - (F_0 + c\,s) - P . $$
 #
-# What is left of a unit of normal force, $\tau = \cos\alpha - \mu\sin\alpha$, is the **transmission coefficient**. Where it falls to zero, at $\tan\alpha = 1/\mu$, no force
-# however great moves the follower: it **jams**. On the return $\alpha$ is negative, and friction bears a part of the load.
+# What is left of a unit of normal force, $\tau = \cos\alpha - \mu\sin\alpha$, is the **transmission coefficient**. Where it falls to zero, at $\tan\alpha = 1/\mu$, no
+# force, however large, moves the follower: it **jams**. On the return $\alpha$ is negative, and friction carries part of the load.
 #
-# In the force plan the contact force leans from the normal by the angle whose tangent is $\mu$; everything else stays. The square to the normal parts it
-# into $N$ and the friction $T = \mu N$.
+# In the force plan the contact force makes the friction angle, whose tangent is $\mu$, with the normal; everything else is unchanged. A perpendicular to
+# the normal resolves it into $N$ and the friction $T = \mu N$.
 
 # %%
 rubbing = gc.solve(changed(task, {"spring": SpringTable(mass=0.5, stiffness=3.0, preload=30.0, friction=0.15)}))
@@ -165,8 +166,8 @@ rubbing = gc.solve(changed(task, {"spring": SpringTable(mass=0.5, stiffness=3.0,
 show_steps(rubbing.spring.force_plan, within=rubbing)
 
 # %% [markdown]
-# Over the turn: without friction the spring gives back on the return what it took on the rise, and the mean torque is zero. With friction the shaft must be driven on the
-# average too.
+# Over the turn: without friction the spring gives back on the return what it took on the rise, and the mean torque is zero. With friction the shaft must also be driven
+# on average.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 smooth = gc.CamForces(rubbing.cam, rubbing.spring.load)
@@ -185,7 +186,7 @@ rows = []
 for mu in (0.0, 0.15, 0.3):
     forces = gc.CamForces(rubbing.cam, rubbing.spring.load, friction=mu)
     rows.append((mu, gc.jamming_margin(rubbing.cam, mu).value, forces.greatest_normal().value, gc.mean_torque(forces) / 1000))
-table(("μ", "least τ", "greatest N, N", "mean M, N·m"), rows, digits=2)
+table(("μ", "minimum τ", "maximum N, N", "mean M, N·m"), rows, digits=2)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(rows[0][3]) < 1e-9 < rows[1][3] < rows[2][3]
@@ -194,9 +195,9 @@ assert all(row[1] > 0 for row in rows)
 assert rows[0][2] > rows[1][2] > rows[2][2]
 
 # %% [markdown]
-# Here the greatest normal force *falls* with friction: it lies on the return, at 49° of pressure angle, where the friction bears a part of the load. On the rise it grows.
+# Here the maximum normal force *falls* with friction: it lies on the return, at 49° of pressure angle, where friction carries part of the load. On the rise it grows.
 #
-# At a station the load along the motion is $Q = 100$ N, the pressure angle 30° and $\mu = 0.2$. How great is the normal force?
+# At a station the load along the motion is $Q = 100$ N, the pressure angle 30° and $\mu = 0.2$. How large is the normal force?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 normal_force = Question(
@@ -218,14 +219,14 @@ normal_force.check(your_normal_force)
 # E' = \frac{1-\nu_1^2}{E_1} + \frac{1-\nu_2^2}{E_2}, $$
 #
 # with the width $b$, the roller radius $r$ and the profile's radius of curvature $\rho - r$. Here notebooks 5 and 6 come back: a small cam is sharp, and
-# a sharp profile presses hard.
+# a sharp profile has a high contact pressure.
 
 # %%
 cam = solution.cam
 forces = gc.CamForces(cam, gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=3, preload=30))
 stress = gc.ContactStress(forces, gc.RollerContact(width=15))
 found = stress.greatest()
-table(("greatest pressure, MPa", "at φ, °", "least width for 600 MPa, mm"), [(found.value, degrees(found.phi), stress.least_width(600))], digits=1)
+table(("maximum pressure, MPa", "at φ, °", "minimum width for 600 MPa, mm"), [(found.value, degrees(found.phi), stress.least_width(600))], digits=1)
 
 # %% [markdown]
 # ## Drawn and exact
@@ -246,13 +247,13 @@ assert abs(float(normal.value) - exact) < 0.05 * exact
 # %% [markdown]
 # ## Where the error comes from
 #
-# The acceleration enters with the scale $\mu_a$, the last of the chain: an error of 1 % in the lift's length on paper is 1 % in the force. Larger is the doubt about what is *not* on the sheet: the true
-# moving mass (a third of the spring moves too), the friction, and that the shaft does not turn evenly. So one takes the preload 20 to 50 % above the least one.
+# The acceleration enters with the scale $\mu_a$, the last of the chain: an error of 1 % in the lift's length on paper is 1 % in the force. A larger uncertainty is what is *not* on the sheet: the true
+# moving mass (a third of the spring moves too), the friction, and the uneven speed of the shaft. So choose the preload 20 to 50 % above the minimum.
 #
 # ## Questions
 #
 # 1. At which speed does our spring need no preload at all?
-# 2. For which motion laws is the critical place inside a phase, not at a jump?
+# 2. For which motion laws is the critical position inside a phase, not at a jump?
 # 3. A groove cam holds the roller on both sides. Which equation of this notebook then changes its meaning?
 # 4. A follower jams with $\mu = 0.4$. At which pressure angle, and why never on the return?
 # 5. The pressure $p$ grows with the square root of the force. What does doubling the preload cost in $p$, and in width $b$?

@@ -14,7 +14,7 @@
 # %% [markdown]
 # # 10. The whole coursework sheet
 #
-# **Aim.** At the end you have a complete sheet: task, diagrams, least radius, profile, roller, checks; and you know in which order the decisions fall and who decides.
+# **Aim.** At the end you have a complete sheet: task, diagrams, minimum radius, profile, roller, checks; and you know the order of the decisions and who makes them.
 #
 # **You need** notebooks 1 to 6. On paper: A1 or two sheets of A3. **Time:** this reading 40 minutes; the sheet an afternoon.
 
@@ -60,7 +60,7 @@ picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: thr
 
 # %% [markdown]
 # Look at how it is arranged: the three diagrams stand exactly one under the other on one axis of the cam angle; the combined diagram stands beside $s$, so that the displacements are
-# *projected* across and not measured. Thin lines construct, bold lines are results.
+# *projected* across and not measured. Thin lines are construction lines, thick lines are results.
 #
 # ## Step by step through the decisions
 
@@ -69,7 +69,7 @@ show_steps(solution.drawn["integration"], 7, 8, 9, within=solution)
 show_steps(solution.drawn["minimum_radius"], 5, within=solution)
 
 # %% [markdown]
-# The drawing proposes the least radius; adopted is the next full millimetre, with which everything is drawn from here on. The pressure angle of the adopted cam is then a little better than the limit:
+# The drawing proposes the minimum radius; the next whole millimetre is adopted and used from here on. The pressure angle of the adopted cam is then a little better than the limit:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(solution.drawn["pressure_angle"], 1, 2, within=solution, on=solution.drawn["minimum_radius"])
@@ -81,8 +81,8 @@ show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 # %% [markdown]
 # ## Try it yourself
 #
-# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **anticlockwise**. Which least radius
-# will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
+# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **anticlockwise**. Which minimum
+# radius will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 mirrored = gc.solve(changed(task, {"follower.offset": 10.0, "rotation": "ccw"}))
@@ -92,7 +92,7 @@ least = Question.of(
     {"the offset lies on the favourable side of this cam": float(wrong_side.drawn["minimum_radius"].value("prime_radius"))},
 )
 adopted = Question(
-    mirrored.cam.prime_radius, 0.01, "mm", "the decision: round to a full millimetre, to the safe side", {"rounded down: the limit would be exceeded": 43.0, "that is the proposal, not the decision": 43.28},
+    mirrored.cam.prime_radius, 0.01, "mm", "the decision: round to a whole millimetre, to the safe side", {"rounded down: the limit would be exceeded": 43.0, "that is the proposal, not the decision": 43.28},
 )
 roller = Question(
     mirrored.cam.roller_radius, 0.01, "mm", "the rule with the adopted radius, rounded down",
@@ -112,7 +112,7 @@ your_roller = None  # mm
 roller.check(your_roller)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
 # The decisions on the finished profile:
 
@@ -137,14 +137,14 @@ assert all(abs(q.error_paper) <= q.tolerance_paper + 1e-9 for q in solution.comp
 assert abs(float(mirrored.drawn["minimum_radius"].value("prime_radius")) - 43.280) < 0.001
 
 # %% [markdown]
-# Every quantity lies within its bound. The bound says how far a *perfect* hand may be off with 12 parts; yours may be off by what notebook 7 says in addition.
+# Every quantity lies within its bound. The bound says how far an *ideal* pencil may be off with 12 parts; drawing by hand adds the errors of notebook 7.
 #
 # ## At speed
 #
 # The task gives 120 rpm. What the follower really does in each phase:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s²"), [
+table(("phase", "time, s", "maximum velocity, m/s", "maximum acceleration, m/s²"), [
     (p.kind, q.time, q.max_velocity, q.max_acceleration)
     for p, q in zip(task.motion.phases, solution.comparison.phases(task.speed_rpm), strict=True)
 ])
@@ -152,12 +152,12 @@ table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s
 # %% [markdown]
 # ## Before you hand it in
 #
-# 1. The areas under the acceleration are equal in each phase; velocity and displacement come back to the axis; the closing errors are stated.
+# 1. The areas under the acceleration are equal in each phase; velocity and displacement return to the axis; the closing errors are stated.
 # 2. All scales are on the sheet, with units, and $\mu_\varphi$ in radians.
-# 3. The segments in the combined diagram are in the scale of $s$; the tangents touch; the rest line is there.
-# 4. The follower's line stands on the favourable side; the numbers run against the rotation of the cam.
+# 3. The segments in the combined diagram are in the scale of $s$; the tangents touch; the dwell line is there.
+# 4. The follower's line is on the favourable side; the numbers run against the rotation of the cam.
 # 5. $s$ is laid off from the prime circle; the dwells are arcs about the centre.
-# 6. The greatest pressure angle *of the adopted cam* is below the limit; the roller keeps the rule.
+# 6. The maximum pressure angle *of the adopted cam* is below the limit; the roller satisfies the rule.
 # 7. The scale bar on a print measures 100 mm.
 #
 # ## Where the error comes from
@@ -168,6 +168,6 @@ table(("phase", "time, s", "greatest velocity, m/s", "greatest acceleration, m/s
 # ## Questions
 #
 # 1. Which decision would you revise if the roller came out at 8 mm?
-# 2. The client wants the cam to turn the other way. Which parts of the sheet must be drawn anew?
-# 3. Which number of your sheet would you stake money on, and which not?
-# 4. Write the sheet's chain backwards: what must be known to check the profile of a foreign cam?
+# 2. The client wants the cam to turn the other way. Which parts of the sheet must be redrawn?
+# 3. Which number on your sheet would you rely on, and which not?
+# 4. Follow the chain backwards: what must be known to check the profile of someone else's cam?

@@ -14,7 +14,7 @@
 # %% [markdown]
 # # 11. Stress below the surface: Hertz and finite elements
 #
-# **Aim.** At the end you can say where the material under a roller is stressed most, and judge whether a stress that a finite element program prints can be right.
+# **Aim.** At the end you can say where the material under a roller is stressed most, and judge whether the stress from a finite element program can be right.
 #
 # **You need** the stress between roller and profile (notebook 9), the radius of curvature (notebook 6), and for the computation `pip install 'graphcam[fem]'`. On paper: A4. **Time:** 45
 # minutes, 15 of them with the pencil.
@@ -32,8 +32,8 @@ from graphcam.tasks.spring_tables import SpringTable
 # %% [markdown]
 # ## Background
 #
-# A roller of radius 15 mm is pressed on a cam whose profile has a radius of 30 mm there, with 1000 N over a width of 20 mm; both are of steel. Hertz's formulas give the pressure in the middle of
-# the contact and half of the width over which they touch:
+# A roller of radius 15 mm is pressed onto a cam whose profile has a radius of 30 mm there, with 1000 N over a width of 20 mm; both are of steel. Hertz's formulas give the pressure in the middle
+# of the contact and half of the width over which they touch:
 
 # %%
 contact = gc.contact_by_elements(force=1000, width=20, radius1=30, radius2=15, parts=20)
@@ -41,21 +41,21 @@ p0, a = contact.hertz
 print(f"Hertz: peak pressure {p0:.1f} MPa, half-width {a:.4f} mm")
 
 # %% [markdown]
-# The strip is 0.15 mm wide, 1/100 of the roller's diameter. All that matters happens in a piece of steel of about this size, and this decides everything about computing it: a mesh
-# must be fine *there*.
+# The strip is 0.15 mm wide, 1/100 of the roller's diameter. All that matters happens in a piece of steel of about this size. That determines the computation: the mesh must be fine
+# *there*.
 #
 # Below the middle, at the depth $z$, K. L. Johnson's book *Contact Mechanics* (section 4.2) has
 #
 # $$ \sigma_z = -\frac{p_0}{\sqrt{1+(z/a)^2}}, \qquad
 # \sigma_x = -p_0\left(\frac{1+2(z/a)^2}{\sqrt{1+(z/a)^2}} - 2\,\frac za\right), \qquad \tau = \frac{|\sigma_x-\sigma_z|}{2}. $$
 #
-# At the surface both are $-p_0$: the steel is squeezed from all sides, and hardly sheared. Shear is greatest *below* the surface, $0.300\,p_0$ at the depth $0.786\,a$.
-# There rolling contacts begin to crack, and pits break out.
+# At the surface both are $-p_0$: the steel is compressed from all sides and hardly sheared. The shear stress has its maximum *below* the surface, $0.300\,p_0$ at the
+# depth $0.786\,a$. There cracks begin in rolling contacts, and pits form.
 #
 # ## Computed by elements
 #
-# Independently of any formula the two bodies are divided into small quadrilaterals, as halves to one side of the common normal. Elasticity gives by how much the surface yields to forces on it; which nodes touch is
-# found by trying: a node that would be pulled is let go, one that would pass into the other body is closed, until nothing changes.
+# Independently of any formula, one half of each body, on one side of the common normal, is divided into small quadrilaterals. Elasticity gives the displacement of the surface under forces on it. Which nodes touch
+# is found by iteration: a node under tension is released, one that would penetrate the other body is closed, until nothing changes.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 figure, axes = chart("distance from the common normal, half-widths", "pressure, MPa", 2.8)
@@ -64,7 +64,7 @@ axes.plot(x, p0 * np.sqrt(1 - x * x), color="#5a5a5a", label="Hertz: half an ell
 axes.plot(contact.x / a, contact.pressure, ".", color="#0b57a4", label="nodes of the mesh")
 axes.legend(fontsize=8)
 picture_of(figure, "The pressure over the distance from the common normal: the nodes of the mesh lie on the quarter of an ellipse that Hertz's formula gives, from 424 MPa in "
-           "the middle to nought at the half-width.", "The pressure between roller and profile")
+           "the middle to zero at the half-width.", "The pressure between roller and profile")
 
 # %% [markdown]
 # How fine must the mesh be? The errors of peak pressure and half-width against Hertz, over the number of elements on the half-width:
@@ -105,7 +105,7 @@ def fields(found, names=("greatest_shear", "von_mises")):
 
     unit, peak = found.hertz.half_width, found.hertz.peak_pressure
     figure = Figure((7.0, 3.6))
-    for axes, name, title in zip(figure.subplots(1, 2), names, ("greatest shear stress / p0", "von Mises stress / p0"), strict=True):
+    for axes, name, title in zip(figure.subplots(1, 2), names, ("maximum shear stress / p0", "von Mises stress / p0"), strict=True):
         for body, up in zip(found.bodies, (-1, 1), strict=True):
             near = (body.x < 2.3 * unit) & (body.depth < 2.3 * unit)
             # What is meshed is one half; the other one is its image.
@@ -119,14 +119,14 @@ def fields(found, names=("greatest_shear", "von_mises")):
     return figure
 
 
-picture_of(fields(meshes[1]), "Two maps of the stress about the contact, roller above and cam below: both are greatest below the surface on the common normal, the shear stress at three quarters of the "
+picture_of(fields(meshes[1]), "Two maps of the stress about the contact, roller above and cam below: both have their maximum below the surface on the common normal, the shear stress at three quarters of the "
            "half-width, and small at the surface beside the contact.", "Stresses in the roller (above) and in the cam (below)")
 
 # %% [markdown]
 # ## Where on the cam
 #
-# Over the turn the force changes, and so does the curvature of the profile. A task says the materials in a table `[material]`; then the stress stands on the sheet as a diagram, beside what is permitted. Here
-# a follower of 2 kg on a cam with a preload of 1500 N, at 300 rpm:
+# Over the turn the force changes, and so does the curvature of the profile. A task gives the materials in a table `[material]`; then the sheet has a diagram of the stress beside the permitted stress. Here a
+# follower of 2 kg on a cam with a preload of 1500 N, at 300 rpm:
 
 # %%
 task = changed(gc.builtin_task(), {
@@ -141,8 +141,8 @@ at, most = solution.stress.contact, solution.stress.greatest
 print(f"{most.value:.0f} MPa at {degrees(most.phi):.1f} degrees: {float(at.force):.0f} N on a profile of radius {float(at.profile_radius):.1f} mm")
 
 # %% [markdown]
-# The stress is not greatest where the force is: it grows with the root of the force, and with the root of the relative curvature $1/\varrho + 1/r$. On a sharp, convex place a small force does more harm than a great one in
-# a hollow. A knife edge has no radius at all, and by Hertz an infinite stress.
+# The maximum stress is not where the force has its maximum: the stress grows with the square root of the force, and with the square root of the relative curvature $1/\varrho + 1/r$. On a sharp, convex part a small force
+# does more harm than a large one in a hollow. A knife edge has no radius at all, and by Hertz an infinite stress.
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(most.value - gc.hertz_line_contact(float(at.force), 15, float(at.profile_radius), solution.cam.roller_radius).peak_pressure) < 1e-6
@@ -151,13 +151,14 @@ assert degrees(abs(most.phi - solution.spring.greatest_normal.phi)) > 1
 # %% [markdown]
 # ## Try it yourself
 #
-# The load is 4000 N instead of 1000 N, everything else stays. First sketch how the quarter of an ellipse changes. How great is the peak pressure, and at which depth is the greatest shear stress?
+# The load is 4000 N instead of 1000 N, everything else is unchanged. First sketch how the quarter of an ellipse changes. How large is the peak pressure, and at which depth is the maximum shear
+# stress?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 heavy = gc.hertz_line_contact(4000, 20, 30, 15)
 pressure_of_four = Question(
-    heavy.peak_pressure, 5.0, "MPa", "how does the force stand in the formula?",
-    {"the force stands under a root": 4 * p0, "the pressure grows, it does not stay": p0},
+    heavy.peak_pressure, 5.0, "MPa", "how does the force enter the formula?",
+    {"the force is under a square root": 4 * p0, "the pressure grows, it does not stay": p0},
 )
 depth_of_four = Question(
     0.786 * heavy.half_width, 0.005, "mm", "the half-width first",
@@ -171,7 +172,7 @@ pressure_of_four.check(your_peak_pressure)
 depth_of_four.check(your_depth)
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
 # The profile's radius of curvature: convex, flat, and concave.
 
@@ -183,11 +184,11 @@ def below(radius):
     body = found.bodies[0]
     axis = np.flatnonzero(body.x < 1.001 * body.x.min())
     axis = axis[np.argsort(body.depth[axis])]
-    for name, color, label in (("greatest_shear", "#b3201c", "greatest shear"), ("von_mises", "#0b57a4", "von Mises")):
+    for name, color, label in (("greatest_shear", "#b3201c", "maximum shear"), ("von_mises", "#0b57a4", "von Mises")):
         axes.plot(body.depth[axis], getattr(body, name)[axis], color=color, label=label)
     axes.set(xlim=(0, 0.4), ylim=(0, 260))
     axes.legend(fontsize=8)
-    return picture_of(figure, f"Shear stress and von Mises stress over the depth below the surface for a profile radius of {radius} mm: both rise from the surface to a summit and fall slowly.",
+    return picture_of(figure, f"Shear stress and von Mises stress over the depth below the surface for a profile radius of {radius} mm: both rise from the surface to a peak and fall slowly.",
                       f"Below the middle; peak pressure {found.hertz.peak_pressure:.0f} MPa, half-width {found.hertz.half_width:.3f} mm")
 
 
@@ -196,7 +197,7 @@ explore(below, radius=Slider("profile radius, mm", (30.0, 60.0, inf, -60.0, -30.
 # %% [markdown]
 # ## Drawn and exact
 #
-# Nothing is drawn here; elements and formulas stand beside each other:
+# Nothing is drawn here; elements are compared with formulas:
 
 # %%
 body = contact.bodies[0]
@@ -204,9 +205,9 @@ shear, mises = int(body.greatest_shear.argmax()), int(body.von_mises.argmax())
 table(("", "by elements", "by formulas"), [
     ("peak pressure, MPa", contact.peak_pressure, p0),
     ("half-width, mm", contact.half_width, a),
-    ("greatest shear stress / p0", body.greatest_shear[shear] / p0, 0.3003),
+    ("maximum shear stress / p0", body.greatest_shear[shear] / p0, 0.3003),
     ("its depth / a", body.depth[shear] / a, 0.786),
-    ("greatest von Mises stress / p0", body.von_mises[mises] / p0, 0.5578),
+    ("maximum von Mises stress / p0", body.von_mises[mises] / p0, 0.5578),
     ("its depth / a", body.depth[mises] / a, 0.704),
 ], digits=4)
 
@@ -217,8 +218,8 @@ assert abs(body.depth[shear] / a - 0.786) < 0.05
 # %% [markdown]
 # ## Where the error comes from
 #
-# **The half spaces.** Hertz takes both bodies as endless. Ours end at 12 mm, and all stresses across the normal are off by some 0.3 % of the peak pressure for that. It grows as the half-width does against the
-# radius.
+# **The half spaces.** Hertz assumes that both bodies are infinite. Ours end at 12 mm, so all stresses across the normal are off by some 0.3 % of the peak pressure. This error grows with the ratio of
+# half-width to radius.
 #
 # **The mesh.** A design report states "6.4 MPa" for a roller of 15 mm under 100 N, read off a finite element program. What does Hertz say for a cam of 60 mm and a width of 15 mm?
 
@@ -232,13 +233,13 @@ assert abs(hertz.peak_pressure - 141.5) < 1
 assert abs(hertz.peak_pressure - sqrt(100 / 15 * 113186.813 / pi * (1 / 60 + 1 / 15))) < 1e-3
 
 # %% [markdown]
-# Twenty times as much. The strip is 0.06 mm wide; a mesh with elements of about 1 mm, as programs choose them for a cam of that size, cannot see it, and spreads the force over a whole element: 100 N
-# over 15 mm times 1 mm are 6.7 MPa. So a stress of that size says how large the elements were, not how the steel is stressed. (The report gives neither
-# its width nor its mesh; that this is the reason is our reading of its number.)
+# Twenty times as much. The strip is 0.06 mm wide; a mesh with elements of about 1 mm, as programs choose them for a cam of that size, cannot resolve it and spreads the force over a whole element:
+# 100 N over 15 mm times 1 mm are 6.7 MPa. So a stress of that size tells how large the elements were, not how the steel is stressed. (The report gives neither its width nor its mesh; this
+# explanation is our interpretation of its number.)
 #
 # ## Questions
 #
 # 1. A mesh is made twice as fine, and the stress doubles. What follows?
-# 2. Why is the surface in the middle of the contact hardly sheared, although it is pressed most?
-# 3. Pits in a cam are some tenths of a millimetre deep. Which load would put the greatest shear stress at 0.2 mm here?
-# 4. With friction the most stressed place moves. Whither?
+# 2. Why is the surface in the middle of the contact hardly sheared, although the pressure is highest there?
+# 3. Pits in a cam are some tenths of a millimetre deep. Which load would put the maximum shear stress at 0.2 mm here?
+# 4. With friction the point of maximum stress moves. Which way?

@@ -33,9 +33,8 @@ from graphcam.notebooks import Question, Slider, chart, explore, picture_of, tab
 # %% [markdown]
 # ## Background
 #
-# By the numbers of notebook 1 nobody should buy a cycloidal cam. Its greatest acceleration is $6.28\,h/T^2$, that of the rectangular law (constant acceleration) only $4\,h/T^2$,
-# where $h$ is the lift and $T$ the time of the rise. So its inertia forces are half as great again. And yet fast machines have it. What is missing in that
-# comparison?
+# By the numbers of notebook 1 nobody should choose a cycloidal cam. Its maximum acceleration is $6.28\,h/T^2$, that of the rectangular law (constant acceleration) only
+# $4\,h/T^2$, where $h$ is the lift and $T$ the time of the rise. So its inertia forces are half as large again. Yet fast machines use it. What is missing in that comparison?
 #
 # Between cam and load there is a **train**: roller, stem, rocker, shaft. It is elastic. In the simplest model the load is one mass $m$ at the end of a spring of the
 # stiffness $k$; the cam moves the near end by $s$, the mass moves by $x$:
@@ -44,7 +43,7 @@ from graphcam.notebooks import Question, Slider, chart, explore, picture_of, tab
 # n = \frac{T}{T_n} = T f_n . $$
 #
 # $f_n$ is the natural frequency, and **one number** decides what happens: $n$, how many natural periods fit into the rise. The same machine at twice the speed has half the $n$.
-# The damping is small, 2 to 10 % of the critical one; we leave it out at first. The train is strained by $m\ddot x$, so we look at the acceleration of the *mass*, not of the cam.
+# The damping is small, 2 to 10 % of the critical one; we leave it out at first. The train is loaded by $m\ddot x$, so we look at the acceleration of the *mass*, not of the cam.
 
 # %%
 fast = gc.follower_response("rectangular", n=5.3)
@@ -70,9 +69,9 @@ picture_of(figure, "Acceleration of cam and mass over the time for 5.3 natural p
            "The same mass on the same train: what it does during the rise, and in the dwell after it")
 
 # %% [markdown]
-# The rectangular law puts the full force on *at once*. A spring that is loaded at once is strained twice as far: 8 instead of 4. At the middle the force jumps by 8, at the end by
-# 4, and the vibrations of the three knocks add up or cancel as they happen to meet. What is left when the cam stands still is the **residual vibration**; it spoils the work of the machine, which is mostly
-# done in the dwell. The cycloidal acceleration has no jump; the mass hardly notices that it hangs on a spring.
+# The rectangular law applies the full force *suddenly*. A spring that is loaded suddenly deflects twice as far: 8 instead of 4. At the middle the force jumps by 8, at the end by 4, and the vibrations of
+# the three jumps add up or cancel, depending on their phase. What is left when the cam stands still is the **residual vibration**; it spoils the work of the machine, which is mostly done in the dwell. The
+# cycloidal acceleration has no jump; the mass hardly vibrates.
 
 # %%
 rows = [(name, float(gc.law(name).peak_acceleration), r.primary, r.residual) for name, r in (("rectangular", fast), ("cycloidal", smooth))]
@@ -86,8 +85,8 @@ assert abs(smooth.residual - 4 * np.pi * 5.3 * abs(np.sin(np.pi * 5.3)) / (5.3**
 # %% [markdown]
 # ## The shock spectrum
 #
-# At another speed $n$ is another, and so is everything. One draws the greatest acceleration during the rise (**primary**) and after it (**residual**) over $n$: the *shock spectrum*, or dynamic response spectrum, of
-# the law. Fast machines are on the left, slow ones on the right.
+# At another speed $n$ differs, and so does everything else. The maximum acceleration is plotted during the rise (**primary**) and after it (**residual**) over $n$: this is the *shock spectrum*, or dynamic response
+# spectrum, of the law. Fast machines are on the left, slow ones on the right.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 n = np.linspace(0.3, 10, 389)
@@ -111,19 +110,19 @@ picture_of(figure, "Two charts over n from 0 to 10. During the rise the rectangu
            "Shock spectra of three laws without damping")
 
 # %% [markdown]
-# Three things are to be read off:
+# Three things can be read off:
 #
-# - **Zeros.** At certain $n$ nothing is left in the dwell: rectangular at $n = 2, 4, 6, \dots$, cosine at $n = 1.5, 2.5, \dots$, cycloidal at $n = 2, 3, 4, \dots$. There the knocks cancel. You cannot build on it: the
-#   speed drifts, the stiffness is known to a few per cent, and a little beside the zero the rectangular law is at its worst.
-# - **How the arches fall.** Those of the rectangular and of the cosine law do not fall at all, for their *acceleration* jumps. Those of the cycloidal law fall as $1/n$: its acceleration is continuous, its slope jumps. Those of the
-#   4-5-6-7 law fall as $1/n^2$. What counts is the first derivative that jumps.
-# - **Where the argument ends.** From $n = 3$ on the cycloidal law is the best of the three, whatever $n$ is; below $n = 2.2$ it is the worst. There the rise is over before the spring has noticed its shape, and only the size
-#   of the acceleration counts.
+# - **Zeros.** At certain $n$ nothing is left in the dwell: rectangular at $n = 2, 4, 6, \dots$, cosine at $n = 1.5, 2.5, \dots$, cycloidal at $n = 2, 3, 4, \dots$. There the jumps cancel. You cannot rely on it: the
+#   speed drifts, the stiffness is known to a few per cent, and slightly beside the zero the rectangular law is at its worst.
+# - **How the arches fall.** Those of the rectangular and of the cosine law do not fall at all, because their *acceleration* jumps. Those of the cycloidal law fall as $1/n$: its acceleration is continuous, its slope jumps. Those of
+#   the 4-5-6-7 law fall as $1/n^2$. The first derivative that jumps decides.
+# - **Where the argument ends.** From $n = 3$ on the cycloidal law is the best of the three, whatever $n$ is; below $n = 2.2$ it is the worst. There the rise is over before its shape matters, and only the size of the
+#   acceleration counts.
 
 # %%
 ratios = (1, 2, 3, 3.5, 5.3, 10.3)
 laws = ("rectangular", "cosine", "modified-trapezoidal", "modified-sine", "3-4-5", "cycloidal", "4-5-6-7")
-table(("greatest acceleration", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).greatest.tolist()) for law in laws], digits=1)
+table(("maximum acceleration", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).greatest.tolist()) for law in laws], digits=1)
 
 # %%
 table(("in the dwell", *(f"n = {n:g}" for n in ratios)), [(law, *gc.shock_spectrum(law, ratios).residual.tolist()) for law in laws], digits=1)
@@ -142,7 +141,7 @@ assert set(np.argmax(greatest, axis=0)[n < 2.2]) == {2}
 # ## Contact at speed
 #
 # Now the whole turn of the coursework cam (rise 80°, return 60°, lift 30 mm), a train of 450 N/mm with 0.5 kg at its end, 3 % damping, a return spring of 10 N/mm. In notebook 9 the follower was rigid, and
-# the least preload followed from $a$ and $s$. The same question for the elastic one:
+# the minimum preload followed from $a$ and $s$. The same question for the elastic one:
 
 # %%
 train = gc.FollowerTrain(mass=0.5, stiffness=450, damping=0.03, spring=10, preload=150)
@@ -157,7 +156,7 @@ print(f"natural frequency {train.natural_frequency:.1f} Hz; at 500 rpm n = {trai
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 speeds, needs = np.linspace(150, 900, 76), {}
-figure, axes = chart("speed, rpm", "least preload, N", 3.0)
+figure, axes = chart("speed, rpm", "minimum preload, N", 3.0)
 for name, (colour, line) in styles.items():
     needed = needs[name] = [max(gc.VibratingFollower(motion(name), train, speed).least_preload(), 0) for speed in speeds]
     rigid = [max(gc.spring_preload(motion(name), train.mass, speed, train.spring).preload, 0) for speed in speeds]
@@ -172,7 +171,7 @@ picture_of(figure, "The preload needed over the speed from 150 to 900 rpm. Up to
 
 # %%
 at500 = {law: gc.VibratingFollower(motion(law), train, 500) for law in ("rectangular", "cosine", "cycloidal")}
-table(("500 rpm", "least preload, N", "of a rigid follower, N"), [
+table(("500 rpm", "minimum preload, N", "of a rigid follower, N"), [
     (law, follower.least_preload(), gc.spring_preload(motion(law), train.mass, 500, train.spring).preload) for law, follower in at500.items()], digits=0)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
@@ -185,8 +184,8 @@ assert 270 < slow["cosine"] < 300 < 430 < slow["rectangular"]
 assert gc.VibratingFollower(motion("cycloidal"), train, 900).least_preload() > gc.VibratingFollower(motion("rectangular"), train, 900).least_preload()
 
 # %% [markdown]
-# A rigid follower would need no preload at 500 rpm with any of the three laws. The elastic one leaves a rectangular cam unless the spring holds with nearly 400 N; on the cycloidal cam 57 N will do. That is why the cycloidal law is chosen
-# *at speed*, and it tells up to what speed: as long as the shortest rise or return takes three natural periods or more. A still faster machine needs a stiffer train, not another law.
+# A rigid follower would need no preload at 500 rpm with any of the three laws. The elastic one leaves a rectangular cam unless the spring preload is nearly 400 N; on the cycloidal cam 57 N is enough. That is why the cycloidal law is
+# chosen *at speed*, and it also tells up to what speed: as long as the shortest rise or return takes three natural periods or more. A still faster machine needs a stiffer train, not another law.
 #
 # ## Try it yourself
 #
@@ -205,7 +204,7 @@ periods = Question(
 left = Question(
     16 * 30 / (tau * 3) ** 2, 0.05, "mm", "the amplitude of x is that of the acceleration over (2π n)², times the lift",
     {"that is the acceleration in h/T²": 16.0,
-     "at odd n the three knocks add up; it is at even n that nothing is left": 0.0,
+     "at odd n the three jumps add up; at even n nothing is left": 0.0,
      "the angular frequency is 2π n, not n": 16 * 30 / 9,
      "multiply by the lift": 16 / (tau * 3) ** 2},
 )
@@ -215,7 +214,8 @@ your_n = None  # natural periods
 periods.check(your_n)
 
 # %% [markdown]
-# A **rectangular** rise of 30 mm takes exactly **three** natural periods. In the dwell the mass is left with the acceleration $16\,h/T^2$. By how many **millimetres** does it swing to either side?
+# A **rectangular** rise of 30 mm takes exactly **three** natural periods. In the dwell the mass keeps vibrating with the acceleration $16\,h/T^2$. By how many **millimetres** does it swing to
+# either side?
 
 # %% tags=["try-it"]
 your_amplitude = None  # mm
@@ -225,7 +225,7 @@ left.check(your_amplitude)
 assert abs(left.value - 30 * gc.follower_response("rectangular", 3).amplitude) < 1e-9
 
 # %% [markdown]
-# ## Move it
+# ## Move the sliders
 #
 # Law and speed of the cam above. Where the band is red the follower has left the cam: from there on the curve shows what a cam that could pull would do.
 
@@ -255,12 +255,13 @@ explore(
 # %% [markdown]
 # ## Drawn and exact
 #
-# The vibration can be drawn. Lay off to the right the acceleration $A$ of the mass, upwards how fast it changes, $\dot A/\omega_n$. While the cam's acceleration is constant, the point of the mass **runs clockwise on a circle about the cam's acceleration**, by
+# The vibration can be drawn. Lay off to the right the acceleration $A$ of the mass, upwards its rate of change, $\dot A/\omega_n$. While the cam's acceleration is constant, the point of the mass **runs clockwise on a circle about the cam's acceleration**, by
 # 360° in a natural period: the *phase plane*. So:
 #
 # 1. Divide the rise into equal parts, and take the middle ordinate of the acceleration diagram in each, as for the integration of notebook 2. Lay these ordinates off to the right of the origin: the centres.
 # 2. Begin at the origin, where the mass is at rest. Join the point with the centre of the part, and turn this radius clockwise by $360° \cdot n/\text{parts}$.
-# 3. Go on from there about the next centre, to the end of the rise. How far the last point is from the origin is the residual acceleration.
+# 3. Go on from there about the next centre, to the end of the rise. The distance of the last point from the origin is the residual
+#    acceleration.
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -312,7 +313,7 @@ picture_of(figure, "Two phase planes. Rectangular, 1.4 natural periods: an arc o
            "Phase planes at 0.25 h/T² to the millimetre; crosses are centres, red is what is left")
 
 # %% [markdown]
-# For the rectangular law two arcs are the whole drawing, and it is exact. For the cycloidal law each part has one constant acceleration in place of the curve:
+# For the rectangular law two arcs are the whole drawing, and it is exact. For the cycloidal law each part has one constant acceleration instead of the curve:
 
 # %%
 exact = gc.follower_response("cycloidal", 3.5).residual
@@ -329,21 +330,22 @@ assert abs(order - 2) < 0.05
 # %% [markdown]
 # ## Where the error comes from
 #
-# From the method: steps in place of a curve, second order as the middle ordinates of notebook 2, but counted in parts of a *natural period*. Twelve parts of a rise with 3.5 vibrations are hardly more than three to a vibration, and the result is too
-# small by more than a quarter. Take at least **eight parts to a natural period**: then it is 5 %. The hand adds less than one fears: the arcs do not magnify an error, they carry it round.
+# From the method: steps instead of a curve, second order like the middle ordinates of notebook 2, but counted in parts of a *natural period*. Twelve parts of a rise with 3.5 vibrations are hardly more than three per vibration, and the result is too
+# small by more than a quarter. Take at least **eight parts to a natural period**: then it is 5 %. Drawing errors add less than one might fear: the arcs do not magnify an error, they only turn it.
 
 # %%
 parts, pencil = 28, gc.Pencil.of(0.2, samples=400, seed=1)
 hands = phase_plane("cycloidal", 3.5, parts, 0.25, pencil)[2].value
 perfect = float(phase_plane("cycloidal", 3.5, parts, 0.25)[2].value)
-table(("28 parts", "h/T²"), [("exact", exact), ("perfect hand", perfect), ("pencil of 0.2 mm, mean", float(hands.mean())), ("pencil of 0.2 mm, standard deviation", float(hands.std()))], digits=2)
+table(("28 parts", "h/T²"), [("exact", exact), ("ideal pencil", perfect), ("pencil of 0.2 mm, mean", float(hands.mean())), ("pencil of 0.2 mm, standard deviation", float(hands.std()))], digits=2)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(perfect - exact) < 0.06 * exact
 assert hands.std() < 0.5
 
 # %% [markdown]
-# Larger than both is the doubt about the model. A real train has more than one natural frequency, clearances that open, and a shaft that twists; its damping is hardly known. The spectrum tells which law to choose, not the force to the newton.
+# Larger than both is the uncertainty of the model. A real train has more than one natural frequency, clearances that open, and a shaft that twists; its damping is hardly known. The spectrum tells which law to choose, not the force to the
+# newton.
 #
 # ## Questions
 #

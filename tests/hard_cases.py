@@ -133,7 +133,7 @@ PLACES = ((0, 1e-6), (0, 0.01), (0, 0.23), (0, 0.5), (0, 0.77), (0, 0.999), (2, 
 
 
 def cams() -> Iterator[Row]:
-    """Trace point, touch point, pressure angle and curvature of cams at the edge, at fractions u of a phase."""
+    """Trace point, contact point, pressure angle and curvature of cams at the edge, at fractions u of a phase."""
     for name, given in CAMS.items():
         exact, moved = cam(**given)
         places = ((0, 0.2), (0, 0.8), (137, 0.4), (250, 0.01), (498, 0.6), (499, 0.9)) if "repeat" in given else PLACES

@@ -121,7 +121,7 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-FLAT = say("Lines that cross at less than one degree have no point of intersection that can be read.")
+FLAT = say("Lines that cross at less than a degree have no point of intersection that can be read.")
 Move = tuple[Caption, *tuple[Drawn, ...]]
 """What is done, and what it leaves."""
 

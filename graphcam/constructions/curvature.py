@@ -336,7 +336,7 @@ def _unreadable(curved: Curved) -> Caption:
             "The curvature cannot be read: next to a dwell the curve turns by more than 45° within one part, so "
             "its sharpest point lies between the drawn points."
         )
-    return say("The curvature cannot be read: the bisectors of neighbouring chords cross at less than one degree.")
+    return say("The curvature cannot be read: the bisectors of neighbouring chords cross at less than a degree.")
 
 
 def _chosen(curved: Curved) -> list[int]:

@@ -238,7 +238,7 @@ def _why_exceeded(word: str, angle: float, solution: Solution) -> Caption:
 
 
 UNREADABLE_BEND = say(
-    "The curvature cannot be read: the bisectors of neighbouring chords cross at less than one degree everywhere."
+    "The curvature cannot be read: the bisectors of neighbouring chords cross at less than a degree everywhere."
 )
 
 

@@ -74,7 +74,7 @@ def _centre(region: Construction) -> list[Caption]:
     s0, e, r0 = (float(region.value(name)) for name in ("s0", "offset", "prime_radius"))
     if math.isnan(r0):
         unreadable = say(
-            "No cam centre can be read, because the lines that bound the region cross at less than one degree."
+            "No cam centre can be read, because the lines that bound the region cross at less than a degree."
         )
         return [warning(unreadable)]
     values = numbers(s0=s0, e=e, r0=r0)

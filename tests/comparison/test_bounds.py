@@ -148,7 +148,7 @@ def test_of_two_sides_nearly_alike_the_exact_one_is_compared_whichever_the_drawi
     as_read = np.degrees(solution.drawn["angle_diagram"].value("max_rise"))
     assert flips(replace(q, drawn=as_read))
     assert flips(replace(q, tolerance_paper=2 * abs(q.exact)))
-    assert f"Nearly as great on either side is: {q.title};" in against_exact(solution)
+    assert f"Nearly equal on both sides: {q.title};" in against_exact(solution)
     assert "either side" not in against_exact(solve(law_task("cycloidal")))
 
 

@@ -142,7 +142,7 @@ def ring(count: int) -> np.ndarray[Any, Any]:
 
 
 def inner(pitch: np.ndarray[Any, Any], radius: float) -> np.ndarray[Any, Any]:
-    """The touch points of circles about a ring."""
+    """The contact points of circles about a ring."""
     along = np.roll(pitch, -1) - np.roll(pitch, 1)
     return pitch + 1j * along / np.abs(along) * radius
 

@@ -362,7 +362,7 @@ def test_limits_that_no_cam_keeps_leave_no_radius_to_adopt(motion, distance, per
     assert np.isnan(region.readings["prime_radius"].value)
     last = region.steps()[-1]
     where = "At this centre distance no" if distance is not None else "No"
-    assert str(last.caption) == f"{where} cam centre keeps all the limits."
+    assert str(last.caption) == f"{where} cam centre satisfies all the limits."
     assert [type(mark) for mark in last.marks] == ([Arc] if distance is not None else [])  # it misses the hatching
     with pytest.raises(DesignError, match=r"least prime radius .* give .*cam.prime_radius"):
         _ = Chain(board).prime_radius

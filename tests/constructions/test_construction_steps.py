@@ -194,7 +194,7 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
     for parts in (2, 12):
         curved = Chain(board_of(motion_of(*phases), divisions=parts, prime_radius=44.0))["curvature"]
         caption = str(curved.steps()[0].caption)
-        assert ("only the rests are compared" in caption) == (parts == 2)
+        assert ("only the dwells are compared" in caption) == (parts == 2)
         assert ("the middle of a dwell (φ₄)" in caption) == (parts == 2)
 
 
@@ -224,7 +224,7 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
                     "ρ = 8 mm: r₀ = 8 + 28.038 = 36.038 mm",
                 ],
                 "inversion": [
-                    "Round the least radius, 36.038 mm, up to r₀ = 37 mm",
+                    "Round the minimum radius, 36.038 mm, up to r₀ = 37 mm",
                     "The cam turns clockwise",
                     "on a rise to the left, seen from the cam centre",
                     "26.77 mm and 32.12 mm",

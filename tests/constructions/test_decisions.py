@@ -107,7 +107,7 @@ def test_force_closure_has_no_line_of_the_return():
 
 
 def test_the_built_in_task():
-    """Least radius 43.28 mm, adopted 44; 0.4 r0 = 17.6 mm binds the rule, adopted 17."""
+    """Minimum radius 43.28 mm, adopted 44; 0.4 r0 = 17.6 mm binds the rule, adopted 17."""
     chain = Chain(coursework())
     assert chain.sizes == AdoptedSizes(44.0, -10.0, 17.0)
     assert chain["roller"].readings["roller_radius"].value == pytest.approx(17.6, rel=1e-12)

@@ -51,7 +51,7 @@ def test_where_no_bend_is_readable_the_rule_rests_on_the_prime_radius_alone():
     motion = motion_of((30, 180, "rectangular"), (-30, 180, "rectangular"))
     chain = Chain(board_of(motion, divisions=2, offset=0.0, prime_radius=50.0))
     assert np.isnan(chain["curvature"].readings["rho"].value)
-    assert "No bend is readable" in str(chain["curvature"].steps()[0].caption)
+    assert "The curvature cannot be read" in str(chain["curvature"].steps()[0].caption)
     assert chain["roller"].readings["roller_radius"].value == pytest.approx(20.0, rel=1e-12)
     assert "0.7 ρ, which cannot be read" in str(chain["roller"].steps()[0].caption)
     with pytest.raises(DesignError, match="roller radius by the rule"):
@@ -75,7 +75,7 @@ def test_96_parts_a_phase_are_drawn_to_the_end(law):
 
 
 @pytest.mark.parametrize(
-    ("offset", "degrees"), [(None, 0.4), (-10.0, 0.9)], ids=["rise and rest line", "rise and the line of the offset"]
+    ("offset", "degrees"), [(None, 0.4), (-10.0, 0.9)], ids=["rise and dwell line", "rise and the line of the offset"]
 )
 @pytest.mark.parametrize("rounding", [None, 1.0])
 def test_lines_that_cross_below_one_degree_leave_no_radius_to_adopt(offset, degrees, rounding):

@@ -613,7 +613,7 @@ def test_the_velocities_of_all_stations_are_cut_off_by_their_rods(name):
     for j, said in enumerate(captions(step)):
         at = station_of(name, str(j))
         if abs(k[at]) < 1e-6:
-            assert said.startswith(f"Station {j}: the rod lies on ray {j}, so K is in O")
+            assert said.startswith(f"Station {j}: the rod lies on ray {j}, so K coincides with O")
             continue
         tilt = math.degrees(abs(cmath.phase((b[at] - k[at]) / b[at])))
         towards = f"from B{j} towards {CENTRES[int(chain(name).stations.arc[at])]} as far as"

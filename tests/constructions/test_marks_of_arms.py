@@ -230,7 +230,7 @@ def test_every_arm_is_said_with_its_ordinate_its_factor_and_its_angle(name):
     region, steps = steps_of(name, "minimum_radius")
     step, (s, _), length = steps[0], ordinates(region), positions(region)[0]
     said, turns = str(step.caption), np.degrees(motion(region)[0])
-    told = f"At {ratio(region.givens.mu_l.per_mm)} the arm is {length:.1f} mm long: draw CB₀ level to the left"
+    told = f"At {ratio(region.givens.mu_l.per_mm)} the arm is {length:.1f} mm long: draw CB₀ horizontally to the left"
     assert told in said
     assert f"an arc of {length:.1f} mm about C" in said
     assert numbers(said, r"largest angle is ([\d.]+)°") == [round(turns.max(), 2)]
@@ -387,7 +387,7 @@ def test_of_every_line_it_is_said_how_it_is_turned_and_on_which_side_of_it_the_c
         assert draws(second) == {f"limits: {found.group(1)}": [moving.index(k)]}
         for part, n in zip(others, [n for n in moving if n != k], strict=True):
             said = f"Line {names[n]}: from D{names[n]} set off {limit} from the normal to arm {names[n]}, {turn}. "
-            assert str(part.caption) == said + f"A must lie on its side {way}."
+            assert str(part.caption) == said + f"A must lie on the side {way}."
             assert draws(part) == {f"limits: {found.group(1)}": [moving.index(n)]}
         # The normal that is shown is square to the arm, downwards, and the angle lies between it and the line.
         (normal,), tip = marks(step, Line), positions(region)[3][k]
@@ -424,7 +424,7 @@ def test_in_the_dwells_the_lines_lie_on_the_other_side_of_the_normal(name):
 def test_without_the_limits_in_the_dwells_the_arms_are_produced():
     region, steps = steps_of(REACH, "minimum_radius")
     step, top = titled(steps, "The arm extended"), names_of(region)[int(np.argmax(motion(region)[0]))]
-    assert f"produce CB₀ and the highest arm, {top}, beyond their ends" in str(step.caption)
+    assert f"extend CB₀ and the highest arm, {top}, beyond their ends" in str(step.caption)
     assert [draws(part) for part in step.parts] == [{"limits: reach": [0]}, {"limits: reach": [1]}]
     assert f"arm {top}" in str(step.parts[1].caption)
 
@@ -800,7 +800,7 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
             assert str(part.caption).startswith((f"C{text} lies on the level", f"C{text}: set 360° off"))
         begins = n in [span.start for span in inverted.givens.integrated.givens.stations.phases]
         if begins:
-            assert "from the level to the right" in str(part.caption) or "to the right: mark" in str(part.caption)
+            assert "from the horizontal to the right" in str(part.caption) or "to the right: mark" in str(part.caption)
             continue
         on = math.degrees(-sigma * cmath.phase(pivots[n] / pivots[n - 1]))
         before = names_of(inverted)[n - 1]

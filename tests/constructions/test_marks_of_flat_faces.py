@@ -287,7 +287,7 @@ def test_the_cam_centre_lies_the_least_radius_below_the_start_of_the_lift(name, 
     # Left of the axis, on the side where the tangent does not run: the way down has its left on the right.
     assert measure.aside < 0
     said = str(step.caption)
-    assert f"sharper than ρ = {least:g} mm" in said
+    assert f"at least ρ = {least:g} mm" in said
     total = re.search(r"r₀ = (?:([\d.]+) ([+−]) ([\d.]+)|ρ) = ([\d.]+) mm", said)
     need = float(total[3]) * (1 if total[2] == "+" else -1) if total[3] else 0.0
     assert need == pytest.approx(-zero.imag * mu, abs=0.00051)
@@ -461,9 +461,9 @@ def test_the_adopted_radius_is_told_before_anything_is_drawn_with_it(given):
     assert (str(first.title), str(circle.title)) == ("The adopted prime radius", "Prime circle")
     assert f"{least:.5g} mm" in said
     assert f"r₀ = {r0:g} mm" in said
-    assert ("Round the least radius" in said) == (given is None)
-    assert ("larger than the least" in said) == (given == 60.0)
-    assert ("smaller than the least" in said) == (given == 15.0)
+    assert ("Round the minimum radius" in said) == (given is None)
+    assert ("larger than the minimum" in said) == (given == 60.0)
+    assert ("smaller than the minimum" in said) == (given == 15.0)
     if given is None:
         assert r0 == math.ceil(least)
 

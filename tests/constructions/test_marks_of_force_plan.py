@@ -131,7 +131,7 @@ def test_the_line_of_the_reaction_leans_against_the_motion_by_the_friction_of_th
     if guide is None:
         assert end.imag == pytest.approx(0, abs=EXACT)
         assert laid_off == []
-        assert "level line through the tail" in str(step.caption)
+        assert "horizontal line through the tail" in str(step.caption)
         assert step.parts == ()
         return
     s = float(angles(rotation).givens.integrated.readings["s"].value[k])

@@ -479,7 +479,7 @@ def test_the_proposed_roller_is_rounded_down_in_a_step_of_its_own():
 
 @pytest.mark.parametrize(
     ("rule", "said"),
-    [("0.5 r0", "The proposed radius of 20 mm is kept as it is."), ("0.52 r0", "Round 20.80 mm down to 20 mm")],
+    [("0.5 r0", "The proposed radius of 20 mm is adopted unchanged."), ("0.52 r0", "Round 20.80 mm down to 20 mm")],
 )
 def test_a_round_proposal_is_kept(rule, said):
     drawn = Chain(coursework("3-4-5", prime_radius=40.0, roller_rule=roller_rule(rule)))["working_profile"]
@@ -493,7 +493,7 @@ def test_where_a_hand_proposes_less_than_was_decided_it_is_said():
     assert less
     for chain in less:
         caption = str(chain["working_profile"].steps()[0].caption)
-        assert caption.startswith(f"This drawing proposes {float(chain['roller'].value('roller_radius')):.2f} mm; ")
+        assert caption.startswith(f"This drawing gives {float(chain['roller'].value('roller_radius')):.2f} mm; ")
         assert caption.endswith(f"decided: {chain.roller_radius:g} mm.")
 
 
@@ -542,7 +542,7 @@ def test_touch_points_lie_a_roller_radius_inward_square_to_the_pitch_curve(name,
         if 0 < k < pitch.size - 1 and any(p.start < k < p.stop - 1 for p in chain.board.stations.pieces):
             centre = centre_of(*pitch[k - 1 : k + 2])
             assert abs(((at - centre) / abs(at - centre) / inward).imag) < close(hand, 1)
-        assert str(part.caption).startswith(f"Touch point {names_of(chain)[k]}: {radius:.1f} mm inward from point ")
+        assert str(part.caption).startswith(f"Contact point {names_of(chain)[k]}: {radius:.1f} mm inward from point ")
         assert part.draws[0].index.tolist() == [k]
 
 
@@ -574,7 +574,7 @@ def test_the_working_profile_touches_every_circle_on_the_inside_and_cuts_none(na
     if covered:
         lost = ", ".join(each for each, at in zip(names_of(chain), touch, strict=True) if np.isnan(at))
         assert f"At {covered[0].points.size} stations ({lost})" in str(step.caption)
-        assert str(step.parts[0].caption) == f"Leave out what lies inside another circle: {lost}."
+        assert str(step.parts[0].caption) == f"Leave out the points inside another circle: {lost}."
 
 
 @every
@@ -609,10 +609,10 @@ def test_the_pressure_angle_is_drawn_between_the_followers_line_and_the_normal(n
         assert diagram == pytest.approx(abs(exact), abs=close(hand, 5))
         at = names_of(chain)[k]
         assert f"station {at}: {abs(angles[k]):.1f}° ({diagram:.1f}° in the diagram)" in str(step.caption)
-        assert str(part.caption).startswith(f"Station {at}: join touch point {at} to point {at} ")
+        assert str(part.caption).startswith(f"Station {at}: join contact point {at} to point {at} ")
         assert str(part.caption).endswith(f": {abs(angles[k]):.1f}°.")
         apart = max(apart, abs(abs(angles[k]) - diagram))
-    assert ("They differ, for the diagram" in str(step.caption)) == (apart >= 0.05)
+    assert ("They differ, because the diagram" in str(step.caption)) == (apart >= 0.05)
 
 
 def test_without_a_roller_the_profile_is_the_pitch_curve():

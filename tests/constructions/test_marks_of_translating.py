@@ -297,7 +297,7 @@ def test_every_limit_is_a_part_that_says_angle_lean_side_and_touch(name, hand):
         assert says(part, r"at ([\d.]+)° to the line of motion") == [pytest.approx(math.degrees(bound.limit))]
         assert {drawn.act for drawn in part.draws} >= {bound.angle.of, bound.upright.of}
         if bound.title == "rest":
-            said = f"From B₀ draw the rest line at {math.degrees(bound.limit):g}° to the line of motion, "
+            said = f"From B₀ draw the dwell line at {math.degrees(bound.limit):g}° to the line of motion, "
             assert f"{said}down {beside(down.real)}" in caption
             continue
         lean = beside(-down.real)
@@ -431,7 +431,7 @@ def test_the_parts_of_the_cam_centre_say_what_is_measured_and_what_binds(name, h
     assert says(step, r"measure: ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm = r₀") == pytest.approx(
         [abs(a), mu, abs(a) * mu], abs=0.0051
     )
-    assert ("Carry A₀ level" in str(step.caption)) == (abs(a.real) > EXACT)
+    assert ("Carry A₀ horizontally" in str(step.caption)) == (abs(a.real) > EXACT)
     if abs(a.real) > EXACT:
         pattern = r"T-square: ([\d.]+) mm × [\d.]+, so e = (-?[\d.]+) mm, and ([\d.]+) mm × [\d.]+ = ([\d.]+) mm = s₀"
         said = says(step, pattern)
@@ -558,7 +558,7 @@ def test_the_rounding_compares_what_is_adopted_with_the_least_radius_there():
         said = [str(steps(name, hand, "pressure_angle")[0].caption) for hand in HANDS]
         assert said[0].partition(" On paper")[0] == said[1].partition(" On paper")[0]
         place = BOARDS[name].follower.place
-        numbers = re.search(r"Round the least radius, ([\d.]+) mm, up to r₀ = ([\d.]+) mm\.", said[0])
+        numbers = re.search(r"Round the minimum radius, ([\d.]+) mm, up to r₀ = ([\d.]+) mm\.", said[0])
         least, adopted = map(float, numbers.groups())
         assert adopted == drawn.prime_radius
         assert 0 <= adopted - least < drawn.rounding
@@ -576,14 +576,17 @@ def test_the_rounding_compares_what_is_adopted_with_the_least_radius_there():
 @pytest.mark.parametrize(
     ("adopted", "said"),
     [
-        (Adoption(44.0, -10.0, 43.28, None, False, 1.0), "Round the least radius, 43.28 mm, up to r₀ = 44 mm."),
-        (Adoption(44.0, -10.0, 44.0, None, False, 1.0), "Take r₀ = 44 mm, the least permitted radius itself."),
+        (Adoption(44.0, -10.0, 43.28, None, False, 1.0), "Round the minimum radius, 43.28 mm, up to r₀ = 44 mm."),
+        (
+            Adoption(44.0, -10.0, 44.0, None, False, 1.0),
+            "Take r₀ = 44 mm, which is the minimum permitted radius itself.",
+        ),
         (
             Adoption(47.0, -10.0, 43.28, -9.7, False, 1.0),
             "Take r₀ = 47 mm, a round radius that goes with it; the least",
         ),
-        (Adoption(61.0, 150.0, 32.81, None, True, 1.0), "The task gives r₀ = 61 mm, which is larger than the least"),
-        (Adoption(30.0, 150.0, 32.81, None, True, 1.0), "smaller than the least permitted radius, 32.81 mm: a limit"),
+        (Adoption(61.0, 150.0, 32.81, None, True, 1.0), "The task gives r₀ = 61 mm, which is larger than the minimum"),
+        (Adoption(30.0, 150.0, 32.81, None, True, 1.0), "smaller than the minimum permitted radius, 32.81 mm: a limit"),
         (Adoption(30.0, 150.0, math.nan, None, True, 1.0), "The task gives r₀ = 30 mm. On paper"),
         (
             Adoption(30.0, 150.0, math.nan, 149.6, False, 1.0),
@@ -727,7 +730,7 @@ def test_the_captions_of_the_plan_say_the_lengths_that_are_drawn(name, hand):
         assert abs(at["B"].real) * scale == pytest.approx(abs(e), abs=EXACT + slack(hand, 2) * mu)
         assert f"mm {beside(e)} of A" in str(mechanism.caption)
     else:
-        assert "upright through A" in str(mechanism.caption)
+        assert "vertical through A" in str(mechanism.caption)
     # The plan, with the angular velocity divided out.
     across, per_mm = says(plan, r"v₁ = AB = ([\d.]+) mm")[0], says(plan, r"1 mm of the plan is ([\d.]+) mm/rad")[0]
     assert (across, per_mm) == pytest.approx((abs(at["v1"]), scale), abs=0.0051)
@@ -744,7 +747,7 @@ def test_the_captions_of_the_plan_say_the_lengths_that_are_drawn(name, hand):
     assert f"mm {beside(at['C'].real)} of A" in str(met.caption)
     assert value == pytest.approx(v, abs=0.011)
     assert says(angle, r", ([\d.]+) mm to D") == [pytest.approx(abs(at["D"] - at["B"]), abs=0.0051)]
-    assert f"from B level {beside((at['D'] - at['B']).real)}," in str(angle.caption)
+    assert f"from B horizontally {beside((at['D'] - at['B']).real)}," in str(angle.caption)
     assert start.imag < 0
 
 
@@ -869,5 +872,5 @@ def test_the_greatest_angles_are_read_where_the_curve_is_farthest_from_the_axis(
         assert label.towards == np.sign(top.imag) * 1j
         assert str(label.text) == f"{top.imag:.1f}°"
     for phase, top in zip(("rise", "return"), tops.imag, strict=True):
-        found = says(second, rf"On the {phase} the curve is farthest at (-?[\d.]+) mm, so α = (-?[\d.]+)°")
+        found = says(second, rf"On the {phase} the farthest point of the curve is at (-?[\d.]+) mm, so α = (-?[\d.]+)°")
         assert found == pytest.approx([top, top], abs=0.0051)

@@ -310,8 +310,8 @@ def test_what_is_checked_is_the_curve_and_what_is_left_is_shared_out(name, hand,
         assert float(said[3]) == pytest.approx(run.points[span.stop - 1].imag, abs=CENTI)
         assert said[4] == stations[span.stop - 1]
         off = (run.points - ends)[[span.start, span.stop - 1]].imag
-        assert ("Share out" in str(part.caption)) == (np.abs(off).max() > 0.005)
-        if "Share out" in str(part.caption):
+        assert ("Distribute the residual" in str(part.caption)) == (np.abs(off).max() > 0.005)
+        if "Distribute the residual" in str(part.caption):
             shared = [float(each) for each in re.findall(r"([+-][\d.]+) mm", str(part.caption).partition("Check")[0])]
             assert shared == pytest.approx([each for each in off if abs(each) > 0.005 or each == off[1]], abs=CENTI)
         assert pieces_of(part.draws)[0].at == tuple(range(span.start, span.stop))
@@ -327,9 +327,9 @@ def test_a_phase_of_s_starts_where_the_one_before_ended(name, hand):
             assert said.endswith("on the axis.")
         else:
             assert numbers(part, rf"{NUMBER} mm (?:high|below)")[0] == pytest.approx(y, abs=CENTI)
-            assert ("the phase before" in said) == (k > 0)
+            assert ("the previous phase" in said) == (k > 0)
         assert (
-            re.search(r"upright (\S+?)[,.;]", said + ",").group(1)
+            re.search(r"vertical (\S+?)[,.;]", said + ",").group(1)
             == names_of(name)[BOARDS[name].stations.phases[k].start]
         )
 
@@ -417,24 +417,24 @@ def test_the_largest_angles_are_compared_with_their_limits(name):
     for part, dot, label, limit in zip(
         step.parts, dots, labels, (board.limits.rise, board.limits.return_), strict=True
     ):
-        y, alpha = numbers(part, rf"farthest at {NUMBER} mm, so α = {NUMBER}°: ")
+        y, alpha = numbers(part, rf"farthest point of the curve is at {NUMBER} mm, so α = {NUMBER}°: ")
         assert y == pytest.approx(dot.points[0].imag, abs=CENTI)
         assert alpha == pytest.approx(y, abs=CENTI)  # a degree is a millimetre
         assert label.at == dot.points[0]
         assert float(str(label.text).rstrip("°")) == pytest.approx(alpha, abs=DECI)
         said = str(part.caption).partition("°: ")[2]
         if limit is None:
-            assert said == "a spring drives the return, which has no limit."
+            assert said == "a spring drives the return, so the angle is not limited."
             continue
         permitted = math.degrees(limit)
         if abs(abs(y) - permitted) <= 0.2:
-            assert said == f"the limit of {permitted:.4g}°, as nearly as it can be drawn."
+            assert said == f"equal to the limit of {permitted:.4g}° within drawing accuracy."
         else:
-            sign, word = ("<", "kept") if abs(y) < permitted else (">", "not kept")
-            assert said == f"{abs(alpha):.2f}° {sign} {permitted:.4g}°, the limit is {word}."
+            sign, word = ("<", "within the limit") if abs(y) < permitted else (">", "the limit is exceeded")
+            assert said == f"{abs(alpha):.2f}° {sign} {permitted:.4g}°, {word}."
         assert str(step.caption).count(said) == 1
 
 
 def test_all_ways_to_compare_an_angle_are_among_those_tried():
     said = " ".join(str(Chain(board)["angle_diagram"].steps()[1].caption) for board in ANGLES.values())
-    assert all(each in said for each in ("limit is kept", "not kept", "as nearly", "no limit"))
+    assert all(each in said for each in ("within the limit", "exceeded", "within drawing accuracy", "not limited"))

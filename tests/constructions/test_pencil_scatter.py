@@ -131,7 +131,7 @@ def test_the_whole_chain_is_drawn_by_many_hands_at_once():
     for name, construction in Chain(coursework("cycloidal"), hands).items():
         for key, kept in construction.readings.items():
             assert kept.value.shape[0] == SAMPLES, (name, key)
-            if (name, key) != ("working_profile", "radius"):  # where another circle covers a touch point
+            if (name, key) != ("working_profile", "radius"):  # where another circle covers a contact point
                 assert np.isfinite(kept.value).all(), (name, key)
 
 
@@ -142,7 +142,7 @@ def test_a_trembling_hand_does_not_make_a_sound_profile_undercut():
 
 
 def test_no_hand_covers_a_touch_point_by_its_own_circle():
-    """Of two parts a phase, far apart, no circle reaches the touch point of another."""
+    """Of two parts a phase, far apart, no circle reaches the contact point of another."""
     hands = Pencil(line=SIGMA, samples=SAMPLES)
     profile = Chain(coursework("cycloidal", divisions=2), hands, decided=SIZES)["working_profile"]
     assert not np.isnan(profile.points["touch"]).any()

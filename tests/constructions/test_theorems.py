@@ -119,7 +119,7 @@ def test_the_plans_closing_side_is_perpendicular_to_da(rotation, offset, law):
 
 @every_side
 def test_the_angle_of_the_plan_is_the_angle_on_the_profile(rotation, offset):
-    """The normal through the touch point has the angle that the plan gave without a profile."""
+    """The normal through the contact point has the angle that the plan gave without a profile."""
     chain = chain_of(rotation, offset, "4-5-6-7", n=96)
     pitch, feet = chain["inversion"].points["pitch"], chain["inversion"].points["feet"]
     towards = pitch - feet if offset else pitch  # along the follower's line

@@ -99,8 +99,8 @@ def test_every_day_that_has_begun_costs_its_part_and_a_second_of_the_last_minute
     assert {row["time_from"] for row in table.values()} == {"file"}
     page = unescape((course / "pages" / "Clara.html").read_text(encoding="utf-8"))
     assert "Handed in late: 2026-12-05 00:59:00+01:00, but the deadline was 2026-12-01 23:59:00+01:00." in page
-    assert f"Of the {EXERCISE.marks:g} marks that it earned 60 % are left: {0.6 * EXERCISE.marks:g}." in page
-    assert f"{EXERCISE.marks:g} before the penalty for lateness" in page
+    assert f"Of the {EXERCISE.marks:g} marks earned, 60 % count: {0.6 * EXERCISE.marks:g}." in page
+    assert f"{EXERCISE.marks:g} before the late penalty" in page
     assert "lateness" not in (course / "pages" / "Anna.html").read_text(encoding="utf-8")
     group = (course / "out" / "grades.html").read_text(encoding="utf-8")
     assert "from the times at which the files were changed: 3" in group

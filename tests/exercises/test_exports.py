@@ -139,7 +139,7 @@ def test_moodle_says_which_mistake_it_was():
             else:
                 assert fraction == 0.0
                 said += feedback == str(misconception(name).said)
-        assert "careful hand" in moodle_says(question, 1e7)[1]
+        assert "careful drawing" in moodle_says(question, 1e7)[1]
     assert said >= len(answer_key.hypotheses)
 
 

@@ -82,7 +82,7 @@ def test_no_page_tells_who_somebody_is_and_the_table_tells_whose_each_is(course:
     assert f'<a href="../pages/{whose["zoe/zimmer"]}.html">' in group
     assert "grades-not-graded.csv: it tells what is not graded, 1 in all" in group
     assert "look" in files[f"{whose['anna.berg']}.html"]
-    alike = group[group.index("agree beyond chance") :]
+    alike = group[group.index("agree more than by chance") :]
     assert whose["clara_copy"] in alike
     assert whose["boris-ivanov"] in alike
     # The group page is in the order of the names, which is not that of the ids.

@@ -46,7 +46,7 @@ def test_a_cap_bounds_the_total_and_scales_every_answer():
         assert b.marks == pytest.approx(a.marks * 0.5 * free.of / free.total, abs=0.01)
         assert a.outcome == b.outcome
     assert capped.without_caps == free.total
-    assert capped.feedback[-1] == "With this mistake a hand-in earns at most 5 of 10 marks."
+    assert capped.feedback[-1] == "With this mistake a submission earns at most 5 of 10 marks."
     assert not any("at most" in said for said in free.feedback)
 
 
@@ -62,7 +62,7 @@ def test_what_follows_is_paid_in_part():
     assert free.total - none.total == pytest.approx(sum(followed))
     assert {each.without_follow_through for each in (free, half, none)} == {none.total}
     name = next(answer.name for answer in half.answers if answer.outcome == "follow-through")
-    assert any(said.startswith(f"{name}: it follows rightly") and " of " in said for said in half.feedback)
+    assert any(said.startswith(f"{name}: it follows correctly") and " of " in said for said in half.feedback)
 
 
 @pytest.mark.parametrize(("tolerances", "marks"), [(0.99, 2.0), (1.5, 1.0), (1.9, 0.2), (2.0, 0.0), (-1.5, 1.0)])
@@ -76,7 +76,9 @@ def test_what_is_near_is_paid_the_more_the_nearer_it_is(tolerances, marks):
     answer = next(one for one in record.answers if one.name == "radius_8")
     assert answer.marks == pytest.approx(marks, abs=0.1 + 1e-9)
     assert outcomes(record)["radius_8"] == ("right" if marks == 2 else "partial" if marks else "wrong")
-    assert any(said.startswith("radius_8: a little farther off") for said in record.feedback) == (0 < marks < 2)
+    assert any(said.startswith("radius_8: your answer is slightly farther off") for said in record.feedback) == (
+        0 < marks < 2
+    )
 
 
 def test_a_scribble_through_all_stations_is_not_near():

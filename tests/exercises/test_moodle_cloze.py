@@ -134,7 +134,7 @@ def test_every_number_is_a_blank_with_key_tolerance_marks_and_the_mistakes(name:
             if abs(value - float(str(keyed.expected.value))) > keyed.tolerance:
                 assert (value, str(misconception(mistake).said)) in wrong
                 told += 1
-        assert "careful hand" in blank.says(1e7)[1]
+        assert "careful drawing" in blank.says(1e7)[1]
     assert told >= len(answer_key.hypotheses)
 
 

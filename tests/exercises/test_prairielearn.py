@@ -150,7 +150,7 @@ def test_the_key_has_all_marks_and_every_mistake_is_named_and_loses_some(folder:
     score, told = stand.graded(dict.fromkeys(right, 1e7))
     assert score == 0
     assert len(told) == len(right)
-    assert all("careful hand" in said for said in told.values())
+    assert all("careful drawing" in said for said in told.values())
     assert stand.graded(dict.fromkeys(right, "")) == (0.0, {})
 
 

@@ -190,7 +190,7 @@ def test_nothing_earns_nothing_and_is_told_nothing():
     assert (empty.outcomes["SCORE"], empty.feedback) == (0.0, [])
     far = Marked(item, {response(item, place): 1e7 for place in range(len(exercise.answers))})
     assert far.outcomes["SCORE"] == 0.0
-    assert [("careful hand" in said) for said in far.feedback] == [True] * len(exercise.answers)
+    assert [("careful drawing" in said) for said in far.feedback] == [True] * len(exercise.answers)
 
 
 def test_an_item_marks_a_number_as_graphcam_does():

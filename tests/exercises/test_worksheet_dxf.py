@@ -156,7 +156,7 @@ def without_the_mark_near_zero(document: Drawing) -> Drawing:
 REFUSED = {
     "another layer": (on_layer_0, "nothing on the layer PITCH"),
     "no mark": (without_the_mark, "mark the origin of the paper by a POINT on the layer ORIGIN"),
-    "no mark, near the zero": (without_the_mark_near_zero, "looks moved as a whole, and it marks no origin"),
+    "no mark, near the zero": (without_the_mark_near_zero, "seems to be moved as a whole, and has no origin marked"),
 }
 
 
@@ -177,7 +177,7 @@ def test_a_drawing_moved_against_its_mark_earns_nothing_and_hears_it(sheet: Path
     polyline(document, np.asarray(key(issued(NAME)[1])["pitch"]) + centre(document) + shift)
     record = handed_in({"answers.dxf": data_of(document, "asc")})
     assert (pitch_of(record).outcome, pitch_of(record).marks) == ("wrong", 0)
-    assert any("looks moved as a whole against the POINT" in str(note) for note in record.notes)
+    assert any("seems to be moved as a whole relative to the POINT" in str(note) for note in record.notes)
 
 
 def test_a_drawing_of_another_shape_is_not_called_moved(sheet: Path):

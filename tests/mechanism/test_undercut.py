@@ -21,7 +21,7 @@ from graphcam.mechanism.undercut import Undercut, _sides_that_cross, trimmed_pro
 DEG = math.pi / 180
 ROTATIONS = ("ccw", "cw")
 EXCESSES = (2e-12, 1e-11, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
-"""By which part the roller is larger than the least radius of curvature."""
+"""By which part the roller is larger than the minimum radius of curvature."""
 
 
 def one_loop(law: str, rotation: str, excess: float) -> Cam:

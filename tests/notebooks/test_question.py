@@ -22,10 +22,10 @@ RADIUS = Question(43.28, 0.6, "mm", "step 5", {"the pole distance is forgotten":
         (None, "open", "Your turn"),
         (43.28, "right", "Right"),
         (43.87, "right", "Right"),
-        (44.5, "nearly", "not sharp enough"),
+        (44.5, "nearly", "not exact enough"),
         (-43.3, "wrong", "the sign is not"),
-        (86.5, "wrong", "twice as much"),
-        (21.6, "wrong", "half of it"),
+        (86.5, "wrong", "twice the value"),
+        (21.6, "wrong", "half the value"),
         (43.28 * 57.2958, "wrong", "degrees and radians"),
         (43.28 / 57.2958, "wrong", "radians and degrees"),
         (1731.0, "wrong", "the pole distance is forgotten"),
@@ -58,4 +58,4 @@ def test_a_reading_gives_scale_unit_and_tolerance():
     question = Question.of(reading(np.array([10.0, 72.0]), 0.6, "mm"), "step 7", at=1)
     assert question.check(43.2 + 0.59).status == "right"
     assert question.check(43.2 + 0.61).status != "right"
-    assert "multiply by the scale" in question.check(72.0).text
+    assert "multiply it by the scale" in question.check(72.0).text

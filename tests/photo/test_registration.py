@@ -159,14 +159,14 @@ def test_too_few_tags_are_refused():
 
 def test_tags_on_one_side_only_are_refused():
     camera = Camera(A3)
-    assert "do not tell where a line is" in refusal(camera.tags(hidden=range(3, 8)), A3, camera.size)
+    assert "which does not fix the position of a line" in refusal(camera.tags(hidden=range(3, 8)), A3, camera.size)
 
 
 def test_another_page_is_refused():
     camera = Camera(A3)
     renamed = replace(A3, tags={number + 20: place for number, place in A3.tags.items()})
     assert "those of another page" in refusal(camera.tags(), renamed, camera.size)
-    assert "not where this page has them" in refusal(camera.tags(), A4, camera.size)
+    assert "not in the positions of this page" in refusal(camera.tags(), A4, camera.size)
 
 
 def test_a_mirrored_picture_is_refused():
@@ -204,7 +204,7 @@ def test_a_picture_may_be_cut():
 def test_a_drawing_beyond_the_picture_is_refused():
     camera = Camera(A3, (0.0, 0.0, 0.0))
     tags = camera.tags()
-    assert "outside of the picture" in refusal(Tags(tags.numbers, tags.corners - 500), A3, camera.size)
+    assert "outside the picture" in refusal(Tags(tags.numbers, tags.corners - 500), A3, camera.size)
 
 
 def test_one_tag_out_of_its_place_is_left_out():

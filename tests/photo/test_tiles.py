@@ -120,7 +120,7 @@ def test_what_does_not_tell_how_sheets_lie_is_refused():
     assert "how the two sheets meet" in refusal(joined, tiles, PAGE)
     assert "only one of the two" in refusal(joined, {"left": tiles["left"]}, PAGE)
     tiles, _ = tiles_of((12.0 + 3j, 0.0))
-    assert "do not lie as one page" in refusal(joined, tiles, PAGE)
+    assert "do not form one page" in refusal(joined, tiles, PAGE)
     picture, tags, _ = photographed("left")
     assert "only 2" in refusal(registered_tiles, picture, tags.only(np.arange(len(tags)) < 2), PAGE)
 

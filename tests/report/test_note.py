@@ -88,7 +88,7 @@ def test_every_note_is_well_formed(name):
         "the prime radius is adopted as $r_0 = 44$ mm",
         "A spring drives the return (force closure)",
         "0.4 r₀ = 17.60 mm",
-        "the roller is adopted as $r = 17$ mm",
+        "the roller radius is adopted as $r = 17$ mm",
         "the impact is soft",
         "| rise φ₁   | 0.1111 |  0.540 |   9.720 |",
         "Every drawn value lies within its bound.",
@@ -106,7 +106,7 @@ def test_the_builtin_note_warns_of_nothing(builtin_note):
 def test_one_more_degree_is_worth_two_millimetres(builtin_note):
     """The rise's tangent touches at half the lift, so s0 = (2h/F - e)/tan(A) - h/2."""
     radii = [hypot((60 / radians(80) - 10) / tan(radians(angle)) - 15, 10) for angle in (30, 31)]
-    told = f"gives {radii[1]:.2f} mm: the least radius changes by −{radii[0] - radii[1]:.2f} mm per degree"
+    told = f"gives {radii[1]:.2f} mm: the minimum radius changes by −{radii[0] - radii[1]:.2f} mm per degree"
     assert told in builtin_note
 
 
@@ -133,14 +133,14 @@ def test_a_step_has_the_number_that_it_has_on_the_sheet_and_its_chapter_that_of_
 def test_of_a_hand_the_note_says_what_was_adopted_instead():
     """Sizes are those of a hand without error, so the note must not round this hand's readings to them."""
     text = note(solve(*TASKS["a hand"]))
-    assert re.search(r"A hand without error reads 39\.\d\d mm\. Rounded up", text)
-    assert re.search(r"A hand without error reads 16\.00 mm\. Rounded down", text)
+    assert re.search(r"The ideal pencil gives 39\.\d\d mm\. Rounded up", text)
+    assert re.search(r"The ideal pencil gives 16\.00 mm\. Rounded down", text)
 
 
 def test_a_least_radius_that_cannot_be_read_is_said_to_be_so():
     text = note(solve(*TASKS["unreadable"]))
     assert "**No cam centre can be read" in text
-    assert "the least radius changes by" not in text
+    assert "the minimum radius changes by" not in text
 
 
 def test_too_small_a_given_radius_is_warned_of():
@@ -173,7 +173,7 @@ def test_too_large_a_roller_is_warned_of():
         builtin_task(), rotation="ccw", motion=motion, cam=CamTable(30.0), follower=TranslatingTable(5.0, 20.0)
     )
     text = note(solve(task))
-    assert "the touch point lies inside another roller circle: the profile is undercut" in text
+    assert "the contact point lies inside another roller circle: the profile is undercut" in text
     covered = text.split("Polar coordinates")[1].split("##")[0]
     assert re.search(r"\|\s+– \|\s+– \|$", covered, re.MULTILINE)  # no point of the profile is left there
 
@@ -216,21 +216,21 @@ def sprung(preload: float | None) -> str:
 def test_an_open_preload_is_told_to_be_the_least_one():
     text = sprung(None)
     assert "A preload of at least 69.23 N keeps contact over the whole turn; it is needed at φ = 45°." in text
-    assert "The preload is adopted as $F_0 = 69.23$ N. The least contact force is 0.00 N, just before 45°." in text
+    assert "The preload is adopted as $F_0 = 69.23$ N. The minimum contact force is 0.00 N, just before 45°." in text
     assert "**" not in text
 
 
 def test_a_loss_of_contact_is_warned_of():
     text = sprung(60.0)
-    assert "The preload is given as $F_0 = 60.00$ N. The least contact force is −9.23 N, just before 45°." in text
+    assert "The preload is given as $F_0 = 60.00$ N. The minimum contact force is −9.23 N, just before 45°." in text
     assert re.search(r"\*\*Contact is lost, φ = 39\.20\d*° to 45° and 90° to 95\.79\d*°: the", text)
 
 
 @pytest.mark.parametrize(
     ("pencil", "advice"),
     [
-        (Pencil(), "such a value is to be drawn with more parts."),
-        (Pencil(line=0.2), "this is the hand's scatter, which seldom exceeds 3 standard deviations."),
+        (Pencil(), "draw such a value with more parts."),
+        (Pencil(line=0.2), "this is the scatter of the drawing errors, which seldom exceeds 3 standard deviations."),
     ],
 )
 def test_what_lies_outside_its_bound_is_blamed_on_the_parts_or_on_the_hand(pencil, advice):

@@ -14,7 +14,7 @@ from graphcam.sheets.title_block import TitleBlock
 
 ACCELERATION = View("acceleration", say("Acceleration a, μₐ = 1.2 (mm/rad²)/mm"), across="phi", up="a")
 DISPLACEMENT = View("displacement", say("Displacement s"), across="phi", up="s")
-COMBINED = View("combined", say("Least radius"), across="offset", up="s")
+COMBINED = View("combined", say("Minimum radius"), across="offset", up="s")
 PROFILE = View("profile", say("Cam profile, 1:1"), across="x", up="y")
 SHEETS = [
     (paper, frame, lie)

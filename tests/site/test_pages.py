@@ -195,7 +195,7 @@ def test_the_language_of_the_page_is_spoken_where_it_is_translated(with_german):
     page = (clone / "deutsch" / "player.html").read_text(encoding="utf-8")
     assert "Pol und Strahlen, a nach v" in page
     assert "Pole and rays, a to v" not in page
-    assert "Shaded region" in page or "Least radius" in page
+    assert "Shaded region" in page or "Minimum radius" in page
     assert run(update).returncode == 0
     kept = (clone / "graphcam" / "data" / "languages" / "de.po").read_text(encoding="utf-8")
     assert 'msgstr "Pol und Strahlen, {source} nach {target}"' in kept

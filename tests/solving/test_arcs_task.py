@@ -238,7 +238,7 @@ def test_the_note_tells_case_construction_roots_impact_and_comparison(solution):
     said = arcs_note(gc.solve(open_))
     assert "design case 4" in said
     assert "Bisect AG: compass" in said
-    assert "The knife edge keeps to arcs" in said
+    assert "The knife edge moves along the arcs" in said
 
 
 def test_the_command_line_solves_it(tmp_path):

@@ -56,7 +56,7 @@ def test_undercut_limits_and_prime_radius_are_warned_of_in_this_order(solved):
         assert said in first
     assert second.startswith("The pressure angle reaches ")
     assert "° on the rise, at " in second
-    assert third.startswith("The given prime radius of 30 mm is smaller than the least permitted one, ")
+    assert third.startswith("The given prime radius of 30 mm is smaller than the minimum permitted one, ")
 
 
 def test_the_remedy_is_one(solved):
@@ -123,6 +123,6 @@ def test_sizes_that_could_not_be_round_are_told(tmp_path):
     for distance, told in ((144, True), (149, False)):
         path.write_text(ARM.replace("144", f"{distance}"))
         solution = solve(load_task(path))
-        said = [text for text in solution.warnings if text.startswith("No multiples of 1 mm go with one another")]
+        said = [text for text in solution.warnings if text.startswith("No combination of multiples of 1 mm")]
         assert bool(said) == told
         assert not told or f"{solution.cam.prime_radius:g} mm with the centre distance 144 mm is adopted" in said[0]

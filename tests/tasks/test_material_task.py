@@ -84,14 +84,14 @@ def test_a_stress_that_is_exceeded_is_warned_of(tmp_path):
 
 @pytest.mark.parametrize(
     ("permitted", "marked", "words"),
-    [(1000, True, "Only 1000 MPa are permitted. A contact 19.80 mm wide keeps to them."),
-     (1200, False, "1200 MPa are permitted: a contact 13.75 mm wide would do."), (None, False, "there pits begin.")],
+    [(1000, True, "Only 1000 MPa are permitted. A contact 19.80 mm wide satisfies this."),
+     (1200, False, "1200 MPa are permitted: a contact 13.75 mm wide would be enough."), (None, False, "there pitting begins.")],
 )  # fmt: skip
 def test_the_diagram_and_the_note_say_what_is_permitted(tmp_path, permitted, marked, words):
     limit = "" if permitted is None else f"permitted_stress = {permitted}\n"
     solution = solved(tmp_path, TRANSLATING + MATERIAL + limit)
     (step,) = solution.stress.drawn["contact_stress"].steps()
-    assert ("the curve passes it the axis is marked" in str(step.caption)) == marked
+    assert ("the curve lies above it, the axis is marked" in str(step.caption)) == marked
     note = note_of(solution)
     assert words in note
     assert "= 1148.8\\ \\text{MPa}" in note
@@ -125,7 +125,7 @@ def test_a_knife_edge_has_no_finite_stress_and_the_note_says_so(tmp_path):
     assert (found["greatest"], found["without"], found["permitted"]["kept"]) == (None, "knife edge", False)
     assert "by Hertz the pressure is infinite under any force" in note_of(solution)
     (warning,) = [each for each in solution.warnings if "contact stress" in each]
-    assert "a knife edge has no width in which to be flattened" in warning
+    assert "a knife edge has no width of contact" in warning
     assert solution.stress.drawn == {}
     assert any("the stress is infinite" in text for text in [" ".join(texts_of(solution))])
 

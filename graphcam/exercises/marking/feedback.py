@@ -94,8 +94,8 @@ def _wrong(answer: Marked) -> Caption:
         )
     if isinstance(answer.given, list):
         return say(
-            "{name}: {count} points were read, but another number is required. Mark each required point once, "
-            "and nothing else.",
+            "{name}: points read: {count}; another number is required. Mark each required point once, and "
+            "nothing else.",
             name=name,
             count=len(answer.given),
         )

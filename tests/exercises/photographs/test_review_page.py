@@ -107,8 +107,8 @@ def test_each_student_has_a_row_with_what_became_of_the_drawing(review, opened):
     page = opened(review)
     assert page.locator("article h2").all_inner_texts() == [
         "Anna read",
-        "Boris to be looked at",
-        f"{CLARA} to be looked at",
+        "Boris to check",
+        f"{CLARA} to check",
     ]
     assert "60 % of the curve can be seen; draw over it" in of(page, "Boris").inner_text()
     assert "every usual mistake" in of(page, "Clara").inner_text()
@@ -198,7 +198,7 @@ def test_what_is_dragged_typed_and_confirmed_is_taken_and_comes_back(review, ope
 
 @pytest.mark.parametrize(("field", "typed", "why"), [
     ("across, 250 mm", "225", "measure again: from 242.5 to 257.5 mm"),
-    ("s_8 [mm]", "12 mm", "no number"),
+    ("s_8 [mm]", "12 mm", "not a number"),
 ])  # fmt: skip
 def test_what_cannot_be_is_said_at_once_and_not_exported(review, opened, field, typed, why):
     page = opened(review)

@@ -50,9 +50,9 @@ def test_without_a_code_nobodys_page_is_guessed(sheets, tags, why):
         ({}, b"another", "signed with another secret"),
         ({"exercise": "whole-cam"}, SECRET, "of 'whole-cam'"),
         ({"student": "Zoe"}, SECRET, "of 'Zoe'"),
-        ({"version": 1}, SECRET, "it is of version 1 of the exercise"),
-        ({"draw": 999}, SECRET, "not as the sheets of this course were printed"),
-        ({"page": 9}, SECRET, "not as the sheets of this course were printed"),
+        ({"version": 1}, SECRET, "it belongs to version 1 of the exercise"),
+        ({"draw": 999}, SECRET, "differs from the printed sheets of this course"),
+        ({"page": 9}, SECRET, "differs from the printed sheets of this course"),
     ],
 )
 def test_a_code_of_another_sheet_is_refused_with_its_own_reason(course, sheets, changes, secret, why):
