@@ -1,5 +1,6 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
+import os
 import shlex
 from contextlib import closing
 from dataclasses import replace
@@ -128,13 +129,22 @@ def init(
     file: Annotated[
         Path, Argument(parser=named, metavar="FILE", help="Name of the task file to write; it must not be there yet.")
     ],
+    space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead.")] = False,
 ) -> None:
     """Write a task file in which every key is explained: the coursework task, to be changed.
 
     [bold]Examples[/bold]
 
     graphcam init cam.toml
+
+    graphcam init space.toml --sweep
     """
+    source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
     with one_message():
-        write_new(file, resources.files("graphcam").joinpath("data", "commented.toml").read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; solve it with: graphcam solve {shlex.quote(str(file))}")
+        write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
+    typer.echo(f"{file} is written; use it with: graphcam {use} {_typed(file)}{more}")
+
+
+def _typed(file: Path) -> str:
+    """A name as it is typed in a shell of this machine."""
+    return f'"{file}"' if os.name == "nt" else shlex.quote(str(file))
