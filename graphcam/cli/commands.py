@@ -95,6 +95,9 @@ def sweep(
 ) -> None:
     """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
 
+    It ends with how many keep the limits, the smallest, and the Pareto front of size and pressure angle, which is
+    written beside the results as a table and a figure.
+
     Into a folder the workers write Parquet parts themselves, and a run that was stopped goes on when started again.
 
     [bold]Examples[/bold]
@@ -105,6 +108,8 @@ def sweep(
 
     graphcam sweep space.toml --out s3://bucket/results --cluster tcp://scheduler:8786
     """
+    # Loads NumPy.
+    from graphcam.cli.sweep_summary import tell_sweep, write_front
     from graphcam.sweeps import dataset
     from graphcam.sweeps.space import load_space
     from graphcam.sweeps.sweep_file import is_file, sweep_to_file
@@ -116,13 +121,16 @@ def sweep(
             if cluster:
                 raise OutputError(out, "a cluster writes a folder of parts", "leave out the ending")
             with executor_of(workers) as executor:
-                sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
-            typer.echo(f"{out}: {len(designs)} designs")
-            return
-        with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
-            found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
-    print_table(("quantity", "least", "greatest"), found.rows())
-    typer.echo(f"{out}: {found}")
+                found = sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
+        else:
+            with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
+                found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
+    if isinstance(found, dataset.Summary):
+        print_table(("quantity", "least", "greatest"), found.rows())
+        typer.echo(f"{out}: {found}")
+    tell_sweep(designs, found)
+    with one_message():
+        write_front(designs, out, found.front)
 
 
 def init(

@@ -75,6 +75,14 @@ def tell_files(folder: Path, names: Sequence[str]) -> None:
         console.print(Text.assemble("Open first: ", Text(", then ").join(first)))
 
 
+def tell_file(path: Path, what: str) -> None:
+    """Print that a file was written, and what it is."""
+    from rich.console import Console
+
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+    console.print(linked(path, str(path)) + f": {what}")
+
+
 def linked(path: Path, words: str) -> Text:
     """Words that open a file or folder when they are clicked; plain ones where nobody could."""
     from rich.style import Style
