@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 import subprocess
 import sys
+from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 from types import ModuleType
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 import graphcam
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.telling_files import about, tell_files
 from graphcam.errors import DesignError
 from graphcam.files import whole_folder
+from graphcam.report.output_folder import written_files
+from graphcam.sweeps.space import load_space
 
 QUANTITIES = {
     "max_v": {"drawn": 42.9, "exact": 42.97183463481174, "unit": "mm/rad", "error": -0.0718, "error_paper": -0.1,
@@ -56,6 +63,7 @@ def asked(monkeypatch):
         return Solution(task)
 
     solving.solve, report.check_choices = solve, lambda solution, upto, dxf, working_drawing: None
+    report.written_files = lambda folder: sorted(path.name for path in folder.iterdir())
     for module in (solving, report):
         monkeypatch.setitem(sys.modules, module.__name__, module)
     return calls
@@ -76,7 +84,8 @@ def test_without_a_word_the_coursework_is_solved_into_its_folder(run, asked, tmp
     assert result.exit_code == 0
     assert asked == [(graphcam.builtin_task(), None)]
     assert files(tmp_path) == ["graphcam-out/cam.pdf", "graphcam-out/solution.json"]
-    assert result.stdout.splitlines()[-1] == "graphcam-out: cam.pdf"
+    told = result.stdout.split("graphcam-out: 2 files\n")[1]
+    assert told == "  solution.json: all of it, for programs\n  cam.pdf\n"
     row = next(line for line in result.stdout.splitlines() if "max_v" in line)
     assert row.split()[-4:] == ["42.900", "42.972", "-0.100", "0.200"]
     assert result.stderr == "drawing and computing ...\nPDF ...\n"
@@ -155,13 +164,65 @@ def test_a_fault_of_graphcam_is_not_called_the_users(run, asked, monkeypatch):
 def test_init_writes_a_task_once(run, asked, tmp_path):
     result = run("init", "my cam.toml")
     assert result.exit_code == 0
-    assert result.stdout == "my cam.toml is written; solve it with: graphcam solve 'my cam.toml'\n"
+    assert result.stdout == "my cam.toml is written; use it with: graphcam solve 'my cam.toml'\n"
     assert graphcam.load_task(tmp_path / "my cam.toml") == graphcam.builtin_task()
     (tmp_path / "my cam.toml").write_text("changed")
     again = run("init", "my cam.toml")
     assert again.exit_code == WRONG_INPUT
     assert again.stderr.startswith("graphcam: the output 'my cam.toml' cannot be written (it is there already)")
     assert (tmp_path / "my cam.toml").read_text() == "changed"
+
+
+def test_init_writes_a_space_that_can_be_swept(run, tmp_path):
+    result = run("init", "space.toml", "--sweep")
+    assert result.stdout == "space.toml is written; use it with: graphcam sweep space.toml --out results.csv\n"
+    assert len(load_space(tmp_path / "space.toml")) > 1000
+
+
+def test_graphcam_alone_shows_commands_that_there_are(run):
+    result = run()
+    assert result.exit_code == 0
+    commands = [line.split()[1:] for line in result.stdout.splitlines() if line.startswith("    graphcam ")]
+    assert len(commands) == len(set(map(tuple, commands))) >= 6
+    for words in commands:
+        command = typer.main.get_command(app)
+        for word in words:
+            if word in getattr(command, "commands", {}):
+                command = command.commands[word]
+        # The rest is as the command wants it.
+        assert command.make_context("graphcam", words[2 if words[0] == "exercise" else 1 :])
+
+
+class Terminal(StringIO):
+    def isatty(self):
+        return True
+
+
+def test_the_files_are_links_in_a_terminal_and_plain_elsewhere(tmp_path, monkeypatch):
+    names = ["sheet-2.svg", "sheet.pdf", "player.html", "solution.json", "sheet.svg"]
+    plain, linked = StringIO(), Terminal()
+    monkeypatch.setenv("TERM", "xterm-256color")
+    for stream in (plain, linked):
+        monkeypatch.setattr(sys, "stdout", stream)
+        tell_files(tmp_path / "a b", names)
+    assert "\x1b" not in plain.getvalue()
+    assert "  sheet.pdf, sheet.svg, sheet-2.svg: the sheet, true to scale\n" in plain.getvalue()
+    first = f"{tmp_path / 'a b' / 'player.html'} (in a browser), then {tmp_path / 'a b' / 'sheet.pdf'} (print at 100 %)"
+    assert plain.getvalue().endswith(f"Open first: {first}\n")
+    targets = set(re.findall(r"\x1b\]8;[^;]*;([^\x1b]+)\x1b", linked.getvalue()))
+    assert targets == {(tmp_path / "a b").as_uri(), *((tmp_path / "a b" / name).as_uri() for name in names)}
+
+
+def test_all_files_that_a_run_writes_are_told(tmp_path):
+    """Of every kind and every page; a file of the user's own is none."""
+    (tmp_path / "mine.txt").write_text("mine")
+    task = graphcam.builtin_task()
+    solution = graphcam.solve(replace(task, drawing=task.drawing.on("A3")))
+    solution.write(tmp_path, files=["png", "csv", "player"])
+    names = written_files(tmp_path)
+    assert sorted(names) == sorted(path.name for path in tmp_path.iterdir() if path.name != "mine.txt")
+    assert {"solution.json", "sheet-2.png"} <= set(names)
+    assert all(about(name) for name in names)
 
 
 def test_the_version(run):

@@ -8,12 +8,11 @@ from typer import Option
 import graphcam
 from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
+from graphcam.cli.next_steps import show_next_steps
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
 
-app = typer.Typer(
-    name="graphcam", add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich"
-)
+app = typer.Typer(name="graphcam", add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
 
 
 def main() -> None:
@@ -27,8 +26,9 @@ def _print_version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
+@app.callback(invoke_without_command=True)
 def options(
+    context: typer.Context,
     version: Annotated[
         bool, Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
     ] = False,
@@ -43,6 +43,8 @@ def options(
 
     graphcam solve cam.toml --out cam
     """
+    if context.invoked_subcommand is None:
+        show_next_steps()
 
 
 for command in (solve, studio, notebook, bench, sweep, init):

@@ -1,5 +1,6 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
+import os
 import shlex
 from contextlib import closing
 from dataclasses import replace
@@ -94,6 +95,9 @@ def sweep(
 ) -> None:
     """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
 
+    It ends with how many keep the limits, the smallest, and the Pareto front of size and pressure angle, which is
+    written beside the results as a table and a figure.
+
     Into a folder the workers write Parquet parts themselves, and a run that was stopped goes on when started again.
 
     [bold]Examples[/bold]
@@ -104,6 +108,8 @@ def sweep(
 
     graphcam sweep space.toml --out s3://bucket/results --cluster tcp://scheduler:8786
     """
+    # Loads NumPy.
+    from graphcam.cli.sweep_summary import tell_sweep, write_front
     from graphcam.sweeps import dataset
     from graphcam.sweeps.space import load_space
     from graphcam.sweeps.sweep_file import is_file, sweep_to_file
@@ -115,26 +121,38 @@ def sweep(
             if cluster:
                 raise OutputError(out, "a cluster writes a folder of parts", "leave out the ending")
             with executor_of(workers) as executor:
-                sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
-            typer.echo(f"{out}: {len(designs)} designs")
-            return
-        with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
-            found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
-    print_table(("quantity", "least", "greatest"), found.rows())
-    typer.echo(f"{out}: {found}")
+                found = sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
+        else:
+            with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
+                found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
+    if isinstance(found, dataset.Summary):
+        print_table(("quantity", "least", "greatest"), found.rows())
+        typer.echo(f"{out}: {found}")
+    tell_sweep(designs, found)
+    with one_message():
+        write_front(designs, out, found.front)
 
 
 def init(
     file: Annotated[
         Path, Argument(parser=named, metavar="FILE", help="Name of the task file to write; it must not be there yet.")
     ],
+    space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead.")] = False,
 ) -> None:
     """Write a task file in which every key is explained: the coursework task, to be changed.
 
     [bold]Examples[/bold]
 
     graphcam init cam.toml
+
+    graphcam init space.toml --sweep
     """
+    source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
     with one_message():
-        write_new(file, resources.files("graphcam").joinpath("data", "commented.toml").read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; solve it with: graphcam solve {shlex.quote(str(file))}")
+        write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
+    typer.echo(f"{file} is written; use it with: graphcam {use} {_typed(file)}{more}")
+
+
+def _typed(file: Path) -> str:
+    """A name as it is typed in a shell of this machine."""
+    return f'"{file}"' if os.name == "nt" else shlex.quote(str(file))

@@ -22,6 +22,7 @@ from graphcam.cli.grade_options import (
     Near,
     Overrides,
     Roster,
+    SecretFile,
     ShowRight,
 )
 from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_bar, progress_lines
@@ -40,6 +41,7 @@ Hand = Annotated[
 ]
 SECRET = b"simulation"
 """Of the simulated course."""
+KEEP = "the course's secret. Keep the folder 'teacher' safe and to yourself: without it nothing can be graded."
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
 
 
@@ -132,11 +134,16 @@ def make(
     roster: Annotated[
         Path, Option(parser=named, metavar="CSV", help="The students: their ids in a column 'id', or the first.")
     ],
-    secret_file: Annotated[
-        Path, Option(parser=named, metavar="F", help="The course's secret, any bytes, kept by you.")
-    ],
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the papers.")] = DEFAULT_FOLDER
     / "exercise",
+    secret_file: Annotated[
+        Path | None,
+        Option(
+            parser=named,
+            metavar="F",
+            help="An earlier course's secret; if left out, a new one is made.",
+        ),
+    ] = None,
     language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
@@ -156,12 +163,15 @@ def make(
 
     [bold]Examples[/bold]
 
-    graphcam exercise make pressure-angle --roster roster.csv --secret-file secret --out week-5
+    graphcam exercise make pressure-angle --roster roster.csv --out week-5
 
-    graphcam exercise make inversion-arm --roster roster.csv --secret-file secret --paper A4 --print grey
+    graphcam exercise make inversion-arm --roster roster.csv --out week-6 --paper A4 --print grey
 
-    graphcam exercise make least-radius --roster roster.csv --secret-file secret --studio https://course.example/studio/
+    graphcam exercise make least-radius --roster roster.csv --out week-7 --studio https://course.example/studio/
+
+    graphcam exercise make pressure-angle --roster longer.csv --out late --secret-file week-5/teacher/secret
     """
+    from graphcam.exercises.course.course_folder import SECRET as SECRET_FILE, TEACHER
     from graphcam.exercises.course.make import UNMARKED, make as run, usual_paper
     from graphcam.exercises.exports.studio_link import check_url, write_links
 
@@ -186,6 +196,8 @@ def make(
             write_links(out, secret_file, studio, checks=studio_checks)
     students = "1 student" if count == 1 else f"{count} students"
     typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
+    if secret_file is None:
+        typer.echo(f"{out / TEACHER / SECRET_FILE} is new: {KEEP}")
 
 
 exercise.command()(read)
@@ -194,8 +206,8 @@ exercise.command()(read)
 @exercise.command()
 def grade(
     folder: Annotated[Path, Argument(parser=named, metavar="DIR", help="With a folder for every student; or a zip.")],
-    secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
     out: Annotated[Path, Option(parser=named, metavar="CSV", help="The grades; reports of that name go beside it.")],
+    secret_file: SecretFile = None,
     exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
     level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 nothing is run.")] = Level.L0,
     seconds: Annotated[float, Option(min=0.1, help="What a notebook's code may take.")] = 10.0,
@@ -227,13 +239,13 @@ def grade(
 
     [bold]Examples[/bold]
 
-    graphcam exercise grade hand-ins --secret-file secret --out grades.csv
+    graphcam exercise grade week-5 --out grades.csv
 
-    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --level L2 --feedback pages
+    graphcam exercise grade week-5 --out grades.csv --level L2 --feedback pages
 
-    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --near 2 --cap offset-sign=0.5
+    graphcam exercise grade week-5 --out grades.csv --near 2 --cap offset-sign=0.5
 
-    graphcam exercise grade hand-ins --secret-file secret --out grades.csv --deadline 2026-12-01T23:59 --late 0.1/day
+    graphcam exercise grade week-5 --out grades.csv --deadline 2026-12-01T23:59 --late 0.1/day
     """
     from graphcam.exercises.definition.marks_policy import policy_changes
     from graphcam.exercises.grading.attempts import attempt_rule_of
@@ -262,7 +274,8 @@ def export(
         Path | None, Option(parser=named, metavar="CSV", help="A variant for each of these students instead.")
     ] = None,
     secret_file: Annotated[
-        Path | None, Option(parser=named, metavar="F", help="The course's secret; without it a new one is made.")
+        Path | None,
+        Option(parser=named, metavar="F", help="An earlier course's secret; if left out, a new one is made."),
     ] = None,
     language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
@@ -277,15 +290,15 @@ def export(
 
     graphcam exercise export whole-cam --format moodle-cloze --count 20 --out cloze
 
-    graphcam exercise export whole-cam --format canvas --roster roster.csv --secret-file secret --out canvas
+    graphcam exercise export whole-cam --format canvas --roster roster.csv --out canvas
 
     graphcam exercise export whole-cam --format qti --count 20 --out qti
 
     graphcam exercise export whole-cam --format prairielearn --count 20 --out course
 
-    graphcam exercise export whole-cam --format nbgrader --roster roster.csv --secret-file secret --out course
+    graphcam exercise export whole-cam --format nbgrader --roster roster.csv --out course
     """
-    from graphcam.exercises.course.course_folder import read_secret
+    from graphcam.exercises.course.course_folder import SECRET as SECRET_FILE, TEACHER, read_secret
     from graphcam.exercises.course.roster import Student, read_roster
     from graphcam.exercises.exports.export import export as write
 
@@ -297,6 +310,8 @@ def export(
         write(name, target, students, out, secret, step, language, hand)
     variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
     typer.echo(f"{variants} of {name} for {target} in {out}")
+    if secret_file is None:
+        typer.echo(f"{out / TEACHER / SECRET_FILE} is new: {KEEP}")
 
 
 @exercise.command()

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 from typer import Argument, Option
 
+from graphcam.cli.grade_options import SecretFile
 from graphcam.cli.shared import named, one_message, progress_bar
 
 
@@ -19,7 +20,7 @@ def read(
     ] = None,
     *,
     course: Annotated[Path, Option(parser=named, metavar="DIR", help="The course, as 'exercise make' wrote it.")],
-    secret_file: Annotated[Path, Option(parser=named, metavar="F", help="The course's secret.")],
+    secret_file: SecretFile = None,
     out: Annotated[
         Path | None, Option(parser=named, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
     ] = None,
@@ -40,11 +41,11 @@ def read(
 
     [bold]Examples[/bold]
 
-    graphcam exercise read telephone/ --course week-5 --secret-file secret --review review.html
+    graphcam exercise read telephone/ --course week-5 --review review.html
 
-    graphcam exercise read --course week-5 --secret-file secret --corrections photo-corrections.json
+    graphcam exercise read --course week-5 --corrections photo-corrections.json
 
-    graphcam exercise grade week-5/photos --secret-file secret --out grades.csv --feedback pages
+    graphcam exercise grade week-5/photos --out grades.csv --feedback pages
     """
     from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
 

@@ -7,6 +7,9 @@ from typer import Option
 
 from graphcam.cli.shared import named
 
+SecretFile = Annotated[
+    Path | None, Option(parser=named, metavar="F", help="The course's secret, if not the one in its folder 'teacher'.")
+]
 Roster = Annotated[
     Path | None,
     Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),

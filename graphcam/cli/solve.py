@@ -23,6 +23,7 @@ from graphcam.cli.shared import (
     progress_lines,
     warnings_told,
 )
+from graphcam.cli.telling_files import tell_files
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -145,15 +146,19 @@ def _document(solution: AnySolution, *, finished: bool) -> dict[str, Any]:
 def _print_solution(
     document: dict[str, Any], folder: Path | None, sentences: Iterable[object], *, as_json: bool
 ) -> None:
-    """The document as JSON, or the quantities, which an unfinished sheet does not tell, and the files; warnings."""
+    """The document as JSON, or the quantities, which an unfinished sheet does not tell; warnings; the files."""
     if as_json:
         typer.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
         if "quantities" in document:
             _print_quantities(document["quantities"])
-        typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
     for sentence in sentences:
         typer.echo(f"warning: {sentence}", err=True)
+    if folder is not None and not as_json:
+        # Loaded already, by what wrote the files.
+        from graphcam.report.output_folder import written_files
+
+        tell_files(folder, written_files(folder))
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:

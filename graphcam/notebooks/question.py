@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
@@ -10,12 +11,17 @@ from html import escape
 from graphcam.comparison.quantities import Quantity
 from graphcam.drafting.ink import Reading
 from graphcam.drafting.units import UNITS
+from graphcam.language import MINUS
 from graphcam.words import Caption, Tell, Words, say
 
+EXAMPLE = 12.3
+"""How a number is written."""
 CAREFUL_HAND = 1.0
 """How far a careful drawing may be off [mm of paper]: twice half a division, for a line drawn and a length read."""
 RIGHT, NEARLY, WRONG, OPEN = "right", "nearly", "wrong", "open"
 ON_PAPER = say("that is the length on paper; multiply it by the scale")
+STOPPED_TWICE = re.compile(r"([.?!…。？！])[.。](?=\s|$)")
+"""A stop after a sentence that ends already: of a hint, or of a place that is asked about."""
 ROUGH = 3.0
 """Up to so many tolerances the way was right and the hand was not."""
 
@@ -86,15 +92,30 @@ class Question:
         tolerance = CAREFUL_HAND * quantity.per_mm
         return cls(quantity.drawn, tolerance, quantity.unit, tell(quantity.title), mistakes, tell)
 
-    def check(self, answer: float | None) -> Verdict:
-        """What the answer is worth; without one an invitation."""
-        status, words = self._verdict(answer)
-        return Verdict(status, self.tell(words))
+    def check(self, answer: float | str | None) -> Verdict:
+        """What the answer is worth; without one an invitation.
 
-    def _verdict(self, answer: float | None) -> tuple[str, Caption]:
+        answer : a number, or a text with one, with a decimal point or comma
+
+        >>> radius = Question(170.9, 1.0, "mm", "step 5: which line was measured?")
+        >>> [radius.check(answer).status for answer in (171, "171", "170,9", " 170.9 mm", None)]
+        ['right', 'right', 'right', 'right', 'open']
+        >>> print(radius.check("about 171").text)
+        Not yet: "about 171" is not a number; write it like 12.3, in mm.
+        >>> print(radius.check("160,0").text)
+        Not yet: that is too small. Look again at step 5: which line was measured?
+        """
+        status, words = self._verdict(answer)
+        return Verdict(status, STOPPED_TWICE.sub(r"\1", self.tell(words)))
+
+    def _verdict(self, given: float | str | None) -> tuple[str, Caption]:
         unit = UNITS.get(self.unit, self.unit)
-        if answer is None:
+        if given is None or (isinstance(given, str) and not given.strip()):
             return OPEN, say("Your turn: replace None by your number (in {unit}) and run this cell.", unit=unit)
+        answer = _number(given, (self.unit, self.tell(unit)))
+        if answer is None:
+            said = {"given": str(given), "example": EXAMPLE, "unit": unit}
+            return WRONG, say('Not yet: "{given}" is not a number; write it like {example}, in {unit}.', **said)
         if not math.isfinite(answer):
             return WRONG, say("Not yet: enter a finite number, in {unit}.", unit=unit)
         off, look = abs(answer - self.value), self.look
@@ -127,3 +148,21 @@ class Question:
             if abs(answer - wrong) <= self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0):
                 return hint
         return ""
+
+
+def _number(given: float | str, units: tuple[str, ...]) -> float | None:
+    """The number that is given, perhaps as a text with its unit behind it; None where there is none.
+
+    >>> _number("−1 234,5 mm", ("mm",)), _number("1,234.5", ("mm",)), _number("5 cm", ("mm",))
+    (-1234.5, None, None)
+    """
+    text = str(given).strip()
+    for unit in units:
+        text = text.removesuffix(unit)
+    text = "".join(text.split()).replace(MINUS, "-")
+    # A point beside a comma: one of them parts thousands, and nobody can tell which.
+    text = text if "." in text else text.replace(",", ".")
+    try:
+        return float(text)
+    except ValueError:
+        return None

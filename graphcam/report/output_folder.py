@@ -170,6 +170,12 @@ def _written_before(folder: Path) -> dict[str, str]:
         return {}
 
 
+def written_files(folder: Path | str) -> list[str]:
+    """All files that the last run wrote into a folder, ``solution.json`` too; none where there was no run."""
+    names = [*_written_before(Path(folder))]
+    return [*names, SOLUTION] if names else names
+
+
 def _warn_of_boxes(drawing: Drawing) -> None:
     """Say which characters of a drawing are shown as boxes, because nothing on the machine has them."""
     entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)

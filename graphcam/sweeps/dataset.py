@@ -10,7 +10,7 @@ import socket
 import time
 from collections.abc import Callable, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -18,6 +18,7 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.files import OutputError
+from graphcam.sweeps.front import Found, joined_front
 from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
@@ -47,6 +48,8 @@ class Summary:
     seconds : that processors spent on them
     feasible : designs within the limits, None where this was not asked
     ranges : least and greatest finite value of every quantity, None where there is none
+    front : of the designs within the limits, by column; None where they were not asked for, or an earlier version of
+        graphcam began the sweep
     """
 
     designs: int
@@ -55,6 +58,7 @@ class Summary:
     seconds: float
     feasible: int | None
     ranges: dict[str, list[float] | None]
+    front: Columns | None = None
 
     def __str__(self) -> str:
         kept = "" if self.feasible is None else f", {self.feasible} feasible"
@@ -85,7 +89,7 @@ def sweep_to_folder(
     save = partial(_save, place, manifest)
     save()
     try:
-        _compute_missing(space, place, parts, pool, save, progress or (lambda done: None))
+        _compute_missing(space, place, manifest, pool, save, progress or (lambda done: None))
     finally:
         save()
     if lost := sum(not part["whole"] for part in parts):
@@ -94,20 +98,24 @@ def sweep_to_folder(
     place.clear_drafts()
     size, seconds = (sum(part[key] for part in parts) for key in ("bytes", "seconds"))
     summary = Summary(len(space), len(parts), size, seconds, **joined(parts))
-    manifest |= {"whole": True, "summary": asdict(summary)}
+    told = asdict(summary)
+    del told["front"]
+    manifest |= {"whole": True, "summary": told}
     save()
-    return summary
+    front = manifest.get("front")
+    return replace(summary, front=front and joined_front([front]))
 
 
 def _compute_missing(
     space: Space,
     place: SharedFolder,
-    parts: list[Record],
+    manifest: Record,
     pool: WorkerPool,
     save: Callable[[], float],
     progress: Callable[[int], object],
 ) -> None:
-    """Let the workers write what is not whole, and record it as it comes."""
+    """Let the workers write what is not whole, and record it as it comes; the front is one for all parts."""
+    parts: list[Record] = manifest["parts"]
     done, due = sum(part["stop"] - part["first"] for part in parts if part["whole"]), 0.0
     jobs = ((k, part["file"], part["first"], part["stop"]) for k, part in enumerate(parts) if not part["whole"])
     with closing(results(pool, partial(write_part, space, place, __version__), jobs, batch=1)) as found:
@@ -116,6 +124,10 @@ def _compute_missing(
                 continue
             if isinstance(record, str):
                 raise OutputError(place.url, record, "mend that and start again: what is whole stays")
+            front = record.pop("front", None)
+            if front and "front" in manifest:
+                fronts = [known for known in (manifest["front"], front) if known]
+                manifest["front"] = {name: column.tolist() for name, column in joined_front(fronts).items()}
             parts[k] |= record | {"whole": True}
             done += stop - first
             progress(done)
@@ -128,7 +140,7 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
     _, file, first, stop = job
     if version != __version__:
         return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
-    start, blocks = time.thread_time(), []
+    start, blocks, seen = time.thread_time(), list[Record](), Found(0)
     try:
         if MANIFEST not in place.sizes():
             return f"the worker on {socket.gethostname()} does not see it; all workers must share it"
@@ -139,11 +151,13 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
                     columns = space.results((k, min(k + BLOCK, stop)))
                     write(columns)
                     blocks.append(_seen(columns, len(space.varied)))
+                    seen = seen.with_block(space, columns)
     except OutputError as error:
         return f"{error.why}; {error.remedy}"
     except Exception as error:  # noqa: BLE001  every kind of storage fails in its own way, and what is raised is not told
         return f"{type(error).__name__} on {socket.gethostname()}: {error}"
-    return sealed.record() | {"seconds": time.thread_time() - start} | joined(blocks)
+    found = {"front": seen.front, "seconds": time.thread_time() - start}
+    return sealed.record() | found | joined(blocks)
 
 
 def _seen(columns: Columns, varied: int) -> Record:
@@ -180,7 +194,7 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
     if MANIFEST not in sizes:
         if others := sorted(name for name in sizes if not name.startswith(".")):
             raise OutputError(place.url, f"it holds something else, {others[0]}", "choose an empty folder")
-        return wanted | {"designs": len(space), "whole": False, "parts": parts_of(len(space))}
+        return wanted | {"designs": len(space), "whole": False, "front": None, "parts": parts_of(len(space))}
     try:
         found = json.loads(place.read(MANIFEST))
     except ValueError:

@@ -143,6 +143,14 @@ class Space:
         """The parameters that have more than one value."""
         return tuple(name for name, axis in self.axes.items() if axis.size > 1)
 
+    @property
+    def varied_columns(self) -> tuple[str, ...]:
+        """The names of the same in the results; one of degrees ends in ``_deg``."""
+        return tuple(self._column(name) for name in self.varied)
+
+    def _column(self, name: str) -> str:
+        return name + "_deg" if name in self.angles else name
+
     def columns(self, start: int, stop: int) -> Columns:
         """The varied parameters of the designs from number ``start`` up to ``stop``, as in the file."""
         shape = tuple(self.axes[name].size for name in self.varied)
@@ -160,7 +168,7 @@ class Space:
         found = computed(self.designs(*numbers), self.quantities, self.limits(self.follower))
         found |= {name: np.degrees(column) for name, column in found.items() if name in ANGLES}
         columns = self.columns(*numbers) | found
-        return {name + "_deg" if name in self.angles else name: column for name, column in columns.items()}
+        return {self._column(name): column for name, column in columns.items()}
 
 
 def number_axis(name: str, value: Any) -> NDArray[np.float64]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.files import OutputError, whole_file
+from graphcam.sweeps.front import Found
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
 from graphcam.workers import in_order
@@ -27,8 +28,10 @@ def is_file(place: str) -> bool:
 
 def sweep_to_file(
     space: Space, path: Path | str, executor: Executor | None = None, progress: Callable[[int], None] | None = None
-) -> None:
+) -> Found:
     """Compute every design of a space and write it, a row each, into a CSV or Parquet file: whole, or not at all.
+
+    Returned is how many keep the limits, and the front of the best of them.
 
     Where a value does not exist the cell is empty.
 
@@ -45,12 +48,13 @@ def sweep_to_file(
     with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
-        done = 0
+        found = Found(0)
         for columns in in_order(executor, space.results, blocks, JOBS_AHEAD):
             write(columns)
-            done += next(iter(columns.values())).size
+            found = found.with_block(space, columns)
             if progress:
-                progress(done)
+                progress(found.designs)
+    return found
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
 import tomllib
 
@@ -19,6 +20,7 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
+from graphcam.exercises.course import make as make_module
 from graphcam.exercises.course.handouts import answer_file, instructions, key_sheet, notebook, worksheet
 from graphcam.exercises.course.make import make
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
@@ -30,6 +32,7 @@ from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading.notebook import TAG
 from graphcam.exercises.reading.submission_files import read_files
+from graphcam.files import OutputError
 from graphcam.sheets.model import Text
 from graphcam.tasks.task_writer import task_files
 
@@ -140,6 +143,82 @@ def test_wrong_input_of_make_leaves_nothing(tmp_path):
         result = CliRunner().invoke(app, ["exercise", "make", name, *arguments])
         assert result.exit_code == 2
         assert not out.exists()
+
+
+@pytest.fixture
+def made(tmp_path):
+    """A course of one student, made without a secret, and what the command said."""
+    (tmp_path / "r.csv").write_text("id\ns1\n", encoding="utf-8")
+    out = tmp_path / "week"
+    result = CliRunner().invoke(
+        app, ["exercise", "make", "integration", "--roster", str(tmp_path / "r.csv"), "--out", str(out)]
+    )
+    assert result.exit_code == 0, result.output
+    return out, result.stdout
+
+
+def test_the_first_course_makes_its_secret_says_so_and_is_graded_with_it(made, tmp_path):
+    out, said = made
+    secret = out / "teacher" / "secret"
+    (line,) = [line for line in said.splitlines() if str(secret) in line]
+    assert "Keep the folder 'teacher'" in line
+    assert re.fullmatch(rb"[0-9a-f]{64}\n", secret.read_bytes())
+    if os.name == "posix":
+        assert secret.stat().st_mode & 0o777 == 0o600
+    # Nothing of it is handed out.
+    handed_out = b"".join(path.read_bytes() for path in (out / "students").rglob("*") if path.is_file())
+    assert secret.read_bytes().strip() not in handed_out
+    grading = ["exercise", "grade", str(out), "--workers", "1", "--out", str(tmp_path / "grades.csv")]
+    assert CliRunner().invoke(app, grading).exit_code == 0
+    # The same secret, kept elsewhere, does as well; without it the message names the file and the remedy.
+    kept = secret.rename(tmp_path / "kept")
+    missing = CliRunner().invoke(app, grading)
+    assert missing.exit_code == 2
+    assert f"{secret}: the course's secret is 'missing'" in missing.stderr
+    assert "--secret-file" in missing.stderr
+    assert CliRunner().invoke(app, [*grading, "--secret-file", str(kept)]).exit_code == 0
+
+
+def test_the_same_secret_makes_the_same_variants_again(made, tmp_path):
+    out, _ = made
+    (tmp_path / "longer.csv").write_text("id\ns1\ns2\n", encoding="utf-8")
+    arguments = ["--roster", str(tmp_path / "longer.csv"), "--out", str(tmp_path / "again")]
+    arguments += ["--secret-file", str(out / "teacher" / "secret")]
+    result = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
+    assert result.exit_code == 0, result.output
+    assert "is new" not in result.stdout
+    assert not (tmp_path / "again" / "teacher" / "secret").exists()
+    first, again = (folder / "teacher" / "certificates" / "s1.json" for folder in (out, tmp_path / "again"))
+    assert first.read_bytes() == again.read_bytes()
+
+
+def test_a_secret_that_is_named_must_be_there(tmp_path):
+    (tmp_path / "r.csv").write_text("id\ns1\n", encoding="utf-8")
+    arguments = [
+        "--roster",
+        str(tmp_path / "r.csv"),
+        "--secret-file",
+        str(tmp_path / "old"),
+        "--out",
+        str(tmp_path / "o"),
+    ]
+    result = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
+    assert result.exit_code == 2
+    assert f"{tmp_path / 'old'}: the course's secret is 'missing'" in result.stderr
+    assert "leave out --secret-file" in result.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"r.csv"}
+
+
+def test_a_course_that_fails_leaves_no_secret(tmp_path, monkeypatch):
+    (tmp_path / "r.csv").write_text("id\ns1\n", encoding="utf-8")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(make_module, "_write_keys", full)
+    with pytest.raises(OutputError):
+        make_module.make("integration", tmp_path / "r.csv", None, tmp_path / "o")
+    assert not (tmp_path / "o").exists()
 
 
 @pytest.mark.slow

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import base64
 import re
+import sys
 
 import jupytext
+import nbformat
 import pytest
 from browsers import opened
 from courses import COURSE, FOLDER, executed, page
+
+sys.path.append(str(FOLDER))
+import pair
 
 LARGEST_PICTURE = 300_000
 """Bytes of a picture, as a page holds it."""
@@ -17,8 +22,24 @@ PARTS = ("**Aim.**", "**You need**", "**Time:**", "## Background", "## Try it yo
 """What every notebook has, in this order; its background may bear a title of its own."""
 
 
-def test_only_scripts_are_stored():
-    assert {path.suffix for path in FOLDER.iterdir() if path.is_file()} <= {".py", ".md"}
+@pytest.mark.parametrize("name", COURSE)
+def test_what_a_double_click_opens_is_the_script_without_outputs(name):
+    """``python notebooks/pair.py`` writes them again after a change of the scripts."""
+    script = FOLDER / f"{name}.py"
+    text = script.with_suffix(".ipynb").read_text(encoding="utf-8")
+    assert text == pair.notebook_text(script), "python notebooks/pair.py"
+    notebook = nbformat.reads(text, as_version=4)
+    nbformat.validate(notebook)
+    assert notebook.metadata.kernelspec.name == "python3"
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in code)
+    # Read back as a script it is the same course, cell by cell.
+    assert [cell.source for cell in notebook.cells] == [cell.source for cell in jupytext.read(script).cells]
+
+
+def test_every_script_has_its_notebook_and_nothing_else_is_stored():
+    found = {path.name for path in FOLDER.iterdir() if path.is_file()}
+    assert found == {"README.md", "pair.py", *(f"{name}{end}" for name in COURSE for end in (".py", ".ipynb"))}
 
 
 @pytest.mark.parametrize("name", COURSE)

@@ -54,6 +54,41 @@ def test_a_russian_question_answers_in_russian(factor):
     assert re.search("[а-я]{3}", said)
 
 
+@pytest.mark.parametrize("answer", ["43.28", "43,28", " 43,3 ", "43,28 mm", "+43.28", "4.328e1", np.float64(43.28), 43])
+def test_a_text_with_a_number_is_as_good_as_the_number(answer):
+    assert RADIUS.check(answer).status == "right"
+
+
+@pytest.mark.parametrize("answer", ["", "  "])
+def test_an_empty_text_is_no_answer_yet(answer):
+    assert RADIUS.check(answer) == RADIUS.check(None)
+
+
+@pytest.mark.parametrize("answer", ["43,28,1", "1,043.28", "forty-three", "43 cm", "43..28", [43.28], "−"])
+def test_what_is_no_number_is_told_with_how_to_write_one(answer):
+    verdict = RADIUS.check(answer)
+    assert verdict.status == "wrong"
+    assert f'"{answer}" is not a number; write it like 12.3, in mm.' in verdict.text
+
+
+def test_a_minus_as_it_is_printed_is_one():
+    assert "the sign is not" in RADIUS.check("−43,3").text
+
+
+@pytest.mark.parametrize("end", ["", ".", "?", "!"])
+@pytest.mark.parametrize("answer", [44.5, 60.0, 1731.0, "x"])
+def test_a_hint_ends_with_one_stop(end, answer):
+    question = Question(43.28, 0.6, "mm", f"step 5{end}", {f"the pole distance is forgotten{end}": 1731.2})
+    text = question.check(answer).text
+    assert re.search(r"[^.?!][.?!]$", text)
+    assert not re.search(r"[.?!][.?!]", text.replace("12.3", ""))
+
+
+def test_the_questions_of_the_course_end_with_one_stop():
+    """Whatever place a notebook names: several of them are questions themselves."""
+    assert Question(1.0, 0.1, "mm", "point 3: where does s start?").check(5).text.endswith("where does s start?")
+
+
 def test_a_reading_gives_scale_unit_and_tolerance():
     question = Question.of(reading(np.array([10.0, 72.0]), 0.6, "mm"), "step 7", at=1)
     assert question.check(43.2 + 0.59).status == "right"

@@ -67,7 +67,7 @@ def test_the_rows_are_those_of_a_sweep(space, tmp_path):
             assert float(row["min_pitch_curvature_radius"]) == found["min_pitch_curvature_radius"][0]
             assert row["feasible"] == str(bool(found["feasible"][0])).lower()
     assert len({tuple(row.values())[:4] for row in rows}) == 32
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.csv", "space.toml"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out-front.csv", "out.csv", "space.toml"]
 
 
 def test_parquet_and_csv_hold_the_same(space, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import secrets
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,6 +26,8 @@ KEPT = "certificates"
 """In the teacher's folder, or the hidden one, the answer keys."""
 ROSTER = "roster.csv"
 """In the teacher's folder, the roster that the course was made for."""
+SECRET = "secret"
+"""In the teacher's folder, the course's secret, if graphcam made it."""
 HIDDEN = ".graphcam"
 """Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
 
@@ -118,6 +121,31 @@ class AnswerKeys:
             expected = "the one that the course was made with"
             raise TaskError(str(path), "the secret", "another one", expected, remedy)
 
+    def secret_file(self, given: Path | None) -> Path:
+        """The file of the course's secret: the one that is given, or else the one in this folder.
+
+        Raises
+        ------
+        TaskError : none is given, and this folder holds none
+        """
+        path = self.folder / SECRET if given is None else given
+        if given is None and not path.is_file():
+            remedy = "name the file that the course was made with, by --secret-file, or put a copy of it there"
+            raise TaskError(str(path), "the course's secret", "missing", "in the teacher's folder", remedy)
+        return path
+
+    def secret(self, given: Path | None) -> bytes:
+        """The course's secret, from the file that is given or from the one in this folder.
+
+        Raises
+        ------
+        TaskError : the file is missing or empty, or its secret is another course's
+        """
+        path = self.secret_file(given)
+        secret = read_secret(path)
+        self.check_secret(secret, path)
+        return secret
+
     def language(self) -> str:
         """The language that the course is noted to be in; English where nothing is."""
         return str(self.course().get("language", ENGLISH.name))
@@ -144,6 +172,18 @@ class AnswerKeys:
 
 def _digest(secret: bytes) -> str:
     return hashlib.sha256(b"graphcam course" + secret).hexdigest()[:16]
+
+
+def make_secret() -> bytes:
+    """A new secret, which nobody can guess: 64 hexadecimal digits."""
+    return secrets.token_hex(32).encode()
+
+
+def write_secret(path: Path, secret: bytes) -> None:
+    """Write a secret into a new file that nobody but its owner can read."""
+    # Closed to others before it holds anything.
+    path.touch(mode=0o600, exist_ok=False)
+    path.write_bytes(secret + b"\n")
 
 
 def read_secret(path: str | Path) -> bytes:

@@ -10,8 +10,18 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import get_args
 
-from graphcam.errors import installed
-from graphcam.exercises.course.course_folder import PRINTED, ROSTER, STUDENTS, TEACHER, AnswerKeys, read_secret
+from graphcam.errors import TaskError, installed
+from graphcam.exercises.course.course_folder import (
+    PRINTED,
+    ROSTER,
+    SECRET,
+    STUDENTS,
+    TEACHER,
+    AnswerKeys,
+    make_secret,
+    read_secret,
+    write_secret,
+)
 from graphcam.exercises.course.handouts import Sheets, key_rows, key_sheet, write_handouts
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
@@ -46,7 +56,7 @@ def usual_paper(name: str) -> str:
 def make(
     name: str,
     roster: str | Path,
-    secret_file: str | Path,
+    secret_file: str | Path | None,
     out: str | Path,
     *,
     language: str = "en",
@@ -59,6 +69,7 @@ def make(
 ) -> int:
     """Make every student's handouts; how many students there are.
 
+    secret_file : of the course's secret; None for a new one, which is written into the teacher's folder
     language : of all handouts, and noted for the feedback
     hand : of the students, by its name, and noted too; else as the exercise says
     paper : "A1", "A3", "A4" or "A3-tiles", for worksheets that are photographed; else as the task says, without tags
@@ -77,7 +88,8 @@ def make(
         with installed("--paper", "segno", "photo"):
             importlib.import_module("graphcam.sheets.qr")
     exercise = find_exercise(name, language, hand, paper)
-    students, secret = read_roster(roster), read_secret(secret_file)
+    students = read_roster(roster)
+    secret = make_secret() if secret_file is None else _given_secret(secret_file)
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
@@ -101,7 +113,17 @@ def make(
         # Who hands in is told by it, whatever a learning system calls the folders.
         (draft / TEACHER / ROSTER).write_bytes(Path(roster).read_bytes())
         _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
+        if secret_file is None:
+            write_secret(draft / TEACHER / SECRET, secret)
     return len(students)
+
+
+def _given_secret(path: str | Path) -> bytes:
+    """The secret in a file that is named, which must be there: another course's variants may depend on it."""
+    if not Path(path).exists():
+        remedy = "check the name, or leave out --secret-file: a new secret is made then"
+        raise TaskError(str(path), "the course's secret", "missing", "a file that is there", remedy)
+    return read_secret(path)
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,10 @@
 """What ``graphcam exercise export`` does: variants for another system, in one folder."""
 
-import secrets
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from graphcam.errors import DesignError
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
+from graphcam.exercises.course.course_folder import SECRET, TEACHER, AnswerKeys, make_secret, write_secret
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
@@ -56,7 +55,7 @@ def export(
     one_of("language", language, languages())
     exercise = find_exercise(name, language, hand)
     emails = student_by_email(students)
-    key = secret or secrets.token_hex(32).encode()
+    key = secret or make_secret()
     issued: list[Issued] = []
     variants = course_variants(exercise, (student.id for student in students), key)
     for student, (variant, answer_key) in zip(students, variants, strict=True):
@@ -68,12 +67,13 @@ def export(
         kept.keep_course(exercise_path(name), key, **noted)
         for each in issued:
             kept.keep(each.student.id, each.answer_key.to_json())
-        _write(target, draft, exercise, issued, key)
-        if secret is None:
-            (draft / TEACHER / "secret").write_bytes(key)
+        _write(target, draft, exercise, issued)
+        # The autograder marks far from the teacher's own file.
+        if secret is None or target is LearningSystem.GRADESCOPE:
+            write_secret(draft / TEACHER / SECRET, key)
 
 
-def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Sequence[Issued], secret: bytes) -> None:
+def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Sequence[Issued]) -> None:
     """Write what the system reads into a folder that has the teacher's files already."""
     match target:
         case LearningSystem.MOODLE:
@@ -90,4 +90,4 @@ def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Seq
         case LearningSystem.NBGRADER:
             write_course(folder, exercise, [each.answer_key for each in issued])
         case LearningSystem.GRADESCOPE:
-            write_autograder(folder, secret)
+            write_autograder(folder)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.course_folder import SECRET, TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -91,7 +91,7 @@ def _plain(email: str) -> str:
     return email.strip().casefold()
 
 
-def write_autograder(folder: Path, secret: bytes) -> None:
+def write_autograder(folder: Path) -> None:
     """The files of an autograder; packed as a zip they are what Gradescope asks for.
 
     Raises
@@ -102,7 +102,6 @@ def write_autograder(folder: Path, secret: bytes) -> None:
     for name, program in (("setup.sh", SETUP), ("run_autograder", RUN)):
         (folder / name).write_text(program, encoding="utf-8")
         (folder / name).chmod(0o755)
-    (folder / TEACHER / "secret").write_bytes(secret)
 
 
 def main(root: Path) -> None:
@@ -116,7 +115,7 @@ def main(root: Path) -> None:
     if student is None:
         found = _nothing(exercise, email)
     else:
-        assignment = Assignment(exercise, read_secret(source / TEACHER / "secret"))
+        assignment = Assignment(exercise, read_secret(source / TEACHER / SECRET))
         graded = grade(assignment, read_submission(student, root / "submission", kept.find(student)))
         found = results(exercise, graded.record.to_dict())
     (root / "results").mkdir(exist_ok=True)

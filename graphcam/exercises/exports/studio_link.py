@@ -15,7 +15,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from graphcam.errors import DesignError, TaskError
-from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
+from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain
@@ -148,9 +148,10 @@ page, with https:// before it; put the page there with 'graphcam studio --site'
         raise TaskError("--studio", "the address", url, "that of the studio's page, with https:// before it", remedy)
 
 
-def write_links(folder: Path, secret_file: Path, url: str, *, checks: bool = False) -> int:
+def write_links(folder: Path, secret_file: Path | None, url: str, *, checks: bool = False) -> int:
     """Write every student's link into the student's folder of a course that was made; how many there are.
 
+    secret_file : of the course's secret; None for the one in the teacher's folder
     url : of the studio's page
     checks : whether the page tells right from wrong, by hashes
 
@@ -160,8 +161,7 @@ def write_links(folder: Path, secret_file: Path, url: str, *, checks: bool = Fal
     """
     check_url(url)
     students, kept = AnswerKeys.of(folder)
-    secret = read_secret(secret_file)
-    kept.check_secret(secret, secret_file)
+    secret = kept.secret(secret_file)
     exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     written = 0
     for student in kept.students():

@@ -20,7 +20,7 @@ import graphcam
 from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
 from graphcam.errors import TaskError, installed
-from graphcam.exercises.course.course_folder import AnswerKeys, read_secret
+from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
 from graphcam.exercises.course.hidden_names import hidden_names
 from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
@@ -155,6 +155,7 @@ class Course:
     """An order to grade.
 
     folder : with a folder for every student, or a zip of them
+    secret_file : of the course's secret; None for the one in the teacher's folder
     out : the file for the grades
     exercise : its name; empty where the folder says it
     level, seconds : where and how long the code of notebooks runs
@@ -173,7 +174,7 @@ class Course:
     """
 
     folder: Path
-    secret_file: Path
+    secret_file: Path | None
     out: Path
     exercise: str = ""
     level: Level = Level.L0
@@ -208,9 +209,8 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     exercise = _exercise(course, kept)
     if course.level is Level.L1 and not course.trusted:
         raise LevelError(course.level, UNTRUSTED)
-    require(course.level, (course.folder, course.secret_file, course.out))
-    secret = read_secret(course.secret_file)
-    kept.check_secret(secret, course.secret_file)
+    require(course.level, (course.folder, kept.secret_file(course.secret_file), course.out))
+    secret = kept.secret(course.secret_file)
     assignment = Assignment(exercise, secret, course.level, ResourceLimits(seconds=course.seconds))
     if course.gradebook:
         with installed("--gradebook", "nbgrader", "nbgrader"):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import graphcam
 from graphcam.errors import TaskError, installed
-from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys, read_secret
+from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -54,13 +54,14 @@ class ReadingOrder:
 
     photographs : files and folders of them; with none the corrections alone are taken in
     course : the folder that 'exercise make' wrote
+    secret_file : of the course's secret; None for the one in the teacher's folder
     out : the folder of the readings; None for that in the course
     review : the file for the review page;  corrections : a file that the review page exported
     """
 
     photographs: Sequence[Path]
     course: Path
-    secret_file: Path
+    secret_file: Path | None = None
     out: Path | None = None
     review: Path | None = None
     corrections: Path | None = None
@@ -131,8 +132,7 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
     if not (kept.folder / PRINTED).is_dir():
         wanted, remedy = "made to be photographed", "make the course with --paper A3"
         raise TaskError(str(order.course), "the worksheets", "without marks", wanted, remedy)
-    secret = read_secret(order.secret_file)
-    kept.check_secret(secret, order.secret_file)
+    secret = kept.secret(order.secret_file)
     exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     students = [student.id for student in kept.students()]
     return exercise, PrintedSheets(kept.folder, exercise.name, exercise.version, students, secret)

@@ -1,0 +1,112 @@
+"""What ``graphcam sweep`` ends with: how many designs keep the limits, the smallest, and the front of the best."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import typer
+
+from graphcam.cli.shared import print_table
+from graphcam.cli.telling_files import tell_file
+from graphcam.files import whole_file
+from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, Found, front_csv
+
+if TYPE_CHECKING:
+    from graphcam.sweeps.dataset import Summary
+    from graphcam.sweeps.space import Space
+    from graphcam.sweeps.sweep import Columns
+
+MOST_ROWS = 12
+"""Of the table; the file has all."""
+
+
+def tell_sweep(space: Space, found: Found | Summary) -> None:
+    """Print how many designs keep the limits, the smallest of them, and the front as a table."""
+    designs = f"{found.designs} designs"
+    if found.feasible is None:
+        typer.echo(f'{designs}; to be told the best, put "{FEASIBLE}" among the quantities')
+        return
+    typer.echo(f"{designs}, {found.feasible} keep the limits")
+    if not found.feasible:
+        typer.echo("none keeps the limits: try larger prime radii or larger angles of rise and return")
+    elif found.front is not None:
+        _tell_front(space, found.front)
+
+
+def _tell_front(space: Space, front: Columns) -> None:
+    shown = [name for name in dict.fromkeys((SIZE, *space.varied_columns, ANGLE)) if name in front]
+    typer.echo(f"the smallest: {_named(front, shown)}")
+    count = front[SIZE].size
+    if count == 1:
+        return
+    same = [name for name in shown if np.all(front[name] == front[name][0])]
+    differing = [name for name in shown if name not in same]
+    rows = np.unique(np.linspace(0, count - 1, min(count, MOST_ROWS)).round().astype(int)).tolist()
+    alike = f", all with {_named(front, same)}" if same else ""
+    print_table(
+        [_short(name) for name in differing],
+        [[_value(front, name, row) for name in differing] for row in rows],
+        words=0,
+        title=f"\nNo design is both smaller and of a smaller pressure angle than one of these{alike}:",
+        caption=f"{len(rows)} of {count}, from the smallest to that of the least angle" if len(rows) < count else "",
+    )
+
+
+def write_front(space: Space, out: str, front: Columns | None) -> None:
+    """Write the front beside a file of results, or into a folder of them, as a table and as a figure.
+
+    Raises
+    ------
+    OutputError : a file cannot be written
+    """
+    from graphcam.sweeps.shared_folder import SharedFolder
+    from graphcam.sweeps.sweep_file import is_file
+
+    if front is None or not front[SIZE].size:
+        return
+    for ending, text, what in _front_files(space, front):
+        if is_file(out):
+            path = Path(out).with_name(f"{Path(out).stem}-front{ending}")
+            with whole_file(path) as draft:
+                draft.write_text(text, encoding="utf-8", newline="")
+            tell_file(path, what)
+        else:
+            # Readers of data sets pass over what begins so.
+            name = f"_front{ending}"
+            with SharedFolder.reached(out).whole(name) as file:
+                file.write(text.encode())
+            typer.echo(f"{out.rstrip('/')}/{name}: {what}")
+
+
+def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, str]]:
+    """Ending, text and what it is; a figure only of more than one design."""
+    yield ".csv", front_csv(front), "these designs with all their quantities"
+    if front[SIZE].size > 1:
+        # Loads matplotlib.
+        from graphcam.plots.figures import figure_svg
+        from graphcam.plots.front_figure import front_figure
+
+        limit = float(np.degrees(space.limits(space.follower).rise))
+        yield ".svg", figure_svg(front_figure(front, limit)), "their pressure angle over their size, as a figure"
+
+
+def _named(front: Columns, names: list[str]) -> str:
+    """The values of the first design."""
+    return ", ".join(f"{_short(name)} {_value(front, name, 0)}" for name in names)
+
+
+def _short(name: str) -> str:
+    """A column's name in the table, short enough for a terminal.
+
+    >>> _short("max_pressure_angle_rise_deg"), _short("rise_angle_deg"), _short("offset")
+    ('pressure_angle', 'rise_angle', 'offset')
+    """
+    return "pressure_angle" if name == ANGLE else name.removesuffix("_deg")
+
+
+def _value(front: Columns, name: str, row: int) -> str:
+    value = front[name][row]
+    return str(value) if front[name].dtype.kind == "U" else f"{value:.5g}"
