@@ -77,7 +77,7 @@ class MakingErrors:
     Raises
     ------
     DesignError : a tolerance is negative or not finite, amplitudes and harmonics are not as many, a harmonic is not
-        from 1 to 10 000 or occurs twice, the distribution is unknown, or there is no error at all
+        from 1 to 10000 or occurs twice, the distribution is unknown, or there is no error at all
 
     >>> import graphcam as gc
     >>> errors = gc.MakingErrors(waviness=(0.01, 0.002), harmonics=(3, 24), roller_diameter=0.02)
@@ -109,7 +109,7 @@ class MakingErrors:
         if self.distribution not in PARTS:
             raise DesignError("distribution", self.distribution, "one that is known", nearest(self.distribution, PARTS))
         if not self.reaches:
-            raise DesignError("tolerances", "all 0", "of which one is greater than 0 mm", "give waviness or a size")
+            raise DesignError("waviness", "left out", "given where no size has a tolerance", "or give a size one")
 
     @property
     def reaches(self) -> dict[str, float]:

@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,7 +33,7 @@ from graphcam.given.making_errors import SIZES, MakingErrors, deviations_within,
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.made_cam import MadeCam, lifted_over
-from graphcam.mechanism.stationary import smooth_pieces
+from graphcam.mechanism.stationary import ValueAt, places_in, smooth_pieces
 from graphcam.showing import Shown, in_lines
 
 SAMPLES = 2000
@@ -42,6 +42,8 @@ COVERAGE = 0.95
 """The part of all mechanisms that a band holds."""
 PLACES, FEWEST = 180, 4
 """Cam angles of a band over the turn, and on a smooth piece of the motion at least."""
+EQUAL = 1e-9
+"""Half-widths that differ by less than this part of them are equal."""
 TOGETHER = 2**16
 """Contacts that are solved at a time, or those at one cam angle if they are more: some tens of megabytes."""
 OFF_BY: dict[str, tuple[str, float]] = {"roller_diameter": ("roller_radius", 0.5)}
@@ -119,41 +121,63 @@ class MotionBands(Shown):
     @cached_property
     def deviation(self) -> Floats:
         """(3, n) standard deviations to the first order: the root of the sum of squares."""
-        return np.sqrt(sum((self.errors.part(name) * effect) ** 2 for name, effect in self.effects.items()))
+        return np.sqrt(variance_of(self.effects, self.errors))
 
     @cached_property
     def worst(self) -> Floats:
         """(3, n) all errors at their ends at once, which no mechanism exceeds to the first order."""
         return np.sum(list(self.effects.values()), axis=0)
 
-    @property
+    @cached_property
     def half_width(self) -> Floats:
         """(3, n) of the bands to the first order: that of a normal distribution, but never beyond the worst case.
 
         A sum of several errors is nearly normal.  A single wave of random phase is not: it is seldom in the middle and
         never beyond its amplitude.
         """
-        return np.minimum(deviations_within(self.coverage) * self.deviation, self.worst)
+        return half_widths(self.effects, self.errors, self.coverage)
 
     @property
     def shares(self) -> Mapping[str, Floats]:
         """By error, (3, n) its part of the variance; 0 where nothing is off."""
-        variance = self.deviation**2
-        return {
-            name: np.divide((self.errors.part(name) * by) ** 2, variance, out=np.zeros_like(by), where=variance > 0)
-            for name, by in self.effects.items()
-        }
+        return shares_of(self.effects, self.errors)
+
+    @cached_property
+    def _dense(self) -> tuple[Floats, Mapping[str, Floats], int]:
+        """Cam angles all over the turn, both ends of every smooth piece from inside, the effects, how many are no ends.
+
+        At the ends the bands are often widest, and no sample is taken there.
+        """
+        phase, low, high = smooth_pieces(self.cam.motion)
+        share = np.linspace(0, 1, PLACES, endpoint=False)
+        inside = places_in(self.cam.motion, phase[:, None], low[:, None] * (1 - share) + high[:, None] * share)
+        ends = places_in(self.cam.motion, phase, high, "left")
+        both = zip(inside.values, ends.values, strict=True)
+        s, v, a, j = (np.concatenate([value.ravel(), end]) for value, end in both)
+        effects = effects_of(self.cam.kinematics, self.errors, (s, v, a, j))
+        return np.concatenate([inside.phi.ravel(), ends.phi]), effects, inside.phi.size
+
+    @cached_property
+    def _widest(self) -> tuple[list[int], Floats]:
+        """Where among the dense angles the bands of s, v, a are widest, and the half-widths there."""
+        half = half_widths(self._dense[1], self.errors, self.coverage)
+        # Of equal ones the first, though rounding makes another a little wider.
+        at = [int(np.flatnonzero(row >= row.max() * (1 - EQUAL))[0]) for row in half]
+        return at, half[np.arange(3), at]
 
     @property
-    def widest(self) -> tuple[int, int, int]:
-        """Where among the cam angles the bands of s, v and a are widest, to the first order."""
-        s, v, a = np.argmax(self.half_width, axis=1).tolist()
+    def widest(self) -> tuple[ValueAt, ValueAt, ValueAt]:
+        """The greatest half-widths of the bands of s, v and a to the first order, and where."""
+        at, half = self._widest
+        phi, _, inner = self._dense
+        s, v, a = (ValueAt(float(h), float(phi[k]), "left" if k >= inner else "right") for k, h in zip(at, half, strict=True))
         return s, v, a
 
     def table(self) -> list[Share]:
         """What each error does where the bands are widest; the one that matters most for s first."""
-        at, shares = (np.arange(3), np.array(self.widest)), self.shares
-        found = [Share(name, reach, self.effects[name][at], shares[name][at]) for name, reach in self.errors.reaches.items()]
+        at, effects = (np.arange(3), self._widest[0]), self._dense[1]
+        shares = shares_of(effects, self.errors)
+        found = [Share(name, reach, effects[name][at], shares[name][at]) for name, reach in self.errors.reaches.items()]
         return sorted(found, key=lambda share: -share.shares[0])
 
     @cached_property
@@ -228,36 +252,62 @@ def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[st
     A wave reaches its greatest displacement, velocity and acceleration at different phases.
     """
     lifted, found = lifted_over(kin, values), dict[str, Floats]()
-    profile, reaches = lifted["profile"], errors.reaches
-    for n, amplitude in zip(errors.harmonics, errors.waviness, strict=True):
-        v = np.hypot(profile.slope, n * profile.value)
-        a = np.hypot(profile.bend - n * n * profile.value, 2 * n * profile.slope)
-        found[wave_name(n)] = amplitude * np.array([np.abs(profile.value), v, a])
-    for name in set(SIZES) & reaches.keys():
-        size, part = OFF_BY.get(name, (name, 1.0))
-        by = lifted[size]
-        found[name] = reaches[name] * part * np.abs(np.array([by.value, by.slope, by.bend]))
-    return {name: found[name] for name in reaches}
+    waves = {wave_name(n): n for n in errors.harmonics}
+    for name, size, reach in _reaches(errors):
+        by, n = lifted[size], waves.get(name, 0)
+        v = np.hypot(by.slope, n * by.value)
+        a = np.hypot(by.bend - n * n * by.value, 2 * n * by.slope)
+        found[name] = reach * np.array([np.abs(by.value), v, a])
+    return found
 
 
-def position_band(kin: Kinematics, errors: MakingErrors, within: float, values: Values) -> tuple[Floats, Floats]:
-    """The half-width of the band of s to the first order, and its derivative by phi; of many cams at once too.
+def variance_of(effects: Mapping[str, Floats], errors: MakingErrors) -> Floats:
+    """Of independent errors: the sum of their variances."""
+    return np.sum([(errors.part(name) * effect) ** 2 for name, effect in effects.items()], axis=0)
+
+
+def half_widths(effects: Mapping[str, Floats], errors: MakingErrors, coverage: float) -> Floats:
+    """Of the bands to the first order, shaped like the effects of the errors."""
+    normal = deviations_within(coverage) * np.sqrt(variance_of(effects, errors))
+    return np.minimum(normal, np.sum(list(effects.values()), axis=0))
+
+
+def shares_of(effects: Mapping[str, Floats], errors: MakingErrors) -> dict[str, Floats]:
+    """By error its part of the variance; 0 where nothing is off."""
+    variance = variance_of(effects, errors)
+    return {
+        name: np.divide((errors.part(name) * by) ** 2, variance, out=np.zeros_like(by), where=variance > 0)
+        for name, by in effects.items()
+    }
+
+
+def position_band(kin: Kinematics, errors: MakingErrors, within: float, values: Values) -> Any:
+    """The half-width of the band of s to the first order, from (s, v); of many cams at once too.
 
     within : standard deviations that it holds of a normal distribution, on either side
     """
+    lifted = kin.lifted(values)
+    scatter = [(reach * errors.part(name), lifted[size]) for name, size, reach in _reaches(errors)]
+    normal = within * np.sqrt(sum(deviation * deviation * by * by for deviation, by in scatter))
+    return np.minimum(normal, sum(reach * np.abs(lifted[size]) for _, size, reach in _reaches(errors)))
+
+
+def position_band_slope(kin: Kinematics, errors: MakingErrors, within: float, values: Values) -> Floats:
+    """What has the sign of its derivative by phi."""
     lifted = lifted_over(kin, values)
-    variance = worst = variance_slope = worst_slope = np.zeros(())
+    variance = worst = slope = worst_slope = np.zeros(())
+    for name, size, reach in _reaches(errors):
+        by, scatter = lifted[size], (reach * errors.part(name)) ** 2
+        variance, slope = variance + scatter * by.value**2, slope + scatter * by.value * by.slope
+        worst, worst_slope = worst + reach * np.abs(by.value), worst_slope + reach * np.sign(by.value) * by.slope
+    return np.where(within * np.sqrt(variance) <= worst, slope, worst_slope)
+
+
+def _reaches(errors: MakingErrors) -> Iterator[tuple[str, str, float]]:
+    """Every error with the name of what it lifts the follower by, and how far that may be off [mm]."""
     for name, reach in errors.reaches.items():
         size, part = OFF_BY.get(name, (name, 1.0)) if name in SIZES else ("profile", 1.0)
-        by, scatter = lifted[size], (reach * part * errors.part(name)) ** 2
-        variance = variance + scatter * by.value**2
-        variance_slope = variance_slope + 2 * scatter * by.value * by.slope
-        worst = worst + reach * part * np.abs(by.value)
-        worst_slope = worst_slope + reach * part * np.sign(by.value) * by.slope
-    deviation = np.sqrt(variance)
-    slope = np.divide(variance_slope, 2 * deviation, out=np.zeros_like(deviation), where=deviation > 0)
-    narrower = within * deviation <= worst
-    return np.minimum(within * deviation, worst), np.where(narrower, within * slope, worst_slope)
+        yield name, size, reach * part
 
 
 def check_errors(cam: Cam, errors: MakingErrors) -> None:

@@ -33,10 +33,10 @@ def plot(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
         nominal, half = bands.nominal[k], bands.half_width[k]
         times = magnified(nominal, half)
         low, high = nominal + times * sample.low[k], nominal + times * sample.high[k]
-        sampled, drawn = f"{bands.samples} mechanisms", f"first order, band × {times:g}"
-        diagram.fill_between(degrees, low, high, color=CURRENT, alpha=0.3, linewidth=0, label=sampled)
+        label = f"{bands.samples} mechanisms, solved"
+        diagram.fill_between(degrees, low, high, color=CURRENT, alpha=0.3, linewidth=0, label=label)
         for sign in (-1, 1):
-            label = drawn if sign > 0 else None
+            label = "to the first order" if sign > 0 else None
             diagram.plot(degrees, nominal + sign * times * half, color=ACCENT, linewidth=1.0, label=label)
         diagram.plot(degrees, nominal, color=BLACK, linewidth=1.2, label="nominal")
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
@@ -46,7 +46,8 @@ def plot(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
         diagram.tick_params(labelbottom=diagram is diagrams[-1])
         diagram.yaxis.set_label_coords(BEFORE, 0.5)
         diagram.spines[["top", "right"]].set_visible(False)
-        diagram.legend(frameon=False, fontsize="small", loc="upper right")
+        diagram.text(1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT)
+    diagrams[0].legend(frameon=False, fontsize="small", loc="best")
     diagrams[-1].set_xlabel(ACROSS.replace("; v, a and j", "; v and a"))
     diagrams[0].set_title(f"{100 * bands.coverage:g} of 100 mechanisms lie within the bands", fontsize="medium")
     return axes
