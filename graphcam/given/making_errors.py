@@ -48,10 +48,13 @@ class Deviations:
     def waviness(self, theta: Floats | float) -> tuple[Floats, Floats, Floats]:
         """How far the profile lies too far out [mm] at cam angles [rad], and its first two derivatives."""
         theta = np.asarray(theta)
-        deviation, slope, bend = np.zeros((3, *np.broadcast_shapes(theta.shape, self.waves.shape[1:])))
+        shape = np.broadcast_shapes(theta.shape, self.waves.shape[1:])
+        deviation, slope, bend = np.zeros(shape), np.zeros(shape), np.zeros(shape)
         for n, wave in zip(self.harmonics, self.waves, strict=True):
             turned = wave * np.exp(1j * n * theta)
-            deviation, slope, bend = deviation + turned.real, slope - n * turned.imag, bend - n * n * turned.real
+            deviation += turned.real
+            slope -= n * turned.imag
+            bend -= n * n * turned.real
         return deviation, slope, bend
 
     def times(self, share: float) -> "Deviations":
@@ -113,7 +116,7 @@ class MakingErrors:
 
     @property
     def reaches(self) -> dict[str, float]:
-        """How far each error may reach from the nominal [mm]: an amplitude, or half a tolerance zone; none that is 0."""
+        """How far each error may be off the nominal [mm]: an amplitude, or half a tolerance zone; none that is 0."""
         waves = {wave_name(n): a for n, a in zip(self.harmonics, self.waviness, strict=True)}
         sizes = {name: getattr(self, name) / 2 for name in SIZES}
         return {name: reach for name, reach in (waves | sizes).items() if reach}

@@ -1,4 +1,4 @@
-"""The inverse problem of a cam that was made: what motion the follower has on a wavy profile, in a mechanism that is off.
+"""The inverse problem of a cam that was made: the motion of the follower on a wavy profile, in a mechanism that is off.
 
 With N the profile's outer normal, tau = -i sigma N along it, and L = |p'|, the profile as it is made lies delta too far
 out.  Its derivative by the parameter theta, the cam angle at which the nominal follower would touch that place, is

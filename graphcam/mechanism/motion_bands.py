@@ -105,7 +105,9 @@ class MotionBands(Shown):
             + ", ".join(f"{part:.0%} of {symbol}" for symbol, part in zip("sva", share.shares.tolist(), strict=True))
             for share in self.table()
         ]
-        last = ".half_width to the first order, .sample of mechanisms that are solved, .table(); .plot() draws the bands"
+        last = (
+            ".half_width to the first order, .sample of mechanisms that are solved, .table(); .plot() draws the bands"
+        )
         return in_lines(f"MotionBands, which hold {self.coverage:g} of all cams", rows, last)
 
     @cached_property
@@ -170,7 +172,9 @@ class MotionBands(Shown):
         """The greatest half-widths of the bands of s, v and a to the first order, and where."""
         at, half = self._widest
         phi, _, inner = self._dense
-        s, v, a = (ValueAt(float(h), float(phi[k]), "left" if k >= inner else "right") for k, h in zip(at, half, strict=True))
+        s, v, a = (
+            ValueAt(float(h), float(phi[k]), "left" if k >= inner else "right") for k, h in zip(at, half, strict=True)
+        )
         return s, v, a
 
     def table(self) -> list[Share]:
@@ -336,7 +340,9 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     if sum(waves) >= (room := float(np.min(room))):
         k = int(np.argmax(waves))
         n, follower = errors.harmonics[k], "roller" if roller else "face"
-        limit = f"less than {room / n**2:.3g} mm at {n} waves per turn: the {follower} bridges the hollows of larger ones"
+        limit = (
+            f"less than {room / n**2:.3g} mm at {n} waves per turn: the {follower} bridges the hollows of larger ones"
+        )
         raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, "take smaller amplitudes or fewer waves")
 
 

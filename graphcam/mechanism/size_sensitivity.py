@@ -160,7 +160,9 @@ def radius_sensitivity(
     return found | {"lift": found["lift"] / motion.lift}
 
 
-def _held(motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]) -> Iterator[_Held]:
+def _held(
+    motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]
+) -> Iterator[_Held]:
     """The places that hold the least radius."""
     for name, direction in (("rise", 1.0), ("return", -1.0)):
         if name in active:

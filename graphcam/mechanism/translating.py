@@ -89,8 +89,7 @@ class TranslatingKinematics(RollerKinematics):
     def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
         """Of q = s0 + s + i (v - sigma e), with s0^2 = r0^2 - e^2; g = v and h = a."""
         s, v, a, _ = values
-        lift = {"lift": ((s, v), (v, a))}
-        return {
-            "prime_radius": ((self.prime_radius / self.s0, 0.0), (0.0, 0.0)),
-            "offset": ((-self.offset / self.s0, -self.sigma), (0.0, 0.0)),
-        } | lift
+        straight: Pair = 0.0, 0.0
+        by_r0: Pair = self.prime_radius / self.s0, 0.0
+        by_e: Pair = -self.offset / self.s0, -self.sigma
+        return {"prime_radius": (by_r0, straight), "offset": (by_e, straight), "lift": ((s, v), (v, a))}

@@ -46,7 +46,9 @@ def plot(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
         diagram.tick_params(labelbottom=diagram is diagrams[-1])
         diagram.yaxis.set_label_coords(BEFORE, 0.5)
         diagram.spines[["top", "right"]].set_visible(False)
-        diagram.text(1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT)
+        diagram.text(
+            1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT
+        )
     diagrams[0].legend(frameon=False, fontsize="small", loc="best")
     diagrams[-1].set_xlabel(ACROSS.replace("; v, a and j", "; v and a"))
     diagrams[0].set_title(f"{100 * bands.coverage:g} of 100 mechanisms lie within the bands", fontsize="medium")

@@ -8,7 +8,7 @@ from graphcam.given.making_errors import deviations_within
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.paragraphs import warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.tolerance_design import ToleranceDesign, error_name, most_important, significant
+from graphcam.solving.tolerance_design import ERRORS, ToleranceDesign, error_name, most_important, significant
 from graphcam.words import Caption, joined, say
 
 SLIDING = (
@@ -56,15 +56,10 @@ def errors_of_making(solution: Solution) -> str:
         "The table says, where each band is widest, how far each tolerance alone moves $s$, $v$ and $a$ at the most, "
         "and which part of the variance is due to it."
     )
-    sizes = [SPREAD[design.given.distribution]] if design.given().reaches.keys() - _waves(design) else []
-    return blocks(
-        first, law, waves, bands, *sizes, below, table(told.header, told.rows, tell), *_matters(design), _solved(design),
-        tell=tell,
-    )  # fmt: skip
-
-
-def _waves(design: ToleranceDesign) -> set[str]:
-    return {share.name for share in design.bands.table() if share.name.startswith("waviness")}
+    names = design.given().reaches
+    sizes = [SPREAD[design.given.distribution]] if names.keys() & ERRORS.keys() else []
+    said = first, law, waves, bands, *sizes, below, table(told.header, told.rows, tell)
+    return blocks(*said, *_matters(design), _solved(design), tell=tell)
 
 
 def _matters(design: ToleranceDesign) -> list[Caption]:
@@ -95,8 +90,8 @@ def _solved(design: ToleranceDesign) -> Caption:
             )
         )
     return say(
-        "Nothing in the following is of the first order: {samples} mechanisms with random errors were solved for the "
-        "place where the follower touches its profile. Their bands are widest with {bands}.",
+        "As a check, {samples} mechanisms with random errors were solved exactly, for the place where each follower "
+        "touches its wavy profile. Where their bands are widest, they are {bands}.",
         samples=bands.samples,
         bands=joined(rows),
     )

@@ -67,8 +67,8 @@ WHYS = (
     say("Because the force of inertia grows with the square of the number of waves."),
 )
 SAID = say(
-    "{coverage:g} of 100 cams with their followers lie within ± this of the nominal value, at {mu:g} {unit}/mm. The "
-    "band is widest at {phi}."
+    "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The band "
+    "is widest at {phi}."
 )
 
 
@@ -221,4 +221,3 @@ def significant(value: float) -> Caption:
 def most_important(shares: Sequence[Share], k: int) -> Share:
     """The error that brings the greatest part of the variance of s, v or a."""
     return max(shares, key=lambda share: float(share.shares[k]))
-

@@ -71,7 +71,8 @@ class PartLayout:
 class PartTables:
     """The tables in letters of ``height`` mm.
 
-    data : of the cam, and its tolerances if the task has some;  rows : of the polar table, the head first, in the language of the drawing
+    data : of the cam, and its tolerances if the task has some
+    rows : of the polar table, the head first, in the language of the drawing
     """
 
     data: tuple[Block, ...]
@@ -232,7 +233,7 @@ def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
     free = Box(inside.left, title_box(sheet).top + BORDER, inside.right, top)
     first, pages = 0, list[Placed]()
     while first < rows:
-        placed: Placed = [] if pages else [(block, complex(inside.left, under)) for block, under in stacked_under(data, top)]
+        placed: Placed = [] if pages else piled(data, complex(inside.left, top))
         wide = max(block.box.width for block in data)
         beside = free if pages else replace(free, left=free.left + wide + BORDER)
         columns, lines = tables.capacity(beside)
@@ -243,11 +244,13 @@ def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
     return pages
 
 
-def stacked_under(blocks: Sequence[Block], top: float) -> Iterator[tuple[Block, float]]:
-    """Blocks one under the other from a height downwards [mm], with the height of the bottom of each."""
+def piled(blocks: Sequence[Block], corner: complex) -> Placed:
+    """Blocks one under the other from an upper left corner downwards."""
+    placed = Placed()
     for block in blocks:
-        yield block, top - block.box.height
-        top -= block.box.height + BORDER
+        placed.append((block, corner - 1j * block.box.height))
+        corner -= 1j * (block.box.height + BORDER)
+    return placed
 
 
 def drawn_blocks(placed: Placed) -> tuple[Entity, ...]:
