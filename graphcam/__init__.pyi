@@ -10,6 +10,7 @@ from .given.boundary_parts import PolynomialPart as PolynomialPart, SplinePart a
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
 from .given.laws import LAWS as LAWS, law as law
 from .given.load_curve import LoadCurve as LoadCurve
+from .given.making_errors import Deviations as Deviations, MakingErrors as MakingErrors
 from .given.measured import (
     IntegratedMotion as IntegratedMotion,
     MeasuredMotion as MeasuredMotion,
@@ -51,12 +52,19 @@ from .mechanism.least_radius import (
     minimum_radius as minimum_radius,
 )
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
+from .mechanism.made_cam import MadeCam as MadeCam
 from .mechanism.mean_torque import mean_torque as mean_torque
+from .mechanism.motion_bands import MotionBands as MotionBands, motion_bands as motion_bands
 from .mechanism.shock_response import (
     FollowerResponse as FollowerResponse,
     ShockSpectrum as ShockSpectrum,
     follower_response as follower_response,
     shock_spectrum as shock_spectrum,
+)
+from .mechanism.size_sensitivity import (
+    Sensitivities as Sensitivities,
+    radius_sensitivity as radius_sensitivity,
+    sensitivities as sensitivities,
 )
 from .mechanism.sizing import SizedCam as SizedCam, size_cam as size_cam
 from .mechanism.spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline

@@ -10,6 +10,7 @@ UNITS: Mapping[str, Caption] = {
         *(say("mm"), say("mm/rad"), say("mm/rad²"), say("rad"), say("rad/rad"), say("rad/rad²"), say("deg")),
         *(say("mm of paper"), say("m"), say("s"), say("m/s"), say("m/s²"), say("rad/s"), say("rad/s²"), say("N")),
         *(say("N·mm"), say("N/mm"), say("N·mm/rad"), say("MPa")),
+        *(say("µm"), say("µm/rad"), say("mrad"), say("mrad/rad"), say("mrad/rad²")),
         *(say("mm/mm"), say("(mm/rad)/mm"), say("(mm/rad²)/mm")),
     )
 }

@@ -4,6 +4,7 @@ Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Self
 
@@ -14,7 +15,7 @@ from graphcam.given.follower import FlatFaced, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
-from graphcam.mechanism.kinematics import Appearance, Complexes, Kinematics, Pair, Values
+from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
 from graphcam.mechanism.stationary import stationary_places, velocity_range
 
 
@@ -92,6 +93,30 @@ class FlatFacedKinematics(Kinematics):
         _, v, _, j = values
         return self.convex_radius(values), v + j
 
+    def lifted(self, values: Values) -> dict[str, Any]:
+        """1 by the profile: the face is square to its motion."""
+        return {"profile": 1.0 + 0.0 * values[0]}
+
+    def gap(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+        """How far the normal leans from that of the face."""
+        along = -1j * self.sigma * contour.turning * contour.normal
+        return contour.normal.real, along.real
+
+    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+        """The place is sigma v + i (r0 + s), the radius of curvature r0 + s + a."""
+        height = contour.point.imag
+        return height - self.prime_radius, self.sigma * contour.point.real, 1 / contour.curvature - height
+
+    def angle_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """It is 0 whatever the sizes are."""
+        still = 0 * values[0]
+        return {"prime_radius": still, "lift": still}
+
+    def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """Of rho = r0 + s + a."""
+        s, _, a, _ = values
+        return {"prime_radius": _ones(values), "lift": s + a}
+
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:
         """rho [mm]."""
@@ -139,6 +164,7 @@ class FlatMinimumRadius:
 
     prime_radius: float
     active: tuple[Literal["curvature"], ...]
+    place_name = None
     place = 0.0
     """A flat face may stand anywhere across its motion."""
 

@@ -10,6 +10,7 @@ positive where the cam is convex, is (|q|^2 + g q.imag - h q.real)/|q|^3, with g
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Self
@@ -44,6 +45,21 @@ class Appearance:
     motion: Complexes
     pivot: complex = 0j
     face: tuple[float, float] = (0.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A curve on the turned cam, with which the follower is in contact, at places of it; points are of the frame.
+
+    point : mm;  normal : of length 1, away from the cam;  curvature : 1/mm, positive where convex
+    speed : how far the curve runs on, along -i sigma times the normal, with the parameter;  turning : of the normal
+    """
+
+    point: Complexes
+    normal: Complexes
+    curvature: Floats
+    speed: Floats
+    turning: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +143,38 @@ class Kinematics(ABC):
     def reach(self) -> Any:
         """How far the trace point moves with s [mm per mm; of an arm per rad]."""
         return 1.0
+
+    @abstractmethod
+    def lifted(self, values: Values) -> dict[str, Any]:
+        """How far the follower is lifted [mm or rad] per mm by which something is too large as it is made.
+
+        By "profile", along its normal; by the roller's radius, and by the sizes of the mechanism, which the cam does
+        not follow: it is cut for the nominal ones.  Displacements of the trace point along the normal of the pitch
+        curve decide: the cam pushes the follower by d/cos(alpha) where the curve lies d too far out.
+        """
+
+    @abstractmethod
+    def gap(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+        """What vanishes where the follower meets a contour of the turned cam, and its derivative along the contour.
+
+        sizes : by how much each is too large [mm]
+        """
+
+    @abstractmethod
+    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+        """(s, v, a) of a follower that meets a contour of the turned cam: from place, normal and curvature there."""
+
+    @abstractmethod
+    def angle_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """The derivatives of the pressure angle by the sizes of the design [rad/mm] and by the lift [rad].
+
+        The cam is designed anew for every size, and gives the same motion; the lift stretches it all, so that by it
+        they are those of d/dk where s, v and a are k times as large.
+        """
+
+    @abstractmethod
+    def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """The same of the radius of curvature of the pitch curve, signed; inf or NaN where that is flat."""
 
     @property
     def leaning(self) -> Any:
@@ -218,6 +266,33 @@ class RollerKinematics(Kinematics):
         """The trace point [mm]."""
         x, y = self.trace(values)[0]
         return x + 1j * np.asarray(y)
+
+    @abstractmethod
+    def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
+        """The derivatives of q, and of g and h, by the sizes and by the lift as for :meth:`angle_by_sizes`."""
+
+    def angle_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """alpha = arg q turns by the part of dq across q."""
+        along, across = q = self.seen(values)
+        squared = np.add(along * along, across * across)
+        return {name: pair_cross(q, by) / squared for name, (by, _) in self.seen_by_sizes(values).items()}
+
+    def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
+        """Of rho = |q|^3/(|q|^2 + g q.imag - h q.real)."""
+        (along, across), ((g, h), _) = self.seen(values), self.bend(values)
+        squared, bent = self._bent(values)
+        radius = squared * np.sqrt(squared) / bent
+        found: dict[str, Floats] = {}
+        for name, ((by_along, by_across), (by_g, by_h)) in self.seen_by_sizes(values).items():
+            longer = along * by_along + across * by_across
+            more = 2 * longer + (by_g * across + g * by_across) - (by_h * along + h * by_along)
+            found[name] = radius * (3 * longer / squared - more / bent)
+        return found
+
+    def outwards(self, values: Values) -> tuple[Any, Any]:
+        """1/cos(alpha) and tan(alpha)."""
+        steep = self.steepness(values)
+        return np.sqrt(1 + steep * steep), steep
 
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
         """|q| - r: the cam slides past the trace point with |q|, and past the contact with less by the roller."""

@@ -46,6 +46,7 @@ class ArmMinimumRadius:
     prime_radius: float
     distance: float
     active: tuple[Line, ...]
+    place_name = "distance"
 
     @property
     def place(self) -> float:

@@ -35,6 +35,7 @@ class MinimumRadius:
     prime_radius: float
     offset: float
     active: tuple[Line, ...]
+    place_name = "offset"
 
     @property
     def place(self) -> float:

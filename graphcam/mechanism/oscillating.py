@@ -5,6 +5,7 @@ Sources: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4;
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -19,7 +20,7 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.pieces import sine_cosine
-from graphcam.mechanism.kinematics import Appearance, Pair, RollerKinematics, Values
+from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +126,66 @@ class OscillatingKinematics(RollerKinematics):
     def leaning(self) -> Any:
         """sigma: alpha is measured in one sense about the arm, whichever way the cam turns."""
         return self.sigma
+
+    def lifted(self, values: Values) -> dict[str, Any]:
+        """1/(l cos(alpha)) by profile and roller; by c and l what moves the trace point along the normal.
+
+        The normal has the angle alpha to the motion i exp(-i psi), so that c moves it by sin(psi - alpha) and l by
+        sin(alpha) along it.
+        """
+        (outwards, steep), (along, across) = self.outwards(values), self.seen(values)
+        sine, cosine = along / self.distance, (self.arm * (1 + self.sigma * values[1]) - across) / self.distance
+        lift, level = outwards / self.arm, (steep * cosine - sine) / self.arm
+        return {"profile": lift, "roller_radius": lift, "distance": level, "arm": -steep / self.arm}
+
+    def gap(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+        """How far beyond the arm's reach."""
+        arm, distance = self._made(sizes)
+        out = contour.point - distance
+        along = -1j * self.sigma * contour.speed * contour.normal
+        return np.abs(out) - arm, (along * out.conj()).real / np.abs(out)
+
+    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+        """psi from the place, tan(alpha) from the normal seen along i exp(-i psi), v from it, a from the curvature."""
+        arm, distance = self._made(sizes)
+        inwards = (distance - contour.point) / arm  # exp(-i psi)
+        seen = contour.normal * (1j * inwards).conj()
+        along, forth = -distance * inwards.imag, distance * inwards.real
+        across = along * seen.imag / seen.real
+        v = self.sigma * ((across + forth) / arm - 1)
+        squared = along * along + across * across
+        bent = contour.curvature * squared * np.sqrt(squared)
+        a = (squared + arm * v * (self.sigma + v) * across - bent) / (arm * along)
+        return -np.angle(inwards) - self.psi0, v, a
+
+    def _made(self, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+        """l and c as they are made [mm]."""
+        return self.arm + sizes.get("arm", 0.0), self.distance + sizes.get("distance", 0.0)
+
+    def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
+        """Of q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)), g = l v (sigma + v) and h = l a.
+
+        cos(psi0) = (c^2 + l^2 - r0^2)/(2 c l) gives psi0 by r0, c and l: r0, l cos(psi0) - c and c cos(psi0) - l, each
+        over c l sin(psi0).
+        """
+        s, v, a, _ = values
+        along, across = self.seen(values)
+        forth, ahead = self.arm * (1 + self.sigma * v) - across, 1 + self.sigma * v
+        low_sine, low_cosine = np.sin(self.psi0), np.cos(self.psi0)
+        doubled = self.distance * self.arm * low_sine
+        by_r0 = self.prime_radius / doubled
+        by_c = (self.arm * low_cosine - self.distance) / doubled
+        by_l = (self.distance * low_cosine - self.arm) / doubled
+        g, h = v * (self.sigma + v), a
+        return {
+            "prime_radius": ((forth * by_r0, along * by_r0), (0.0, 0.0)),
+            "distance": ((along / self.distance + forth * by_c, along * by_c - forth / self.distance), (0.0, 0.0)),
+            "arm": ((forth * by_l, ahead + along * by_l), (g, h)),
+            "lift": (
+                (forth * s, self.sigma * self.arm * v + along * s),
+                (self.arm * v * (self.sigma + 2 * v), self.arm * a),
+            ),
+        }
 
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
         """|q| - r (1 + sigma v): the roller turns with the arm."""

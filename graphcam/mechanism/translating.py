@@ -3,6 +3,7 @@
 Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -11,7 +12,7 @@ import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
-from graphcam.mechanism.kinematics import Pair, RollerKinematics, Values
+from graphcam.mechanism.kinematics import Contour, Pair, RollerKinematics, Values
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,3 +67,29 @@ class TranslatingKinematics(RollerKinematics):
         """g = v and h = a of kappa, and g', h'."""
         _, v, a, j = values
         return (v, a), (a, j)
+
+    def lifted(self, values: Values) -> dict[str, Any]:
+        """1/cos(alpha) by profile and roller, sigma tan(alpha) by the offset: the trace point slides along the cam."""
+        outwards, steep = self.outwards(values)
+        return {"profile": outwards, "roller_radius": outwards, "offset": self.sigma * steep}
+
+    def gap(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+        """How far to the right of the follower's line."""
+        along = -1j * self.sigma * contour.speed * contour.normal
+        return contour.point.real - (self.offset + sizes.get("offset", 0.0)), along.real
+
+    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+        """tan(alpha) from the normal (-sigma sin(alpha), cos(alpha)), v from it, a from the curvature."""
+        place, height = self.sigma * (self.offset + sizes.get("offset", 0.0)), contour.point.imag
+        across = -self.sigma * height * contour.normal.real / contour.normal.imag
+        v, squared = place + across, height * height + across * across
+        bent = contour.curvature * squared * np.sqrt(squared)
+        return height - self.s0, v, (squared + v * across - bent) / height
+
+    def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
+        """Of q = s0 + s + i (v - sigma e), with s0^2 = r0^2 - e^2; g = v and h = a."""
+        s, v, a, _ = values
+        straight: Pair = 0.0, 0.0
+        by_r0: Pair = self.prime_radius / self.s0, 0.0
+        by_e: Pair = -self.offset / self.s0, -self.sigma
+        return {"prime_radius": (by_r0, straight), "offset": (by_e, straight), "lift": ((s, v), (v, a))}

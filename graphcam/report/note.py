@@ -21,11 +21,13 @@ from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
 from graphcam.report.stress_paragraphs import contact_stress
+from graphcam.report.tolerance_paragraphs import errors_of_making
 from graphcam.sheets.tables import Table
 from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.stress_design import STRESS_MEANING
+from graphcam.solving.tolerance_design import TOLERANCE_MEANING
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
 
@@ -40,6 +42,8 @@ def note(solution: Solution) -> str:
     chapters = constructions(solution)
     if solution.stress and solution.stress.without:
         chapters.append((STRESS_MEANING.title, contact_stress(solution)))
+    if solution.tolerances and solution.tolerances.undercut:
+        chapters.append((TOLERANCE_MEANING.title, errors_of_making(solution)))
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
     chapters.append((say("Kind of impact"), _impact(solution)))

@@ -121,8 +121,8 @@ def drawn_of(solution: AnySolution, name: str) -> Construction:
 
 
 def _added(solution: AnySolution) -> Mapping[str, Construction]:
-    """What a spring and the materials add."""
-    designs = (solution.spring, solution.stress) if isinstance(solution, Solution) else ()
+    """What a spring, the materials and the tolerances add."""
+    designs = (solution.spring, solution.stress, solution.tolerances) if isinstance(solution, Solution) else ()
     return {name: drawn for design in designs if design for name, drawn in design.drawn.items()}
 
 
@@ -140,6 +140,8 @@ def motion_contents(solution: Solution) -> Contents:
         results.append(solution.spring.table())
     if solution.stress:
         results.append(solution.stress.table())
+    if solution.tolerances:
+        results.append(solution.tolerances.table())
     title = title_block(solution.task.title, solution.tell)
     given = data(solution), phases_at_speed(solution), *on_sheet(solution)
     return Contents(solution, title, drawn, scaled_steps(drawn), given, tuple(results))

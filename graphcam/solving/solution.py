@@ -21,6 +21,7 @@ from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantiti
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
+from graphcam.solving.tolerance_design import ToleranceDesign
 from graphcam.solving.warnings import Caution, less_round, warnings_of
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
@@ -87,6 +88,12 @@ class Solution(ShownSolution):
         return StressDesign(self.chain, self.spring.forces, self.task.material)
 
     @cached_property
+    def tolerances(self) -> ToleranceDesign | None:
+        """How far the motion may be off as the cam is made, if the task has tolerances."""
+        given = self.task.tolerances
+        return None if given is None else ToleranceDesign(self.chain, self.cam, given)
+
+    @cached_property
     def profile_spline(self) -> ProfileSpline:
         """The profile that can be cut, as one spline with the degree and the control points that the part asks for.
 
@@ -116,6 +123,7 @@ class Solution(ShownSolution):
             "stations": self._stations(),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
             **({"contact_stress": self.stress.to_dict()} if self.stress else {}),
+            **({"tolerances": self.tolerances.to_dict()} if self.tolerances else {}),
             "files": dict.fromkeys(FILES),
         }
 
@@ -175,4 +183,6 @@ def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solutio
     solution = Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
     if solution.spring:
         solution.spring.check()
+    if solution.tolerances:
+        solution.tolerances.check()
     return solution

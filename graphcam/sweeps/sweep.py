@@ -13,8 +13,11 @@ from graphcam.errors import DesignError, nearest
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
+from graphcam.given.making_errors import MakingErrors
 from graphcam.given.spring_load import SpringLoad
+from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
+from graphcam.sweeps.sweep_bands import BANDS, SweptErrors
 from graphcam.sweeps.sweep_forces import FORCES, SweptLoad
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
 from graphcam.workers import in_order
@@ -41,6 +44,8 @@ def sweep(
     limits: Limits | None = None,
     load: SpringLoad | ArmLoad | None = None,
     friction: float = 0.0,
+    errors: MakingErrors | None = None,
+    coverage: float = COVERAGE,
     chunk: int = CHUNK_OF_DESIGNS,
 ) -> Columns:
     """Extremes and feasibility of many cams.
@@ -56,12 +61,16 @@ def sweep(
         - feasible: within the limits, and the roller smaller than the least radius of curvature
         - under a load, and not by default: max_normal_force, min_normal_force [N], max_torque [N mm] on the cam,
           least_preload [N; N mm of a torsion spring], jamming_margin, the least cos(alpha) - mu sin(alpha)
+        - with errors of making, and not by default: position_band [mm; of an arm rad], the greatest half-width of the
+          band of s to the first order, see :class:`graphcam.MotionBands`
 
     executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
     limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
         and force closure
     load : what presses every follower, a number of N with it but no table; needed for forces
     friction : mu between cam and follower
+    errors : the tolerances to which all cams are made; needed for bands
+    coverage : the part of all mechanisms that a band holds
     chunk : designs computed at a time
 
     Returns
@@ -72,7 +81,8 @@ def sweep(
 
     Raises
     ------
-    DesignError : an unknown quantity, forces without a load or with one of another follower, or a chunk of none
+    DesignError : an unknown quantity, forces without a load or with one of another follower, bands without errors or
+        with errors of sizes that the followers do not have, or a chunk of none
 
     >>> import numpy as np
     >>> import graphcam as gc
@@ -84,20 +94,28 @@ def sweep(
     >>> spring = gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=100)
     >>> gc.sweep(designs, ["max_normal_force"], load=spring, friction=0.1)["max_normal_force"].round(3).tolist()
     [nan, 218.984, 218.924]
+    >>> errors = gc.MakingErrors(roller_diameter=0.02, offset=0.05)
+    >>> (1e3 * gc.sweep(designs, ["position_band"], errors=errors)["position_band"]).round(3).tolist()  # micrometres
+    [nan, 12.736, 11.029]
     """
     wanted = tuple(quantities)
     for name in wanted:
-        if name not in (known := (*QUANTITIES, *FORCES)):
+        if name not in (known := (*QUANTITIES, *FORCES, *BANDS)):
             raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))
         if name in FORCES and load is None:
             raise DesignError("load", "left out", f"given where {name} is asked for", "give a SpringLoad or an ArmLoad")
+        if name in BANDS and errors is None:
+            raise DesignError("errors", "left out", f"given where {name} is asked for", "give MakingErrors")
     if chunk < 1:
         raise DesignError("chunk", chunk, "at least 1 design")
     swept = None if load is None else SweptLoad(load, friction)
     if swept:
         swept.check(designs.follower)
+    made = None if errors is None else SweptErrors(errors, coverage)
     limits = limits or Limits(usual_limit(designs.follower))
-    compute = partial(computed, quantities=wanted, limits=limits, chunk=chunk, swept=swept)
+    compute = partial(computed, quantities=wanted, limits=limits, chunk=chunk, swept=swept, made=made)
+    if made:
+        made.check(Chunk(designs.part(slice(0, 1)), limits).many, designs.roller_radius)
     if executor is None:
         return compute(designs)
     out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
@@ -124,13 +142,14 @@ def computed(
     limits: Limits,
     chunk: int = CHUNK_OF_DESIGNS,
     swept: SweptLoad | None = None,
+    made: SweptErrors | None = None,
 ) -> Columns:
     """The quantities of designs, chunk by chunk, without an executor."""
     n = len(designs)
     out = _empty(quantities, n)
     for k in range(0, n, chunk):
         here = slice(k, min(k + chunk, n))
-        some = Chunk(designs.part(here), limits, swept)
+        some = Chunk(designs.part(here), limits, swept, made)
         for name in quantities:
             out[name][here] = some.under_load(name) if name in FORCES else getattr(some, name)
     return out

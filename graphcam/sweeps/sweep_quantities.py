@@ -18,6 +18,7 @@ from graphcam.mechanism.followers import EXACT
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
+from graphcam.sweeps.sweep_bands import SoughtBand, SweptErrors
 from graphcam.sweeps.sweep_forces import SOUGHT, Rubbing, SoughtForce, SweptLoad
 
 QUANTITIES = (
@@ -63,6 +64,18 @@ class Chunk:
     designs: Designs
     limits: Limits
     swept: SweptLoad | None = None
+    made: SweptErrors | None = None
+
+    @cached_property
+    def position_band(self) -> Floats:
+        """The greatest half-width of the band of s [mm; of an arm rad] as the cams are made."""
+        assert self.made is not None
+        sought = SoughtBand(self.many, self.made)
+        found = np.maximum(self._over_legs(sought, self._rises), self._over_legs(sought, self._returns))
+        for level, angle in self._dwells:
+            still = np.zeros_like(level)
+            found = np.maximum(found, np.where(angle > 0, sought.reading((level, still, still, still)), -np.inf))
+        return found
 
     def under_load(self, name: str) -> Floats:
         """A quantity of the forces, by its name among :data:`FORCES`; NaN where the follower jams somewhere."""
@@ -77,11 +90,11 @@ class Chunk:
         assert self.swept is not None
         found = np.full(len(self.designs), -np.inf)
         for legs in (self._rises, self._returns):
-            sought = kind(self._many, self.swept, self.designs.column("roller_radius"), legs[1])
+            sought = kind(self.many, self.swept, self.designs.column("roller_radius"), legs[1])
             found = np.maximum(found, self._over_legs(sought, legs))
         for level, angle in self._dwells:
             found = np.maximum(found, np.where(angle > 0, sought.at_rest(level), -np.inf))
-        placed = self.swept.beside(self._many)
+        placed = self.swept.beside(self.many)
         if isinstance(placed, PlacedArmLoad):
             found = np.where(placed.presses(self._lift), found, np.nan)
         return found
@@ -90,7 +103,7 @@ class Chunk:
     def _moves(self) -> NDArray[np.bool_]:
         """Where the follower jams nowhere."""
         assert self.swept is not None
-        friction, kin, roller = self.swept.friction, self._many, self.designs.column("roller_radius")
+        friction, kin, roller = self.swept.friction, self.many, self.designs.column("roller_radius")
         steep = kin.steepest(self._lift, self.max_v)
         rim = roller / kin.reach if kin.swings else 0.0
         moves = friction * (steep + rim * np.sqrt(1 + steep * steep)) < 1
@@ -125,7 +138,7 @@ class Chunk:
             still = np.zeros_like(level)
             resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
             sharpest = np.maximum(sharpest, resting)
-        return self._many.radius_of(sharpest)
+        return self.many.radius_of(sharpest)
 
     @cached_property
     def max_v(self) -> Floats:
@@ -156,10 +169,11 @@ class Chunk:
 
     @cached_property
     def _sharpness(self) -> Sharpness:
-        return Sharpness(self._many)
+        return Sharpness(self.many)
 
     @cached_property
-    def _many(self) -> Kinematics:
+    def many(self) -> Kinematics:
+        """The kinematics of all of them."""
         designs = self.designs
         sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN[designs.follower]})
         return EXACT[FOLLOWERS[designs.follower]].kinematics.of(sizes, self._prime_radius, designs.sigma, self._lift)
@@ -173,9 +187,9 @@ class Chunk:
         return "return_law", -1, self.designs.column("return_angle")
 
     def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
-        if not self._many.has_pressure_angle:
+        if not self.many.has_pressure_angle:
             return 0 * self._lift * self._prime_radius  # the face is perpendicular to the motion
-        return np.arctan(self._over_legs(Steepness(self._many), legs))
+        return np.arctan(self._over_legs(Steepness(self.many), legs))
 
     def _over_legs(self, sought: Sought, legs: tuple[str, int, Floats]) -> Floats:
         key, direction, angle = legs

@@ -24,6 +24,7 @@ from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
+from graphcam.tasks.tolerances_table import TolerancesTable
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
@@ -40,6 +41,13 @@ class _FollowerTable:
     """The limits that it does not have, and why."""
     swings: ClassVar[bool] = False
     """Whether a spring turns it about a pivot."""
+    made_to: ClassVar[tuple[str, ...]] = ("roller_diameter", "offset")
+    """The sizes that may have a tolerance."""
+
+    @property
+    def made_sizes(self) -> tuple[str, ...]:
+        """Those that have one: a knife edge has no roller."""
+        return tuple(name for name in self.made_to if name != "roller_diameter" or self.roller_radius != 0)
 
     @property
     def lift_unit(self) -> float:
@@ -107,6 +115,7 @@ class OscillatingTable(_FollowerTable):
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
     swings = True
+    made_to = "roller_diameter", "distance", "arm"
 
     def __post_init__(self) -> None:
         self()
@@ -138,6 +147,7 @@ class FlatFacedTable(_FollowerTable):
     kind: Literal["flat-faced"] = "flat-faced"
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
+    made_to = ()
     without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
 
     def __call__(self) -> FlatFaced:
@@ -228,6 +238,7 @@ class Task:
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
     material : what the contact stress depends on beside the spring's force; None is no stress
+    tolerances : how far profile and sizes may be off as they are made; None tells nothing of it
     part : what the workshop must know; None is a part that follows from the cam
 
     Raises
@@ -251,6 +262,7 @@ class Task:
     limits: LimitsTable = field(default_factory=LimitsTable)
     spring: Annotated[SpringTable | ArmSpringTable, ByKeys()] | None = None
     material: MaterialTable | None = None
+    tolerances: TolerancesTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
 
@@ -270,6 +282,8 @@ class Task:
         if self.cam.prime_radius is not None:
             self.follower.check(self.cam.prime_radius)
         self._check_spring()
+        if self.tolerances is not None:
+            self.tolerances.check(self.follower.kind, self.follower.made_sizes)
         if self.material is not None and self.spring is None:
             reason = "without a force there is no contact stress"
             raise DesignError("spring", "missing", "given where there is a material", reason)

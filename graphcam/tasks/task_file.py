@@ -28,6 +28,7 @@ from graphcam.tasks.dataclass_reader import (
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
+from graphcam.tasks.tolerances_table import TolerancesTable
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
@@ -54,6 +55,7 @@ _CLASSES: Classes = {
     ("spring",): spring_tables.SpringTable,
     ("spring", "at"): spring_tables.ArmSpringPlace,
     ("material",): MaterialTable,
+    ("tolerances",): TolerancesTable,
     ("drawing",): tables.DrawingTable,
     ("part",): PartTable,
 }

@@ -7,7 +7,7 @@ the polar table go where there is room.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import takewhile
@@ -23,7 +23,7 @@ from graphcam.sheets.tables import Block, notes_block, table_block
 from graphcam.words import Tell, say
 from graphcam.workshop.bore_view import bore_box
 from graphcam.workshop.part_contents import PartContents
-from graphcam.workshop.part_notes import beside_each_other, cam_data, polar_rows, requirements
+from graphcam.workshop.part_notes import beside_each_other, cam_data, polar_rows, requirements, tolerance_data
 from graphcam.workshop.part_views import ShownPart, front_box, section_box
 
 BORDER = 5.0
@@ -71,10 +71,11 @@ class PartLayout:
 class PartTables:
     """The tables in letters of ``height`` mm.
 
-    data : of the cam;  rows : of the polar table, the head first, in the language of the drawing
+    data : of the cam, and its tolerances if the task has some
+    rows : of the polar table, the head first, in the language of the drawing
     """
 
-    data: Block
+    data: tuple[Block, ...]
     rows: list[tuple[str, ...]]
     tell: Tell
     height: float
@@ -105,7 +106,8 @@ class PartTables:
 def part_tables(contents: PartContents, sheet: Format) -> PartTables:
     """The tables of a part as a sheet letters them."""
     tell, height = contents.tell, sheet.lettering.small
-    data = table_block(cam_data(contents.solution, contents.outline).told(tell), height)
+    told = [cam_data(contents.solution, contents.outline), *tolerance_data(contents.solution)]
+    data = tuple(table_block(each.told(tell), height) for each in told)
     return PartTables(data, polar_rows(contents.table, tell), tell, height)
 
 
@@ -210,14 +212,15 @@ def _placed(tables: PartTables, views: PartLayout) -> Placed | None:
     most, lines = tables.capacity(views.sheet.content)
     for columns in range(math.ceil(tables.count / lines), most + 1):
         room, placed = views.room.copy(), Placed()
-        for block, where in ((tables.polar(0, tables.count, columns), AT_RIGHT), (tables.data, top_left)):
+        given = [(block, top_left) for block in tables.data]
+        for block, where in [(tables.polar(0, tables.count, columns), AT_RIGHT), *given]:
             box = block.box.grown(1.5)
             by = room.find([box], where)
             if by is None:
                 break
             room.take(box.moved(by))
             placed.append((block, by))
-        if len(placed) == 2:
+        if len(placed) == 1 + len(given):
             return placed
     return None
 
@@ -230,14 +233,24 @@ def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
     free = Box(inside.left, title_box(sheet).top + BORDER, inside.right, top)
     first, pages = 0, list[Placed]()
     while first < rows:
-        placed: Placed = [] if pages else [(data, complex(inside.left, top - data.box.height))]
-        beside = free if pages else replace(free, left=free.left + data.box.width + BORDER)
+        placed: Placed = [] if pages else piled(data, complex(inside.left, top))
+        wide = max(block.box.width for block in data)
+        beside = free if pages else replace(free, left=free.left + wide + BORDER)
         columns, lines = tables.capacity(beside)
         last = min(rows, first + columns * lines)
         block = tables.polar(first, last, math.ceil((last - first) / lines))
         pages.append([*placed, (block, complex(beside.left, beside.top - block.box.height))])
         first = last
     return pages
+
+
+def piled(blocks: Sequence[Block], corner: complex) -> Placed:
+    """Blocks one under the other from an upper left corner downwards."""
+    placed = Placed()
+    for block in blocks:
+        placed.append((block, corner - 1j * block.box.height))
+        corner -= 1j * (block.box.height + BORDER)
+    return placed
 
 
 def drawn_blocks(placed: Placed) -> tuple[Entity, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -109,6 +110,12 @@ def cam_data(solution: AnySolution, outline: Outline) -> Table:
     timing = solution.motion.timing if isinstance(solution, ArcsSolution) else solution.cam.motion.timing
     rows += [(PHASES[kind], degrees(round(end - start, 9))) for kind, start, end in timing[:MOST_PHASES]]
     return Table(say("Data of the cam"), ("", ""), tuple(rows))
+
+
+def tolerance_data(solution: AnySolution) -> list[Table]:
+    """What the tolerances of profile and follower do to the motion, which one matters most first, if there are some."""
+    design = None if isinstance(solution, ArcsSolution) else solution.tolerances
+    return [replace(design.table(), answers=frozenset())] if design and not design.undercut else []
 
 
 def _mm(length: float) -> Caption:

@@ -1,0 +1,141 @@
+"""The inverse problem of a cam that was made: the motion of the follower on a wavy profile, in a mechanism that is off.
+
+With N the profile's outer normal, tau = -i sigma N along it, and L = |p'|, the profile as it is made lies delta too far
+out.  Its derivative by the parameter theta, the cam angle at which the nominal follower would touch that place, is
+
+    W' = M tau + delta' N,    M = L (1 - (r - delta) kappa)
+
+so its normal leans by gamma, tan(gamma) = delta'/M, and the normal turns by L kappa - gamma'.  The roller that is made
+runs on the parallel curve at its radius.  At the cam angle phi the follower touches where that curve, turned by
+sigma phi, meets its path; so s follows from a root theta, and v and a follow from normal and curvature there.  Nothing
+is neglected, and no derivative is a difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.given.laws import Floats
+from graphcam.given.making_errors import Deviations
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.kinematics import Contour, Values
+from graphcam.mechanism.taylor import Taylor
+
+PATIENCE = 20
+"""Newton's steps; three or four do where waves are shallow."""
+CLOSE = 1e-13
+"""A step that is no longer [rad] ends the search ..."""
+WRONG = 1e-9
+"""... and what still moves by more than this has found no contact."""
+
+
+@dataclass(frozen=True, eq=False)
+class MadeCam:
+    """A cam and its follower as they were made.
+
+    cam : as it was designed;  deviations : what is off, of one cam or of many
+
+    >>> import graphcam as gc
+    >>> from math import pi
+    >>> motion = gc.Motion([gc.Rise(10, pi), gc.Return(10, pi)])
+    >>> cam = gc.Cam(motion, gc.Translating(roller_radius=8), prime_radius=30)
+    >>> larger = gc.MadeCam(cam, gc.Deviations((), np.zeros(0), {"roller_radius": 0.01}))
+    >>> s, v, a = larger([0.0, pi / 2])
+    >>> s.round(6).tolist()  # at the low rest by 0.01, on the steep flank by 0.01/cos(alpha)
+    [0.01, 5.010144]
+    """
+
+    cam: Cam
+    deviations: Deviations
+
+    def __call__(self, phi: ArrayLike) -> tuple[Floats, Floats, Floats]:
+        """(s, v, a) at cam angles phi [rad], counted from the nominal lowest place; shaped like phi and the deviations.
+
+        NaN where the follower cannot follow: a roller too large for a hollow of the waves, or a flat face over one.
+        Where the acceleration jumps it jumps at another cam angle than it was designed to.
+        """
+        phi = np.asarray(phi, dtype=np.float64)
+        theta = phi + np.zeros(self.deviations.shape)
+        step = np.full(np.shape(theta), np.inf)
+        for _ in range(PATIENCE):
+            contour = self._contour(theta, phi)
+            beyond, slope = self.cam.kinematics.gap(contour, self.deviations.sizes)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                step = beyond / slope
+            theta = theta - step
+            if not np.nanmax(np.abs(step), initial=0.0) > CLOSE:
+                break
+        contour = self._contour(theta, phi)
+        follows = (np.abs(step) < WRONG) & (contour.speed > 0)
+        if not self.cam.kinematics.takes_roller:
+            follows &= contour.turning > 0  # a face lies on summits alone
+        s, v, a = self.cam.kinematics.met(contour, self.deviations.sizes)
+        return np.where(follows, s, np.nan), np.where(follows, v, np.nan), np.where(follows, a, np.nan)
+
+    def _contour(self, theta: Floats, phi: Floats) -> Contour:
+        """The parallel curve of the profile at the roller's radius, seen from the frame at the cam angle phi."""
+        kin, r = self.cam.kinematics, self.cam.roller_radius
+        s, v, a, j = self.cam.motion(theta)
+        delta, slope, bend = self.deviations.waviness(theta)
+        values = s, v, a, j
+        (x, y), (nx, ny), kappa = kin.path(values)
+        normal = nx + 1j * np.asarray(ny)
+        length = kin.speed(values, 0.0)
+        along = cast(Taylor, kin.speed(_followed(values), cast(Any, Taylor(_NONE, r - delta, -slope, -bend, _NONE))))
+        forwards = np.hypot(along.value, slope)
+        leaning = (bend * along.value - slope * along.slope) / (forwards * forwards)
+        turning = length * kappa - leaning
+        made = normal * (along.value + 1j * self.cam.sigma * slope) / forwards
+        reach = r + np.asarray(self.deviations.sizes.get("roller_radius", 0.0))
+        speed = forwards + reach * turning
+        seen = np.exp(1j * self.cam.sigma * (phi - theta))
+        point = x + 1j * np.asarray(y) + (delta - r) * normal + reach * made
+        return Contour(point * seen, made * seen, turning / speed, speed, turning)
+
+
+def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, Floats, Floats]:
+    """How far (s, v, a) are off to the first order, of the same deviations at cam angles phi [rad].
+
+    >>> import graphcam as gc
+    >>> from math import pi
+    >>> motion = gc.Motion([gc.Rise(10, pi), gc.Return(10, pi)])
+    >>> cam = gc.Cam(motion, gc.Translating(roller_radius=8), prime_radius=30)
+    >>> wave = gc.Deviations((20,), np.array([0.01]), {})
+    >>> [off.round(4).tolist() for off in linear_off(cam, np.array([0.0]), wave)]
+    [[0.01], [0.0], [-4.0]]
+    """
+    lifted = lifted_over(cam.kinematics, cam.motion(phi))
+    delta, slope, bend = deviations.waviness(phi)
+    profile = lifted["profile"]
+    s = profile.value * delta
+    v = profile.slope * delta + profile.value * slope
+    a = profile.bend * delta + 2 * profile.slope * slope + profile.value * bend
+    for name, off in deviations.sizes.items():
+        s, v, a = s + off * lifted[name].value, v + off * lifted[name].slope, a + off * lifted[name].bend
+    return s, v, a
+
+
+def lifted_over(kin: Any, values: Values) -> dict[str, Taylor]:
+    """By how much the follower is lifted by what is too large, with the first two derivatives by phi."""
+    return kin.lifted(_followed(values))
+
+
+_NONE = np.zeros(())
+
+
+def _followed(values: Values) -> Values:
+    """(s, v, a, j) as quantities that know their derivatives by phi."""
+    return cast(Values, tuple(_derivatives(values)))
+
+
+def _derivatives(values: Values) -> Iterator[Any]:
+    s, v, a, j = values
+    yield Taylor(_NONE, s, v, a, _NONE)
+    yield Taylor(_NONE, v, a, j, _NONE)
+    yield Taylor(_NONE, a, j, _NONE, _NONE)  # its second derivative is asked for by nobody
+    yield j

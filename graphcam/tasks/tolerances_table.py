@@ -1,0 +1,60 @@
+"""The table ``[tolerances]`` of a task file: how far profile and sizes may be off as they are made."""
+
+from dataclasses import dataclass
+
+from graphcam.errors import DesignError
+from graphcam.given.making_errors import SIZES, Distribution, MakingErrors, deviations_within
+from graphcam.given.ranges import positive
+
+
+@dataclass(frozen=True)
+class TolerancesTable:
+    """``[tolerances]``: errors of making, and what part of all cams shall lie within the bands that are told.
+
+    waviness : mm, amplitudes of the profile's waves;  harmonics : as many, waves per turn
+    roller_diameter, offset, distance, arm : mm, widths of tolerance zones; None is exact
+    distribution : of the sizes in their zones, "normal" or "uniform"
+    coverage : the part of all cams
+
+    Raises
+    ------
+    DesignError : a value that cannot be
+
+    >>> TolerancesTable(waviness=(0.005,), harmonics=(24,), offset=0.05)().reaches
+    {'waviness 24': 0.005, 'offset': 0.025}
+    """
+
+    waviness: tuple[float, ...] = ()
+    harmonics: tuple[int, ...] = ()
+    roller_diameter: float | None = None
+    offset: float | None = None
+    distance: float | None = None
+    arm: float | None = None
+    distribution: Distribution = "normal"
+    coverage: float = 0.95
+
+    def __post_init__(self) -> None:
+        for k, amplitude in enumerate(self.waviness):
+            positive(f"waviness[{k}]", amplitude, "mm")
+        for name in SIZES:
+            positive(name, getattr(self, name), "mm")
+        self()
+        deviations_within(self.coverage)
+
+    def __call__(self) -> MakingErrors:
+        """The errors."""
+        sizes = {name: getattr(self, name) or 0.0 for name in SIZES}
+        return MakingErrors(self.waviness, self.harmonics, **sizes, distribution=self.distribution)
+
+    def check(self, kind: str, own: tuple[str, ...]) -> None:
+        """That the tolerances are those of sizes that the follower of that kind has.
+
+        Raises
+        ------
+        DesignError : one is not
+        """
+        for name in SIZES:
+            if (tolerance := getattr(self, name)) is not None and name not in own:
+                left_out = f"left out for a follower of kind {kind}"
+                remedy = f"it has {', '.join(own)}" if own else "of its sizes none is to be made: waviness is left"
+                raise DesignError(f"tolerances.{name}", tolerance, left_out, remedy)
