@@ -73,7 +73,7 @@ class Chain(Drawings):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the follower's constructions, of the jerk if asked for, of a measured differentiation, and of those added."""
+        """Of the follower's constructions, of the jerk if asked for, of a measured motion, and of those added."""
         measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
         drawn = list(self.board.follower.constructions)
         if self.board.jerk_pole is not None:
