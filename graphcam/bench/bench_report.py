@@ -10,6 +10,7 @@ from graphcam.bench.bound_rows import BOUNDS
 from graphcam.bench.convergence import PARTS, Series, convergence
 from graphcam.bench.exact_rows import EXACT
 from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, Hands, bands, budgets, by_hand
+from graphcam.bench.load_rows import LOADS
 from graphcam.bench.measured_rows import MEASURED
 from graphcam.bench.peers import Peer, peers
 from graphcam.bench.rows import Gauge, Row, Section
@@ -20,7 +21,7 @@ from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
 
-SECTIONS: tuple[Section, ...] = (EXACT, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
+SECTIONS: tuple[Section, ...] = (EXACT, LOADS, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
 """The tables of measured figures and goals, in order."""
 DRAWN_PARTS, DRAWN_LAW = 12, "3-4-5"
 

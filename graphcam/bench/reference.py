@@ -4,6 +4,7 @@ Written from the textbooks' formulas, not from graphcam's own, which are arrange
 """
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from graphcam.bench.rivals import optional
 from graphcam.bench.scenes import LIFT, LIMIT, TestScene
 from graphcam.given.laws import Floats
+from graphcam.given.motion_point import MotionPoint
 
 EPS = float(np.finfo(float).eps)
 DIGITS = 50
@@ -91,3 +93,19 @@ def in_eps(value: float, exact: float) -> float:
     2.0
     """
     return abs(value - exact) / (EPS * abs(exact)) if exact else math.nan
+
+
+def conditioned(points: Sequence[MotionPoint], phi: Floats) -> Floats:
+    """(3, n) s, v and a of the polynomial that meets the conditions of points, rounded from 50 digits."""
+    with mp.workdps(DIGITS):
+        asked = [(mp.mpf(point.angle), k, mp.mpf(value)) for point in points for k, value in point.given.items()]
+        size = len(asked)
+        rows = [[mp.ff(power, k) * at ** max(power - k, 0) for power in range(size)] for at, k, _ in asked]
+        solved = mp.lu_solve(mp.matrix(rows), mp.matrix([value for *_, value in asked]))
+        falling = [solved[size - 1 - power] for power in range(size)]
+        values = [mp.polyval(falling, mp.mpf(x), derivative=1) for x in phi.tolist()]
+        second = [
+            sum((power * (power - 1) * solved[power] * mp.mpf(x) ** (power - 2) for power in range(2, size)), mp.mpf(0))
+            for x in phi.tolist()
+        ]
+        return np.array([[float(s) for s, _ in values], [float(v) for _, v in values], [float(a) for a in second]])

@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.stationary import max_acceleration, max_velocity
+from graphcam.mechanism.stationary import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import by_parts
 from graphcam.words import Caption, sequence
 
@@ -107,6 +107,7 @@ class Comparison:
         return {
             "max_v": max_velocity(board.motion),
             "max_a": max_acceleration(board.motion),
+            **({} if board.jerk_pole is None else {"max_j": max_jerk(board.motion)}),
             "minimum_prime_radius": least,
             "minimum_offset": place,
             "minimum_distance": place,
@@ -141,6 +142,15 @@ class Comparison:
             for construction, names in sources.items()
             for name in names
         }
+
+
+def transmission_deg(alpha: Floats) -> Floats:
+    """The transmission angles 90 - |alpha| [degrees] at pressure angles [rad], which some schools tell instead.
+
+    >>> transmission_deg(np.radians([-30.0, 0.0])).round(9).tolist()
+    [60.0, 90.0]
+    """
+    return 90.0 - np.abs(np.degrees(alpha))
 
 
 NONE: Mapping[str, float] = {}

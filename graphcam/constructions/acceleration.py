@@ -8,7 +8,7 @@ known only after two integrations, when the known lift fixes the scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import isclose
 
@@ -31,6 +31,7 @@ from graphcam.constructions.axes import (
     together,
 )
 from graphcam.constructions.law_names import law_name
+from graphcam.constructions.time_axis import axis_said, times_below
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -55,6 +56,7 @@ class AccelerationGivens:
     ordinate: float
     mu_phi: Scale
     unit: str
+    omega: float | None = field(default=None, kw_only=True)
 
 
 AccelerationDiagram = Construction[AccelerationGivens]
@@ -77,12 +79,20 @@ MEANING = Meaning(
 
 
 def acceleration_diagram(
-    motion: Motion, stations: Stations, ordinate: float, mu_phi: Scale, unit: str, pencil: Pencil
+    motion: Motion,
+    stations: Stations,
+    ordinate: float,
+    mu_phi: Scale,
+    unit: str,
+    pencil: Pencil,
+    *,
+    omega: float | None = None,
 ) -> AccelerationDiagram:
     """Lay off the cam angle, choose the ordinate of the first rise, compute the others, plot the middle ordinates.
 
     ordinate : greatest ordinate of the first rise [mm of paper]
     mu_phi : scale of the cam angle [rad/mm];  unit : of the lift
+    omega : of the cam [rad/s], where the task gives a speed: then the axis is one of time too
 
     Readings besides those of the meaning: ordinates at the ``stations``, and ``before``, on the near side of a jump.
     Points: the stations on the ``axis``.
@@ -116,8 +126,8 @@ def acceleration_diagram(
         hand.read(name, between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
     hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
     hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
-    givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit)
-    return hand.finished(givens, _draw, {"axis": axis})
+    givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit, omega=omega)
+    return hand.finished(givens, _draw, {"axis": axis, "stations": plotted, "before": nearer})
 
 
 def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:
@@ -186,12 +196,14 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     """The axes, for ordinates of these ``heights`` [mm]."""
     motion, mu_phi, stations = diagram.givens.motion, diagram.givens.mu_phi, diagram.givens.stations
+    omega = diagram.givens.omega
     turn, ends = diagram.acts["turn"], phase_ends(motion, mu_phi)
     told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
     said = say(
         "Draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is {degree:.4g}° and μᵩ = "
         "{mu:.5f} rad/mm. From its left end set off {ends} mm, where the phases end, and draw a vertical at each."
     ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm, ends=told)
+    said = said if omega is None else sequence([said, axis_said(mu_phi, omega)], " ")
     level = say("With T-square and ruler draw the axis, {length:.1f} mm long.", length=ends[-1])
     upright = say(
         "From its left end set off {ends} mm with the ruler; draw verticals there with the set square.", ends=told
@@ -205,7 +217,8 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     title = say("Axis of the cam angle")
     why = say("Because all diagrams are drawn over the cam angle, one axis with one scale serves them all.")
     parts = Part(level, (turn.first,)), Part(upright, (cuts,))
-    under = degrees_below(ends[-1], mu_phi, reach(heights)[0])
+    under = degrees_below(ends[-1], mu_phi, low := reach(heights)[0])
+    under += times_below(ends[-1], mu_phi, low, omega, phases=False)
     return Step(title, said, ACCELERATION, axes, ("base",), given=axes, why=why, parts=parts, under=under)
 
 

@@ -4,10 +4,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import numbers, ordinate, phases_below, phi_axes, pieces_of, reach, station_names
+from graphcam.constructions.axes import (
+    numbers,
+    ordinate,
+    phase_ends,
+    phases_below,
+    phi_axes,
+    pieces_of,
+    reach,
+    station_names,
+)
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.pressure_angle import MeasuredAngles
+from graphcam.constructions.time_axis import times_below
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
@@ -95,6 +105,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         *phi_axes(motion, mu_phi, heights, ordinate("α", givens.unit)),
         *graduated(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
         *phases_below(motion, mu_phi, reach(heights)[0]),
+        *times_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0], givens.omega),
         *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
     met = say("At {first}, where the acceleration jumps, it has a corner.")

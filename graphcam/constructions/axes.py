@@ -156,7 +156,7 @@ def phase_symbol(motion: Motion, k: int) -> Caption:
     ...     gc.Dwell(FULL_TURN - 5.0)]), 3))
     'φ₄'
     """
-    kinds = [_kind(motion, i) for i in range(len(motion.phases))]
+    kinds = [phase_kind(motion, i) for i in range(len(motion.phases))]
     again = f"{kinds[: k + 1].count(kinds[k])}" if kinds.count(kinds[k]) > 1 else ""
     number = PhaseNumber(f"{k + 1}".translate(SUBSCRIPTS), again.translate(SUBSCRIPTS))
     return SYMBOLS[kinds[k]].where(number=number)
@@ -164,7 +164,7 @@ def phase_symbol(motion: Motion, k: int) -> Caption:
 
 def phase_title(motion: Motion, k: int) -> Caption:
     """The name of phase ``k`` with its symbol: "rise φ₁"."""
-    return PHASES[_kind(motion, k)].where(symbol=phase_symbol(motion, k))
+    return PHASES[phase_kind(motion, k)].where(symbol=phase_symbol(motion, k))
 
 
 def phase_angle(motion: Motion, k: int) -> Caption:
@@ -172,8 +172,13 @@ def phase_angle(motion: Motion, k: int) -> Caption:
     return say("{symbol} = {angle}", symbol=phase_symbol(motion, k), angle=degrees(motion.phases[k].angle))
 
 
-def _kind(motion: Motion, k: int) -> str:
-    """The kind of phase ``k``, of a dwell with where it rests."""
+def phase_kind(motion: Motion, k: int) -> str:
+    """The kind of phase ``k``, of a dwell with where it rests.
+
+    >>> import graphcam as gc
+    >>> phase_kind(gc.Motion([gc.Rise(30, 2.0), gc.Return(30, 2.0), gc.Dwell(FULL_TURN - 4.0)]), 2)
+    'lower dwell'
+    """
     kind, level = motion.phases[k].kind, motion.levels[k]
     if kind != "dwell":
         return kind
@@ -198,7 +203,7 @@ def ordinate(symbol: str, lift_unit: str) -> Caption:
     >>> str(ordinate("a", "mm")), str(ordinate("α", "mm"))
     ('a, mm/rad²', 'α, °')
     """
-    per = {"s": "", "v": "/rad", "a": "/rad²"}
+    per = {"s": "", "v": "/rad", "a": "/rad²", "j": "/rad³"}
     return say("{symbol}, {unit}", symbol=symbol, unit=unit(lift_unit + per[symbol]) if symbol in per else "°")
 
 

@@ -160,6 +160,7 @@ class Board:
     omega : of the cam [rad/s], where the task gives a speed
     station : whose velocity plan is asked for, None for the one that shows most
     refine : divides every part again, to see what finer parts would change
+    jerk_pole : of the diagram of the jerk [mm of paper], None where none is asked for
     """
 
     motion: Motion
@@ -178,8 +179,11 @@ class Board:
     omega: float | None = None
     refine: int = 1
     station: int | None = None
+    jerk_pole: float | None = None
 
     @cached_property
     def stations(self) -> Stations:
         """The phases, divided."""
-        return divide(self.motion, self.divisions, self.refine, at_corners=self.follower.divides_at_corners)
+        # No chord of the acceleration may run across a corner, where the jerk jumps.
+        at_corners = self.follower.divides_at_corners or self.jerk_pole is not None
+        return divide(self.motion, self.divisions, self.refine, at_corners=at_corners)

@@ -23,6 +23,7 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.differentiation import measured_differentiation
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
+from graphcam.constructions.jerk import jerk
 from graphcam.constructions.roller import roller_radius
 from graphcam.constructions.scheme import scheme
 from graphcam.constructions.views import PROFILE
@@ -72,9 +73,12 @@ class Chain(Drawings):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the constructions that the follower has, of a measured motion's differentiation, and of those added."""
+        """Of the follower's constructions, of the jerk if asked for, of a measured motion, and of those added."""
         measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
-        return (*self.board.follower.constructions, *measured, *self.further)
+        drawn = list(self.board.follower.constructions)
+        if self.board.jerk_pole is not None:
+            drawn.insert(drawn.index("integration") + 1, "jerk")
+        return (*drawn, *measured, *self.further)
 
     @DrawnOnce
     def scheme(self) -> Construction:
@@ -85,13 +89,19 @@ class Chain(Drawings):
     def acceleration(self) -> Construction:
         """The acceleration diagram."""
         board, unit = self.board, self.board.follower.unit
-        return acceleration_diagram(board.motion, board.stations, board.ordinate, board.mu_phi, unit, self.pencil)
+        given = board.motion, board.stations, board.ordinate, board.mu_phi, unit
+        return acceleration_diagram(*given, self.pencil, omega=board.omega)
 
     @DrawnOnce
     def integration(self) -> Construction:
         """Velocity and displacement by two graphical integrations."""
         lowest = "angle_diagram" not in self.names
         return integration(self.acceleration, self.board.poles, self.pencil, lowest=lowest)
+
+    @DrawnOnce
+    def jerk(self) -> Construction:
+        """The jerk by differentiation of the acceleration diagram, where it is asked for."""
+        return jerk(self.integration, self.board.jerk_pole or self.board.poles[0], self.pencil)
 
     @DrawnOnce
     def differentiation(self) -> Construction:

@@ -32,6 +32,7 @@ from graphcam.constructions.axes import (
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
@@ -309,9 +310,20 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
-        axes += phases_below(motion, mu_phi, reach(heights)[0]) if c.givens.lowest else ()
+        if c.givens.lowest:
+            low = reach(heights)[0]
+            axes += phases_below(motion, mu_phi, low)
+            axes += times_below(phase_ends(motion, mu_phi)[-1], mu_phi, low, c.givens.omega)
     numbered = run.index == 2 and c.givens.lowest
-    under = () if numbered else degrees_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0])
+    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
+    under = (
+        ()
+        if numbered
+        else (
+            *degrees_below(end, mu_phi, low),
+            *times_below(end, mu_phi, low, omega, phases=False),
+        )
+    )
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -437,6 +449,12 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act)
+    if c.givens.omega is not None and name != "s":
+        said_too = scale_said(mu, name, c.givens.omega, c.givens.unit)
+        told = sequence([told, said_too], " ")
+        divided += graduated_at_speed(
+            heights, mu, name, c.givens.omega, c.givens.unit, float(turn), c.readings[name].act
+        )
     parts = Part(found, () if of is None else (of,)), Part(told, ())
     said = sequence([found, told], " ")
     return Step(title, said, view, (*marks, *divided), reads, why=why, parts=parts)

@@ -8,6 +8,7 @@ from graphcam.drafting.scale import Scale, ratio_text
 ACCELERATION = View(
     "acceleration", say("Acceleration"), across="phi", up="a", scale=say("Acceleration a, μₐ = {mu:.4g} ({unit})/mm")
 )
+JERK = View("jerk", say("Jerk"), across="phi", up="j", scale=say("Jerk j, μⱼ = {mu:.4g} ({unit})/mm"))
 VELOCITY = View("velocity", say("Velocity"), across="phi", up="v", scale=say("Velocity v, μᵥ = {mu:.4g} ({unit})/mm"))
 DISPLACEMENT = View(
     "displacement", say("Displacement"), across="phi", up="s", scale=say("Displacement s, μₛ = {mu:.4g} {unit}/mm")

@@ -8,19 +8,21 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.axes import SUBSCRIPTS, phase_kind, station_names
 from graphcam.constructions.profile_view import Inverted, piecewise_curve
 from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role
+from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text
 from graphcam.given.follower import sense
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 from graphcam.words import say_many, sequence
 
@@ -70,6 +72,7 @@ def working_profile(
 
     rolled, measured : what the rule proposed, and the pressure angles, for the steps to compare with
 
+    Readings besides those of the meaning: ``low_dwells``, the angles (..., k) of the arcs of the lower dwells, if any.
     Points: ``touch`` (..., m), NaN where covered; ``covered`` the touch points that were dropped.
     """
     hand, mu_l = Hand(pencil, MEANING), inverted.givens.mu_l.per_mm
@@ -85,8 +88,42 @@ def working_profile(
     touch = hand.take("touch", found, nowhere, which=np.where(covered, at.size, at))
     dropped = hand.take("covered", found, nowhere, which=np.where(covered, at, at.size))
     hand.read("radius", between(hand.given("cam centre"), touch), mu_l)
+    _measure_dwells(hand, inverted, touch)
     givens = ProfileGivens(inverted, roller, rolled, measured)
     return hand.finished(givens, _draw, {"touch": touch, "covered": dropped})
+
+
+def low_dwells(inverted: Inverted) -> list[tuple[int, int, int]]:
+    """The lower dwells: the number of each among all phases, and the stations at which its arc begins and ends."""
+    motion, phase = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations.phase
+    found: list[tuple[int, int, int]] = []
+    for k in range(len(motion.phases)):
+        if phase_kind(motion, k) == "lower dwell":
+            end = int(np.searchsorted(phase, k))
+            found.append((k, (end - 1) % phase.size, end % phase.size))
+    return found
+
+
+def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
+    """Measure the angles between the radii to the ends of the arcs of the lower dwells."""
+    dwells, motion = low_dwells(inverted), inverted.givens.integrated.givens.motion
+    if not dwells:
+        return
+    centre, (numbers, starts, ends) = hand.given("cam centre"), np.array(dwells).T
+    first, last = (
+        hand.join(f"radii to the {name} of the dwells", centre, touch[at])
+        for name, at in (("start", starts), ("end", ends))
+    )
+    angles = hand.angle("angles of the radii", first, last, -sense(inverted.givens.rotation))
+    given = np.array([motion.phases[k].angle for k in numbers])
+    hand.read(
+        "low_dwells", reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles)), 1.0, "rad", rounded=False
+    )
+
+
+def _beyond_a_half_turn(given: Floats, measured: Floats) -> Floats:
+    """The angles as a protractor tells them, or what they leave of the turn, whichever is the arc's."""
+    return measured + FULL_TURN * np.round((given - measured) / FULL_TURN)
 
 
 def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
@@ -134,8 +171,9 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 def _draw(profile: Profile) -> list[Step]:
     rounded = [_rounded(profile, profile.givens.rolled)] if profile.givens.rolled else []
     if not profile.givens.roller_radius:
-        return [_envelope(profile)]
-    return [*rounded, _circles(profile), _touched(profile), _envelope(profile), _angles(profile)]
+        return [_envelope(profile), *_arcs_of_dwells(profile)]
+    steps = [*rounded, _circles(profile), _touched(profile), _envelope(profile), _angles(profile)]
+    return [*steps, *_arcs_of_dwells(profile)]
 
 
 def _rounded(profile: Profile, rolled: Rolled) -> Step:
@@ -274,6 +312,49 @@ def _angles(profile: Profile) -> Step:
         caption = sequence([caption, differ], " ")
     why = say("Because the roller presses along the common normal, which runs through its centre.")
     return Step(say("Pressure angles on the profile"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+
+
+DIMENSION = 0.82
+"""The arc that shows the angle of a lower dwell has this part of the radius there."""
+
+
+def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
+    """The angles of the arcs of the lower dwells, on which the profile does no work."""
+    inverted, measured = profile.givens.inverted, profile.acts.get("radii to the start of the dwells")
+    if measured is None:
+        return
+    sigma, touch = sense(inverted.givens.rotation), profile.acts["touch"].first
+    marks, parts, told = list[Mark](), list[Part](), list[Caption]()
+    for (k, start, end), angle in zip(low_dwells(inverted), profile.value("low_dwells").tolist(), strict=True):
+        if math.isnan(angle):
+            continue
+        places, direction = touch[[start, end]], float(np.angle(touch[start].place))
+        limits, degrees = sorted((direction, direction - sigma * angle)), math.degrees(angle)
+        symbol = say("δ{index}", index=f"{k + 1}".translate(SUBSCRIPTS))
+        said = say("{symbol} = {angle:.1f}°", symbol=symbol, angle=degrees)
+        radius = DIMENSION * abs(touch[start].place)
+        marks += [
+            Segments(0 * places.shown, places.shown, Role.AXIS, of=places.act, index=places.index),
+            AngleMark(0j, radius, *limits, said, places.act, places.index[:1]),
+        ]
+        told.append(said)
+        names = [_names(profile)[at] for at in (start, end)]
+        each = say(
+            "Join A to touch points {start} and {end}, between which the follower rests at the bottom, and measure the "
+            "angle of the arc: {said}; {rest:.1f}° are left of the turn."
+        )
+        parts.append(Part(each.where(start=names[0], end=names[1], said=said, rest=360 - degrees), (places,)))
+    if not parts:
+        return
+    caption = say(
+        "Draw the radii to the ends of the arc of the lower dwell on the working profile and measure with a "
+        "protractor the angle between them: {told}."
+    ).where(told=sequence(told, "; "))
+    why = say(
+        "Because the follower rests on an arc about the cam centre, whose angle is that of the dwell; the rest of the "
+        "profile, which moves the follower, is its working part."
+    )
+    yield Step(say("Angle of the lower dwell"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))
 
 
 SAME_ANGLE = 0.05

@@ -7,7 +7,8 @@ from graphcam.words import Caption, say
 UNITS: Mapping[str, Caption] = {
     str(unit): unit
     for unit in (
-        *(say("mm"), say("mm/rad"), say("mm/rad²"), say("rad"), say("rad/rad"), say("rad/rad²"), say("deg")),
+        *(say("mm"), say("mm/rad"), say("mm/rad²"), say("mm/rad³"), say("rad"), say("rad/rad"), say("rad/rad²")),
+        *(say("rad/rad³"), say("deg"), say("m/s³"), say("rad/s³")),
         *(say("mm of paper"), say("m"), say("s"), say("m/s"), say("m/s²"), say("rad/s"), say("rad/s²"), say("N")),
         *(say("N·mm"), say("N/mm"), say("N·mm/rad"), say("MPa")),
         *(say("µm"), say("µm/rad"), say("mrad"), say("mrad/rad"), say("mrad/rad²")),

@@ -185,6 +185,11 @@ class Law:
         return self.peaks[1] if self.peaks else self._greatest(2)
 
     @cached_property
+    def peak_jerk(self) -> float:
+        """C_j = max |f'''| between the jumps of the acceleration, so j_max = C_j h/F^3."""
+        return self._greatest(3)
+
+    @cached_property
     def breaks(self) -> tuple[float, ...]:
         """The inner places u where a derivative may jump, in order."""
         # Where a formula meets its own mirror image, only the acceleration can jump.
@@ -226,7 +231,7 @@ class Law:
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
     def _greatest(self, order: int) -> float:
-        """The greatest |f'| or |f''|, of both sides of a jump, to full precision."""
+        """The greatest magnitude of a derivative, of both sides of a jump, to full precision."""
         low, high = self._parts()
         while True:
             u = np.linspace(low, high, 9)

@@ -202,3 +202,14 @@ def max_acceleration(motion: Motion) -> float:
     30.0
     """
     return max(p.normalised.peak_acceleration * p.lift / p.angle**2 for p in motion.phases if not isinstance(p, Dwell))
+
+
+def max_jerk(motion: Motion) -> float:
+    """The greatest finite |j| over the turn [mm/rad^3]: where the acceleration jumps, the jerk is infinite.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> round(max_jerk(gc.Motion([gc.Rise(30, 2.0, "3-4-5"), gc.Return(30, 2 * pi - 2, "3-4-5")])), 9)
+    225.0
+    """
+    return max(p.normalised.peak_jerk * p.lift / p.angle**3 for p in motion.phases if not isinstance(p, Dwell))

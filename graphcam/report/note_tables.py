@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphcam.comparison.quantities import Quantity
+from graphcam.comparison.quantities import Quantity, transmission_deg
 from graphcam.constructions.axes import station_names
 from graphcam.drafting.units import unit
 from graphcam.given.laws import Floats
@@ -24,11 +24,11 @@ Column = tuple[str, Floats, Floats, int]
 
 
 def at_stations(solution: Solution) -> str:
-    """s, v, a and the pressure angle at the stations, drawn and exact."""
+    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact."""
     of_lift = solution.chain.board.follower.unit
     said = say(
-        "Displacement s in {s}, velocity v in {v}, acceleration a in {a} and pressure angle α in degrees, drawn "
-        "and exact. The acceleration at both ends of a phase is the one inside the phase.",
+        "Displacement s in {s}, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
+        "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase.",
         **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
     )
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
@@ -38,6 +38,7 @@ def at_stations(solution: Solution) -> str:
         for name, values in zip(("s", "v", "a"), exact.values, strict=False)
     ]
     columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
+    columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
     told = station_table(station_names(stations), stations.phi, columns, solution.tell)
     return blocks(said, told, tell=solution.tell)
 

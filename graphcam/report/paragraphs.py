@@ -319,7 +319,16 @@ def working_profile(solution: Solution) -> str:
         "Its radii at the stations run from {least} to {greatest} mm.",
         **numbers(least=np.nanmin(radii), greatest=np.nanmax(radii)),
     )
-    return solution.tell(sequence([how, runs, *_undercut(solution, radius)], " "))
+    return solution.tell(sequence([how, runs, *_undercut(solution, radius), *_low_dwells(profile)], " "))
+
+
+def _low_dwells(profile: Construction) -> list[Caption]:
+    """The angles of the arcs of the lower dwells, as they are measured on the profile."""
+    if "low_dwells" not in profile.readings:
+        return []
+    known = [angle for angle in np.degrees(profile.value("low_dwells")).tolist() if not math.isnan(angle)]
+    said = say("On the working profile the arc of the lower dwell takes {angles}.")
+    return [said.where(angles=joined([say("{angle}°", angle=number(angle, 1)) for angle in known]))] if known else []
 
 
 def _undercut(solution: Solution, radius: float) -> list[Caption]:

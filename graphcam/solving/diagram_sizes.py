@@ -1,12 +1,15 @@
 """How large the diagrams over the cam angle are drawn where the task leaves it open: the ordinate and the poles."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import count
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion, Rise
@@ -24,6 +27,8 @@ LOW = 0.7
 """A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
 LONGEST_POLE = 0.25
 """Of the axis of the cam angle: a longer pole would take the room of the diagrams."""
+WITH_JERK = 0.75
+"""So much of their heights the diagrams keep where that of the jerk shares their column."""
 SAMPLES = 361
 """Of each phase, however short it is."""
 
@@ -42,6 +47,12 @@ class DiagramRoom:
     v: float
     s: float
     pole: float = math.inf
+
+    @property
+    def beside_jerk(self) -> DiagramRoom:
+        """The same where the jerk stands in the column too."""
+        a, v, s = (WITH_JERK * high for high in (self.a, self.v, self.s))
+        return replace(self, a=a, v=v, s=s)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +116,17 @@ class DrawnHeights:
             first = next(y for y in _ordinates() if y <= min(first, largest))
         return first, found
 
+    def jerk_pole(self, room: DiagramRoom, ordinate: float) -> float:
+        """The longest pole of a round series at which the jerk keeps to the room of the velocity."""
+        rise = next(phase for phase in self.motion.phases if isinstance(phase, Rise))
+        mu_a = rise.normalised.peak_acceleration * rise.lift / rise.angle**2 / ordinate
+        phase, u = _places(self.motion)
+        sides = np.concatenate([self.motion.at(phase, u, side)[3] for side in ("right", "left")])
+        # A pole of 1 mm cuts off the slope of the acceleration on paper.
+        height = _height(sides) * math.radians(self.degrees_per_mm) / mu_a
+        longest = min(LONGEST_POLE * self.turn, room.pole)
+        return next(pole for pole in _jerk_poles(longest) if pole * height <= room.v)
+
     def _chosen_ordinate(self, room: DiagramRoom, most: DiagramRoom) -> float:
         """The largest of a round series at which the acceleration keeps to its room."""
         a, _, _ = self.unit
@@ -142,13 +164,25 @@ class DrawnHeights:
 @lru_cache(maxsize=16)  # because an arm's scale is chosen by it too
 def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
     """s, v and a at many places of every phase."""
+    return motion.at(*_places(motion))[:3]
+
+
+def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
+    """Phases and fractions of them."""
     phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, SAMPLES), indexing="ij")
-    return motion.at(phase.ravel(), u.ravel())[:3]
+    return phase.ravel(), u.ravel()
 
 
 def _height(values: Floats) -> float:
     """Of a whole diagram, with its axis."""
     return float(max(0.0, values.max()) - min(0.0, values.min()))
+
+
+def _jerk_poles(longest: float) -> Iterator[float]:
+    """Those that are usually chosen from, the longest first, and ever smaller ones."""
+    yield from (pole for pole in reversed(POLES) if pole <= longest)
+    for k in count(0):
+        yield from (y / 10**k for y in (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.2))
 
 
 def _ordinates() -> Iterator[float]:

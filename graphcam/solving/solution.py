@@ -9,15 +9,19 @@ from typing import Any
 import numpy as np
 
 from graphcam import __version__
-from graphcam.comparison.quantities import Comparison
+from graphcam.comparison.quantities import Comparison, transmission_deg
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
+from graphcam.constructions.time_axis import SYMBOLS, scale_at_speed, time_scale
+from graphcam.constructions.working_profile import low_dwells
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
+from graphcam.given.impact import acceleration_jumps
+from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
-from graphcam.solving.shown_solution import FILES, ShownSolution, plain_quantities, plain_stations
+from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
@@ -121,11 +125,23 @@ class Solution(ShownSolution):
             "scales": self.scales,
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
+            "low_dwells": self._low_dwells(),
+            **({"jerk": self._plain_jerk()} if "jerk" in self.drawn else {}),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
             **({"contact_stress": self.stress.to_dict()} if self.stress else {}),
             **({"tolerances": self.tolerances.to_dict()} if self.tolerances else {}),
             "files": dict.fromkeys(FILES),
         }
+
+    def _low_dwells(self) -> list[dict[str, Any]]:
+        """The arcs of the lower dwells on the working profile: their angles, which are those of the dwells."""
+        profile, motion = self.drawn["working_profile"], self.cam.motion
+        dwells = low_dwells(profile.givens.inverted)
+        angles = np.degrees(profile.value("low_dwells")).tolist() if dwells else []
+        return [
+            {"phase": k, "angle_deg": {"drawn": plain_number(drawn), "exact": math.degrees(motion.phases[k].angle)}}
+            for (k, *_), drawn in zip(dwells, angles, strict=True)
+        ]
 
     @property
     def _lift(self) -> tuple[float, str]:
@@ -137,11 +153,46 @@ class Solution(ShownSolution):
         """What a millimetre of paper stands for in the diagrams, by the names of their axes."""
         readings, (factor, unit) = self.chain["integration"].readings, self._lift
         scales = {name: readings[name].per_mm for name in ("s", "v", "a")}
+        third = self.drawn["jerk"].readings["j"] if "jerk" in self.drawn else None
         return {
             "phi": {"per_mm": math.degrees(self.chain.board.mu_phi.per_mm), "unit": "deg"},
             "s": {"per_mm": factor * scales["s"], "unit": unit},
             "v": {"per_mm": scales["v"], "unit": readings["v"].unit},
             "a": {"per_mm": scales["a"], "unit": readings["a"].unit},
+            **({} if third is None else {"j": {"per_mm": third.per_mm, "unit": third.unit}}),
+            **self._scales_at_speed(scales | ({} if third is None else {"j": third.per_mm})),
+        }
+
+    def _scales_at_speed(self, scales: Mapping[str, float]) -> dict[str, Any]:
+        """The scales over time, where the task gives a speed."""
+        board = self.chain.board
+        if board.omega is None:
+            return {}
+        of_time = {"t": time_scale(board.mu_phi, board.omega)}
+        of_time |= {
+            f"{name}_at_speed": scale_at_speed(scales[name], name, board.omega, board.follower.unit)
+            for name in SYMBOLS
+            if name in scales
+        }
+        return {name: {"per_mm": scale.per_mm, "unit": scale.unit} for name, scale in of_time.items()}
+
+    @cached_property
+    def exact_jerk(self) -> Floats:
+        """(p,) the exact jerk in the middle of every part of the moving phases, per radian of the cam."""
+        stations, left = self.chain.board.stations, self.chain.board.stations.left
+        return self.cam.motion.at(stations.phase[left], (stations.u[left] + stations.u[left + 1]) / 2)[3]
+
+    def _plain_jerk(self) -> dict[str, Any]:
+        """The jerk in the middles of the parts, and where the acceleration jumps, so that it is infinite."""
+        drawn, unit = self.drawn["jerk"], self.drawn["jerk"].readings["j"].unit
+        rows = zip(np.degrees(drawn.value("j_at")).tolist(), drawn.value("j").tolist(), self.exact_jerk, strict=True)
+        return {
+            "unit": unit,
+            "parts": [{"phi_deg": phi, "j": {"drawn": value, "exact": float(exact)}} for phi, value, exact in rows],
+            "infinite": [
+                {"phi_deg": math.degrees(jump.phi), "a_before": jump.before, "a_after": jump.after}
+                for jump in acceleration_jumps(self.cam.motion)
+            ],
         }
 
     def _stations(self) -> list[dict[str, Any]]:
@@ -154,6 +205,7 @@ class Solution(ShownSolution):
             "v": (drawn["v"], v),
             "a": (drawn["a"], a),
             "pressure_angle_deg": (np.degrees(drawn["alpha"]), np.degrees(alpha)),
+            "transmission_angle_deg": (transmission_deg(drawn["alpha"]), transmission_deg(alpha)),
         }
         pitch = np.stack([drawn["x"], drawn["y"]], axis=-1), exact.pitch
         return plain_stations(stations.phi, stations.phase.tolist(), pairs, pitch)

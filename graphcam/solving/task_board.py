@@ -26,6 +26,7 @@ def board_of(task: Task) -> Board:
     drawing, motion = task.drawing, task.motion()
     follower = drawn_follower(task.follower, task)
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
+    room = room.beside_jerk if drawing.jerk else room
     heights = DrawnHeights(motion, room.degrees_per_mm)
     ordinate, poles = heights.chosen(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
     return Board(
@@ -43,6 +44,7 @@ def board_of(task: Task) -> Board:
         rounding=drawing.rounding,
         omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
         paper=profile_paper(drawing),
+        jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
 
 

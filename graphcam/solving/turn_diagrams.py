@@ -119,7 +119,9 @@ def diagram_step(diagram: TurnDiagram) -> Step:
     for found, said in diagram.marked:
         place = found.phi / mu_phi.per_mm + UP * found.value / mu.per_mm
         side = -UP if found.value <= np.nanmean(diagram.curve.values) else UP
-        marks += [Dots(np.array([place]), Role.LIMIT), Label(place, said, towards=side)]
+        # Beside the mark, for over it stands the line of a phase's end, where extremes often lie.
+        beside = 1 if place.real < WIDTH / 2 else -1
+        marks += [Dots(np.array([place]), Role.LIMIT), Label(place, said, towards=side + beside)]
     if diagram.limit is not None:
         across = np.array([0.0, WIDTH]) + UP * level[0]
         marks += [Line(across, Role.LIMIT), Label(complex(across[1]), diagram.limit[1], towards=UP - 1)]

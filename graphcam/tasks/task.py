@@ -206,12 +206,14 @@ class DrawingTable(SheetTable):
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
         in proportion to the axis, or what makes the diagrams neither too high nor too low
     rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
+    jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
 
     divisions: int = 12
     ordinate: float | None = None
     poles: tuple[float, float] | None = None
     rounding: float | None = None
+    jerk: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -280,6 +280,8 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
     match fault:
         case Misfit(table, error):
             return _misfit(path, data, table, error)
+        case Missing(("spring", "mass")) if _swings(data):
+            return TaskError(path, "spring.inertia", Unquoted("missing"), "given", "in kg mm^2, about the arm's pivot")
         case Missing():
             return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
         case UnknownKey(where):
@@ -290,6 +292,12 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
         case WrongType(_, expected):
             return TaskError(path, place, _shown(value), expected, EXAMPLE)
+
+
+def _swings(data: dict[str, Any]) -> bool:
+    """Whether a file's follower is an arm, which has a moment of inertia in place of a mass."""
+    follower = data.get("follower")
+    return isinstance(follower, dict) and follower.get("kind") == "oscillating"
 
 
 def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...]) -> TaskError:

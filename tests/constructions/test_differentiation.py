@@ -11,14 +11,17 @@ from boards import board_of, coursework_motion, order
 from numpy.testing import assert_allclose
 
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.differentiation import differentiation
+from graphcam.constructions.differentiation import differentiation, measured_differentiation
 from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.slips import SQUARE
 from graphcam.errors import DesignError
+from graphcam.given.boundary_motion import boundary_motion
+from graphcam.given.boundary_parts import PolynomialPart, SplinePart
 from graphcam.given.measured import measured_motion
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.motion_point import MotionPoint
 from graphcam.given.roller_rule import roller_rule
 
 TURN = 360.0
@@ -250,6 +253,45 @@ def test_both_ways_come_to_the_same_motion():
         differences.append(abs(values[0] / values[1] - 1))
     assert differences[0] < 0.02
     assert differences[2] < 0.002
+
+
+def conditioned_motion():
+    """A motion by conditions: a polynomial of degree 6 up, back and at rest, and a spline in one part of the turn."""
+    low, top = {"s": 0.0, "v": 0.0, "a": 0.0}, MotionPoint(1.4, s=20.0)
+    polynomial = PolynomialPart([MotionPoint(0.0, **low), top, MotionPoint(2.6, **low)])
+    values = ((3.4, 5.0), (3.9, 12.0), (4.6, 6.0))
+    between_ = [MotionPoint(phi, s=s) for phi, s in values]
+    return boundary_motion([polynomial, SplinePart([MotionPoint(2.9, **low), *between_, MotionPoint(5.3, **low)], 5)])
+
+
+@pytest.mark.parametrize("by", ["chords", "tangents"])
+@pytest.mark.parametrize("name", ["v", "a"])
+def test_a_motion_by_conditions_is_differentiated_to_second_order(name, by):
+    """Of a motion whose jerk jumps at its joints, away from these; the exact values are its own polynomials'."""
+    motion, derivative, errors = conditioned_motion(), {"v": 1, "a": 2}[name], []
+    for n in (48, 96, 192, 384):
+        x = np.arange(n) * TURN / n
+        s = motion(x * MU_PHI.per_mm)[0] / MU_S.per_mm
+        c = differentiation(x, s, MU_PHI, MU_S, POLES, Pencil(), turn=TURN, by=by)
+        at = c.value(f"{name}_at")
+        gaps = np.abs(at[:, None] - np.append(motion.breaks, FULL_TURN)).min(axis=1)
+        off = np.abs(c.value(name) - motion(at)[derivative])
+        errors.append(np.max(off[gaps > 0.15]))
+    assert order((48, 96, 192, 384), errors) == pytest.approx(2.0, abs=0.15)
+
+
+def test_what_is_differentiated_of_a_motion_by_conditions_is_what_the_chain_integrates():
+    """Both of second order: they come together as the parts become finer."""
+    differences = []
+    for n in (12, 24, 48):
+        chain = Chain(board_of(conditioned_motion(), divisions=n))
+        integrated, motion = chain["integration"], conditioned_motion()
+        mu_s = Scale(float(integrated.readings["s"].scale), "mm")
+        parts = n * len(motion.phases)
+        drawn_ = measured_differentiation(motion, parts, chain.board.mu_phi, mu_s, POLES, Pencil())
+        differences.append(abs(float(drawn_.value("max_v")) / float(integrated.value("max_v")) - 1))
+    assert differences[-1] < 0.005
+    assert differences[-1] < 0.5 * differences[0]
 
 
 def test_many_hands_differentiate_at_once():

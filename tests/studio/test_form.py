@@ -77,6 +77,40 @@ def test_every_kind_of_follower_that_is_offered_can_be_drawn(name):
         assert other.chain.prime_radius > 0
 
 
+TRANSLATING_SPRING = {"mass": 2.0, "stiffness": 3.0, "preload": 50.0, "friction": 0.05}
+ARM_SPRING = {"inertia": 1500.0, "stiffness": 4000.0, "load": 2.0}
+AT_A_POINT = {"inertia": 1500.0, "stiffness": 4.0, "preload": 30.0, "at": {"arm": 60.0, "anchor": [40.0, 20.0]}}
+
+
+@pytest.mark.parametrize(
+    ("name", "spring", "kind", "kept"),
+    [
+        ("coursework", TRANSLATING_SPRING, "oscillating", {"friction": 0.05}),
+        ("coursework", TRANSLATING_SPRING, "flat-faced", TRANSLATING_SPRING),
+        ("arm", ARM_SPRING, "translating", {"load": 2.0}),
+        ("arm", AT_A_POINT, "translating", {"stiffness": 4.0, "preload": 30.0}),
+    ],
+)
+def test_another_follower_keeps_its_spring_and_material(name, spring, kind, kept):
+    """The mass at the end of an arm has the moment of inertia m l^2, and a spring there turns with c l^2."""
+    task = changed(plain_task(name), {"speed_rpm": 120.0, "spring": spring, "material": {"width": 15.0}})
+    solution = gc.solve(rebuilt(task))
+    kinds = next(field for field in form_of(solution, str) if field["path"] == "follower.kind")
+    choice = next(each for each in kinds["choices"] if each["value"] == kind)
+    other = gc.solve(rebuilt(changed(task, choice["changes"])))
+    assert kept.items() <= other.task.to_dict()["spring"].items()
+    assert other.task.material == solution.task.material
+    arm = other.task.follower.arm if kind == "oscillating" else getattr(solution.task.follower, "arm", 1.0)
+    own, new = solution.task.spring, other.task.spring
+    if kind == "oscillating":
+        assert new.inertia == pytest.approx(own.mass * arm**2, rel=1e-3)
+        assert new.stiffness == pytest.approx(own.stiffness * arm**2, rel=1e-3)
+        assert new.preload == pytest.approx(own.preload * arm, rel=1e-3)
+    if name == "arm":
+        assert new.mass == pytest.approx(own.inertia / arm**2, rel=1e-3)
+        assert "at" in spring or new.stiffness == pytest.approx(own.stiffness / arm**2, rel=1e-3)
+
+
 def test_only_followers_that_a_table_goes_with_are_offered():
     measured = gc.builtin_task("measured")
     assert "motion.phases" not in {field["path"] for field in form_of(gc.solve(measured), str)}

@@ -1,0 +1,278 @@
+"""The jerk, by graphical differentiation of the acceleration diagram as it is drawn.
+
+The chords between neighbouring stations of the acceleration are carried to a pole: a parallel through it cuts off the
+height y = H dy/dx on the vertical axis, which is the jerk in the middle of the part, to second order.  So the scale is
+mu_j = mu_a/(mu_phi H3).  No chord is drawn across a jump or a corner of the acceleration: both fall on stations.  To
+the ends of such a stretch the curve is carried on straight through its last two points, which is of second order too.
+Where the acceleration jumps, the jerk is infinite: an arrow stands for it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.constructions.axes import (
+    degrees,
+    degrees_below,
+    height_names,
+    ordinate,
+    part_names,
+    part_titles,
+    phase_ends,
+    phi_axes,
+    pole_marks,
+    reach,
+    station_names,
+    together,
+)
+from graphcam.constructions.graduation import graduated
+from graphcam.constructions.integration import Integrated
+from graphcam.constructions.slope_numbers import falling_together
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
+from graphcam.constructions.views import ACCELERATION, JERK
+from graphcam.drafting.acts import Drawn
+from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
+from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.units import unit
+from graphcam.given.impact import acceleration_jumps
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
+from graphcam.given.stations import Stations
+from graphcam.words import sequence
+
+INFINITE, BEYOND = 14.0, 5.0
+"""An arrow for an infinite jerk is at least so long, and so much longer than the curve is high [mm of paper]."""
+
+ASIDE = 6.0
+"""The graduation stands so far beside an arrow at the end of the turn [mm of paper]."""
+
+
+@dataclass(frozen=True, eq=False)
+class JerkGivens:
+    """The diagrams, and the distance of the pole [mm of paper]."""
+
+    integrated: Integrated
+    pole: float
+
+
+DrawnJerk = Construction[JerkGivens]
+
+
+def _parts(drawn: DrawnJerk) -> list[Caption]:
+    return part_titles(drawn.givens.integrated)
+
+
+MEANING = Meaning(
+    "jerk",
+    say("Jerk"),
+    say(
+        "The jerk is the slope of the acceleration: a parallel through the pole to a chord of a cuts it off. It is "
+        "drawn by differentiation, which enlarges the errors of the hand; where the acceleration jumps it is infinite."
+    ),
+    {
+        "j": ReadingMeaning(say("jerk j"), "j", "lift/rad³", over=_parts),
+        "max_j": ReadingMeaning(
+            say("greatest j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("greatest jerk", "max_j")
+        ),
+    },
+    "report.jerk_paragraphs.jerk",
+    scales={JERK.name: "j"},
+    scales_found_by="integration",
+)
+
+
+def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
+    """Differentiate the drawn acceleration diagram by chords; pole : H3, acceleration to jerk [mm of paper].
+
+    Readings besides those of the meaning: ``j_at``, the cam angles to which the jerk of each part belongs.
+    """
+    diagram, stations, mu_phi = integrated.givens.diagram, integrated.givens.stations, integrated.givens.mu_phi
+    hand, left = Hand(pencil, MEANING, integrated.givens.unit), stations.left
+    axis, origin = hand.found(diagram, "axis"), hand.given("origin")
+    after, before = hand.found(diagram, "stations"), hand.found(diagram, "before")
+    uprights = hand.erect("uprights", axis)
+    chords = hand.join("chords", after[left], before[left + 1])
+    middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
+    rays = hand.parallel("rays", chords, hand.lay_off("P3", origin, -RIGHT, pole))
+    heights = hand.cross("heights", rays, hand.given("vertical axis", along=UP), flat=True)
+    found = hand.project("j", heights, hand.erect("ordinates", middles))
+    curve = _to_the_ends(hand, stations, found, uprights)
+    pieces = list(curve_pieces(stations))
+    ends = (
+        between(origin, hand.tangent("highest j", curve, pieces, UP), UP),
+        between(hand.tangent("lowest j", curve, pieces, -UP), origin, UP),
+    )
+    mu_j = np.asarray(integrated.readings["a"].scale) / (mu_phi.per_mm * pole)
+    hand.read("j", between(origin, found, UP), mu_j)
+    hand.read("j_at", between(origin, found, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    hand.read("max_j", reckoned(np.maximum, *ends), mu_j)
+    return hand.finished(JerkGivens(integrated, pole), _draw, {"j": found, "curve": curve})
+
+
+def _own_parts(stations: Stations) -> list[np.ndarray]:
+    """The parts of every stretch between jumps and corners of the acceleration."""
+    left = stations.left
+    return [np.flatnonzero((left >= s.start) & (left < s.stop - 1)) for s in stations.stretches]
+
+
+def curve_pieces(stations: Stations) -> list[slice]:
+    """The smooth pieces of the curve: of every stretch its start, the middles of its parts, and its end."""
+    sizes = [parts.size + 2 for parts in _own_parts(stations)]
+    stops = np.cumsum(sizes).tolist()
+    return [slice(stop - size, stop) for size, stop in zip(sizes, stops, strict=True)]
+
+
+def _to_the_ends(hand: Hand, stations: Stations, found: Drawn, uprights: Drawn) -> Drawn:
+    """The points of the curve, with those to which it is carried on at the ends of every stretch."""
+    own = list(zip(stations.stretches, _own_parts(stations), strict=True))
+    # One part alone tells no slope: there the curve is level.
+    several = [(parts, s) for s, parts in own if parts.size > 1]
+    alone = [(parts[0], at) for s, parts in own if parts.size == 1 for at in (s.start, s.stop - 1)]
+    near = [(parts[k], parts[n], at) for parts, s in several for k, n, at in ((0, 1, s.start), (-1, -2, s.stop - 1))]
+    rows: list[Drawn] = []
+    if near:
+        outer, inner, at = np.array(near).T
+        rows.append(hand.cross("carried on", hand.join("last two", found[inner], found[outer]), uprights[at]))
+    if alone:
+        part, at = np.array(alone).T
+        rows.append(hand.project("level ends", found[part], uprights[at]))
+    which, carried, level, first = list[int](), 0, 2 * len(several), 2 * len(own)
+    for _, parts in own:
+        start = carried if parts.size > 1 else level
+        carried, level = (carried + 2, level) if parts.size > 1 else (carried, level + 2)
+        which += [start, *(first + parts).tolist(), start + 1]
+    return hand.take("curve", *rows, found, which=np.array(which))
+
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+
+def _draw(c: DrawnJerk) -> list[Step]:
+    return [_chords(c), _with_rays(c), _joined(c), _scale(c)]
+
+
+def _steepest(c: DrawnJerk) -> int:
+    """The part that is worked in full."""
+    return int(np.argmax(np.abs(c.acts["heights"].first.shown.imag)))
+
+
+def _chords(c: DrawnJerk) -> Step:
+    chords, names = c.acts["chords"].first, part_names(c.givens.integrated.givens.stations)
+    ends = chords.shown + chords.directions
+    line = Segments(chords.shown, ends, Role.LIMIT, of=chords.act, index=chords.index)
+    k = _steepest(c)
+    said = say(
+        "In the acceleration diagram join with the ruler the ends of the ordinates at neighbouring stations, on the "
+        "near side of every jump: chord {name} runs {run:.2f} mm across and {climb:+.2f} mm up."
+    ).where(name=names[k], run=chords.directions[k].real, climb=chords.directions[k].imag + 0.0)
+    one = say("Chord {name}: {run:.2f} mm across, {climb:+.2f} mm up.")
+    parts = tuple(
+        Part(one.where(name=name, run=way.real, climb=way.imag + 0.0), (chords[k],))
+        for k, (name, way) in enumerate(zip(names, chords.directions.tolist(), strict=True))
+    )
+    why = say("Because the slope of a chord is very nearly that of the acceleration in the middle of the part.")
+    return Step(say("Chords of a"), said, ACCELERATION, (line,), why=why, parts=parts)
+
+
+def _heights(c: DrawnJerk) -> Floats:
+    """The heights that the diagram reaches, its arrows among them [mm of paper]."""
+    low, high = reach(c.acts["curve"].first.shown.imag)
+    jumps = [jump.size for jump in acceleration_jumps(c.givens.integrated.givens.motion)]
+    up, down = any(size > 0 for size in jumps), any(size < 0 for size in jumps)
+    return np.array([min(low - BEYOND, -INFINITE) if down else low, max(high + BEYOND, INFINITE) if up else high])
+
+
+def _with_rays(c: DrawnJerk) -> Step:
+    givens, rays, heights, found = c.givens.integrated.givens, *(c.acts[n].first for n in ("rays", "heights", "j"))
+    names, k, distance = part_names(givens.stations), _steepest(c), c.givens.pole
+    pole = pole_marks(c.acts["P3"], distance, "₃", heights.shown.imag)
+    groups = falling_together(heights)
+    kept = [int(group[0]) for group in groups]
+    axes = (*phi_axes(givens.motion, givens.mu_phi, _heights(c), ordinate("j", givens.unit)), *pole)
+    told = [together(group.tolist(), givens.stations) for group in groups]
+    marks = (
+        Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
+        *(found.from_(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
+        *height_names(heights[kept], told),
+    )
+    said = say(
+        "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
+        "to P₃; carry the level at which the ray ends on the vertical axis to the upright in the middle of the part. "
+        "Ray {name} ends at {y:+.2f} mm."
+    ).where(distance=distance, name=names[k], y=heights.shown[k].imag + 0.0)
+    one = say("Ray {name}: parallel to chord {name} through P₃, to {y:+.2f} mm; level to the middle of part {name}.")
+    parts = tuple(
+        Part(one.where(name=name, y=y + 0.0), (rays[k], heights[k], found[k]))
+        for k, (name, y) in enumerate(zip(names, heights.shown.imag.tolist(), strict=True))
+    )
+    why = say("Because the triangle of pole, origin and height has the slope of the chord, the height is H₃ times it.")
+    title = say("Pole and rays, a to j")
+    end, low = float(phase_ends(givens.motion, givens.mu_phi)[-1]), reach(_heights(c))[0]
+    under = degrees_below(end, givens.mu_phi, low)
+    under += times_below(end, givens.mu_phi, low, givens.omega, phases=False)
+    return Step(title, said, JERK, (*axes, *marks), given=axes, why=why, parts=parts, under=under)
+
+
+def _joined(c: DrawnJerk) -> Step:
+    """The curve between jumps and corners, and arrows where the acceleration jumps."""
+    givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
+    names, marks, parts = station_names(givens.stations), list[Mark](), list[Part]()
+    one = say("From {first} to {last}: the French curve through the points, carried on straight to both ends.")
+    for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
+        faired = hand.fair("curve of j", curve, [piece])
+        marks.append(faired.line(Role.RESULT))
+        parts.append(Part(one.where(first=names[stretch.start], last=names[stretch.stop - 1]), (faired,)))
+    said = [
+        say(
+            "Between jumps and corners of the acceleration join the points with the French curve, and carry it on "
+            "straight to the stations at both ends. In the dwells the jerk is nothing."
+        )
+    ]
+    if jumps := acceleration_jumps(givens.motion):
+        marks += _arrows(c)
+        places = sequence([degrees(jump.phi) for jump in jumps])
+        said.append(
+            say("At {places} the acceleration jumps: there the jerk is infinite, as an arrow shows.").where(
+                places=places
+            )
+        )
+    else:
+        said.append(say("The acceleration nowhere jumps, so the jerk is finite everywhere."))
+    why = say("Because the slope is found in the middles, and is wanted everywhere between the places where it jumps.")
+    return Step(say("Curve of j"), sequence(said, " "), JERK, tuple(marks), why=why, parts=tuple(parts))
+
+
+def _arrows(c: DrawnJerk) -> list[Mark]:
+    """An arrow with the sign of infinity where the acceleration jumps; what does at 0 does at the end of the turn."""
+    givens, (low, high) = c.givens.integrated.givens, _heights(c).tolist()
+    marks = list[Mark]()
+    for jump in acceleration_jumps(givens.motion):
+        foot = complex((jump.phi or FULL_TURN) / givens.mu_phi.per_mm)
+        tip = foot + UP * (high if jump.size > 0 else low)
+        marks += [Arrow(foot, tip, Role.LIMIT), Label(tip, "∞", towards=-1 + 0j)]
+    return marks
+
+
+def _scale(c: DrawnJerk) -> Step:
+    """The scale of the jerk, its greatest finite value, and the divisions of its ordinates."""
+    givens, read = c.givens.integrated.givens, c.readings["j"]
+    mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
+    said = say(
+        "The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm. The greatest "
+        "finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³."
+    ).where(mu_a=mu_a, mu_phi=givens.mu_phi.per_mm, pole=c.givens.pole, mu=mu, unit=lift)
+    told = [said.where(mm=float(c.first("max_j")), value=float(c.value("max_j")))]
+    heights, end = c.acts["curve"].first.shown.imag, float(phase_ends(givens.motion, givens.mu_phi)[-1])
+    # At the end of the turn an arrow may stand.
+    end += ASIDE if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
+    marks = list(graduated(heights, mu, end, read.act)) if reach(heights) != (0.0, 0.0) else []
+    if givens.omega is not None:
+        told.append(scale_said(mu, "j", givens.omega, givens.unit))
+        marks += graduated_at_speed(heights, mu, "j", givens.omega, givens.unit, end, read.act) if marks else []
+    caption = sequence(told, " ")
+    why = say("Because a ray cuts off H₃ times a slope on paper, where a and φ have their scales.")
+    return Step(say("The scale of j"), caption, JERK, tuple(marks), ("j", "max_j"), why=why, parts=(Part(caption, ()),))
