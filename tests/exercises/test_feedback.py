@@ -46,7 +46,7 @@ def test_the_point_that_is_farthest_off_is_named_as_stations_are_counted():
     pitch[7] *= 1.1
     record = marked("inversion-translating", pitch=pitch)
     (said,) = (each for each in record.feedback if each.startswith("pitch"))
-    assert "most of all at point 8," in said
+    assert "most of all at point 8." in said
 
 
 def test_how_many_points_were_read_is_said_where_another_number_is_asked():
