@@ -88,7 +88,7 @@ table(
 
 # %% [markdown]
 # Read the table as a bargain: nobody beats $C_a = 4$, and whoever wants a smooth beginning pays in $C_a$; whoever
-# wants a small $C_v$, and with it, as we shall see, a small cam, takes the 2-3 law or the modified sine.
+# wants a small $C_v$, and with it, as we will see, a small cam, takes the 2-3 law or the modified sine.
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 # f = u - sin(2πu)/(2π): the greatest f'' is 2π, and no law stays under 4.

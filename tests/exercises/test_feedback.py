@@ -70,7 +70,7 @@ def test_every_answer_has_its_sentence_first():
         "v_2: right.",
         "v_3_return: the answer cannot be read: It says x.",
         "s_5: the answer cannot be read.",
-        "s_max: farther off than a careful hand draws or calculates.",
+        "s_max: your answer is farther off than careful drawing and calculation allow.",
     )
     assert said[4:8] == tuple(f"{name}: no answer was given." for name in ("s_3_return", "mu_v", "mu_a", "v_max"))
 
