@@ -53,6 +53,12 @@ RUSSIAN = {
 """The same in Russian."""
 
 
+@pytest.fixture(scope="module")
+def russian() -> list[str]:
+    """What the Russian catalog says."""
+    return [form for forms in read_catalog(CATALOG.read_text(encoding="utf-8")).told.values() for form in forms]
+
+
 def captions() -> Iterator[str]:
     """The captions of the program, without what stands in their places."""
     for _, text in read_catalog(CATALOG.read_text(encoding="utf-8")).told:
@@ -77,6 +83,7 @@ def cells(notebook: str) -> str:
     return prose("\n".join(lines))
 
 
+@pytest.fixture(scope="module")
 def pages() -> dict[str, str]:
     """What is read, by the file in which it stands."""
     written = [*ROOT.glob("notebooks/site/pages/**/*.md"), *ROOT.glob("notebooks/*.md"), ROOT / "exercises/README.md"]
@@ -97,14 +104,13 @@ def said(pattern: str, text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("pattern", INSTEAD, ids=INSTEAD.values())
-def test_the_words_of_the_field_are_used(pattern):
-    assert {name: lines for name, text in pages().items() if (lines := said(pattern, text))} == {}
+def test_the_words_of_the_field_are_used(pages, pattern):
+    assert {name: lines for name, text in pages.items() if (lines := said(pattern, text))} == {}
 
 
 @pytest.mark.parametrize("pattern", RUSSIAN, ids=RUSSIAN.values())
-def test_russian_is_written_as_lecturers_write_it(pattern):
-    told = read_catalog(CATALOG.read_text(encoding="utf-8")).told.values()
-    assert [form for forms in told for form in forms if re.search(pattern, form)] == []
+def test_russian_is_written_as_lecturers_write_it(russian, pattern):
+    assert [form for form in russian if re.search(pattern, form)] == []
 
 
 def test_a_word_that_is_not_used_would_be_found():

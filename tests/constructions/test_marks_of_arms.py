@@ -625,7 +625,7 @@ def test_from_the_numbers_of_the_parts_alone_the_mechanism_is_drawn_again(name, 
     measured, steps = steps_of(name, "pressure_angle", pencil)
     step, (k, scale) = titled(steps, MECHANISM), shown_at(measured, steps)
     level, swung, _, laid_off = (str(part.caption) for part in step.parts)
-    (ac,) = numbers(level, r"AC level, ([\d.]+) mm long")
+    (ac,) = numbers(level, r"AC horizontally, ([\d.]+) mm long")
     psi0, s, psi, cb = numbers(swung, r"ψ₀ \+ s = ([\d.]+)° \+ (-?[\d.]+)° = ([\d.]+)° upwards .* CB = ([\d.]+) mm")
     v, factor, bd = numbers(laid_off, r"lay off ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm")
     b = ac - cb * cmath.exp(-1j * math.radians(psi))
@@ -797,7 +797,7 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
             assert str(part.caption).startswith(f"C{text}: set ")
             assert numbers(part.caption, r"set ([\d.]+)° off at A " + way) == pytest.approx([turn], rel=1e-5)
         else:
-            assert str(part.caption).startswith((f"C{text} lies on the level", f"C{text}: set 360° off"))
+            assert str(part.caption).startswith((f"C{text} lies on the horizontal", f"C{text}: set 360° off"))
         begins = n in [span.start for span in inverted.givens.integrated.givens.stations.phases]
         if begins:
             assert "from the horizontal to the right" in str(part.caption) or "to the right: mark" in str(part.caption)

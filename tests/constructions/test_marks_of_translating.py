@@ -726,7 +726,7 @@ def test_the_captions_of_the_plan_say_the_lengths_that_are_drawn(name, hand):
     assert total == pytest.approx(at["B"].imag * scale, abs=2e-3 + slack(hand, 1.5) * mu)
     assert (paper, ab) == pytest.approx((at["B"].imag, abs(at["B"])), abs=0.0051)
     if e:
-        assert says(mechanism, r"upright, ([\d.]+) mm") == [pytest.approx(abs(at["B"].real), abs=0.0051)]
+        assert says(mechanism, r"vertical, ([\d.]+) mm") == [pytest.approx(abs(at["B"].real), abs=0.0051)]
         assert abs(at["B"].real) * scale == pytest.approx(abs(e), abs=EXACT + slack(hand, 2) * mu)
         assert f"mm {beside(e)} of A" in str(mechanism.caption)
     else:
