@@ -88,7 +88,7 @@ table(
 
 # %% [markdown]
 # Read the table as a bargain: nobody beats $C_a = 4$, and whoever wants a smooth beginning pays in $C_a$; whoever
-# wants a small $C_v$, and with it, as we shall see, a small cam, takes the 2-3 law ($C_v = 1.5$) or the cosine (1.571), and with
+# wants a small $C_v$, and with it, as we will see, a small cam, takes the 2-3 law ($C_v = 1.5$) or the cosine (1.571), and with
 # them a soft impact. Of the laws without an impact the modified sine has the smallest $C_v$, 1.760, before the 3-4-5
 # law with 1.875.
 

@@ -60,7 +60,7 @@ from graphcam.notebooks import (
 #
 # $$ \mu_v = \mu_a\,\mu_\varphi\,H_1, \qquad \mu_s = \mu_v\,\mu_\varphi\,H_2. $$
 #
-# The acceleration was drawn in an unknown scale. But the *lift* is known, so it is read backwards: measure the greatest
+# The acceleration was drawn in an unknown scale. But the *lift* is known, so it is read backwards: measure the maximum
 # displacement on the paper, and
 #
 # $$ \mu_s = \frac{h}{s_{\max}^{\text{paper}}}, \qquad \mu_v = \frac{\mu_s}{\mu_\varphi H_2}, \qquad

@@ -34,7 +34,7 @@ from graphcam.notebooks import Question, changed, show_steps, table
 # In the machine the cam turns and the follower's guide stands still. On paper the cam must stand still, because its profile is to be
 # drawn. So we give the *whole* mechanism an additional rotation, opposite to the cam's: the cam stops, and the frame with the
 # follower's guide travels round the cam **against the cam's rotation**. The relative motion has not changed, so the path of the
-# follower's trace point relative to the cam is the same. That path, drawn on the resting cam, is the **pitch curve**.
+# follower's trace point relative to the cam is the same. That path, drawn on the fixed cam, is the **pitch curve**.
 #
 # This is the whole method of *inversion*. For every follower it reads:
 #

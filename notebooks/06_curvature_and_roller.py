@@ -172,5 +172,5 @@ table(("chord h, mm", "scatter of ρ, %"), [(f"{h}", 100 * 6**0.5 * sigma * rho_
 #
 # 1. The profile is concave on a flank. Which condition must the roller satisfy there?
 # 2. Why does the knife-edge follower never undercut, and why is it not used?
-# 3. A cam is undercut with a roller of 20 mm. Name three things to change. Which one changes the sheet least?
+# 3. A cam is undercut with a roller of 20 mm. Name three things to change. Which one changes the sheet by the smallest amount?
 # 4. Derive $\sqrt6\,\sigma\rho/h^2$: the height of the arc is $B - (A + C)/2$, and all three points are off by $\sigma$.

@@ -32,8 +32,8 @@ from graphcam.notebooks import Question, compared, show_steps, table
 # the outer circle is made of **three arcs that touch one another**: the first leaves the base circle in $A$ and ends in $G$, the second runs from $G$ to $F$,
 # the third from $F$ to $D$ on the outer circle. The motion follows from the arcs.
 #
-# Everything rests on one theorem: **where two circles touch, their centres and the point of contact lie on one line.**
-# So
+# Everything is based on one theorem: **where two circles touch, their centres and the point of contact lie on one
+# line.** So
 #
 # - the centre $C_1$ of the arc that ends in $D$ lies on the line from the cam centre $O$ to $D$, at the distance $\rho_1$ from $D$;
 # - the centre $C_2$ of the arc that begins in $A$ lies on the line $OA$, equally far from $A$ and from $G$: on the *perpendicular bisector* of $AG$;

@@ -126,9 +126,9 @@ def _of_the_radius(adopted: Adoption) -> Caption:
     """What is adopted, against the least permitted radius.
 
     >>> str(_of_the_radius(Adoption(44.0, -10.0, 43.2804, None, False, 1.0)))
-    'Round the least radius, 43.28 mm, up to r₀ = 44 mm.'
+    'Round the minimum radius, 43.28 mm, up to r₀ = 44 mm.'
     >>> str(_of_the_radius(Adoption(61.0, 150.0, 32.81, None, True, 1.0)))
-    'The task gives r₀ = 61 mm, which is larger than the least permitted radius, 32.81 mm.'
+    'The task gives r₀ = 61 mm, which is larger than the minimum permitted radius, 32.81 mm.'
     """
     r0, least = adopted.prime_radius, adopted.least
     if math.isnan(least):

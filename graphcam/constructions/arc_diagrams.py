@@ -162,9 +162,8 @@ CARRIED = {
         "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others."
     ),
     "alpha": say(
-        "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre; lay the angles "
-        "themselves off at {mu:g}° a millimetre too: for station {name}, {length:.2f}° are {ordinate:.2f} mm. "
-        "Repeat for the others."
+        "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre. Each is laid off at "
+        "{mu:g}° a millimetre: for station {name}, {length:.2f}° are {ordinate:.2f} mm. Repeat for the others."
     ),
 }
 MAXIMUM = {

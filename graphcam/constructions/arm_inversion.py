@@ -140,7 +140,7 @@ def _pivots(inverted: ArmInverted) -> Step:
     )
     return Step(
         *(say("Inverted positions of the pivot"), said, PROFILE, marks),
-        why=say("Because, seen from the cam, the frame turns against the cam's rotation, and the pivot turns with it."),
+        why=say("Because the frame, seen from the cam, turns against the cam's rotation, and the pivot turns with it."),
         parts=tuple(Part(text, (positions[n], pivots[n])) for n, text in enumerate(texts)),
     )
 

@@ -93,8 +93,8 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
         *(title, said.where(phase=phase, name=named[k], **so.said), at_scale(REGION, drawn.givens.mu_l)),
         (shown, _downwards(lines, hatched), angle),
         why=say(
-            "Because, seen from D, the direction to the cam centre makes the pressure angle with the normal to "
-            "the arm, and on the {phase} it may be at most {limit}."
+            "Because the direction from D to the cam centre makes the pressure angle with the normal to the arm, "
+            "and on the {phase} this angle may be at most {limit}."
         ).where(phase=phase, limit=degrees(limit)),
         parts=(
             Part(first.where(name=named[k]), (normal,)),

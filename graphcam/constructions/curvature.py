@@ -68,7 +68,7 @@ MEANING = Meaning(
     "curvature",
     say("Minimum radius of curvature"),
     say(
-        "Three near points of a curve determine the circle that fits it best. The minimum radius of curvature "
+        "Three close points of a curve determine the circle that fits it best. The minimum radius of curvature "
         "limits the roller."
     ),
     {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
@@ -206,8 +206,8 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     )
     more = [*_missed(curved), *([ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else [])]
     why = say(
-        "Because three near points of a curve determine the circle that fits it best, and the roller is limited by the "
-        "smallest such circle of the pitch curve."
+        "Because three close points of a curve determine the circle that fits it best, and the roller is limited "
+        "by the smallest such circle of the pitch curve."
     )
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (

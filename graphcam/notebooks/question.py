@@ -48,7 +48,7 @@ class Question:
 
     >>> radius = Question(43.28, 0.6, "mm", "step 5", {"the distance is still in mm of paper": 72.13})
     >>> print(radius.check(43.0).text)
-    Right, within what a pencil can do.
+    Right, within drawing accuracy.
     >>> print(radius.check(72.0).text)
     Not yet: the distance is still in mm of paper. Look again at step 5.
     >>> print(radius.check(-43.3).text)
@@ -70,7 +70,7 @@ class Question:
 
         >>> from graphcam.drafting.ink import reading
         >>> print(Question.of(reading(50.0, 0.6, "mm"), "step 7").check(50.0).text)
-        Not yet: that is the length on paper; multiply by the scale. Look again at step 7.
+        Not yet: that is the length on paper; multiply it by the scale. Look again at step 7.
         """
         paper = float(reading.paper if at is None else reading.paper[at])
         scale = reading.per_mm
@@ -84,7 +84,7 @@ class Question:
         >>> import graphcam as gc
         >>> greatest = gc.solve(gc.builtin_task()).comparison.quantities["max_v"]
         >>> print(Question.about(greatest).check(-57.3).text)
-        Not yet: the size is right, the sign is not. Look again at greatest v.
+        Not yet: the size is right, the sign is not. Look again at maximum v.
         """
         # A length of paper that is the value itself is no mistake.
         equal = math.isclose(quantity.per_mm, 1.0)

@@ -39,7 +39,7 @@ def compared(solution: AnySolution, *names: str) -> Markdown:
 
     >>> import graphcam as gc
     >>> print(compared(gc.solve(gc.builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
-    [' greatest v, mm/rad ', ' 57.296 ', ' 57.296 ']
+    [' maximum v, mm/rad ', ' 57.296 ', ' 57.296 ']
     """
     from IPython.display import Markdown
 
@@ -58,7 +58,7 @@ def error_budget(solution: AnySolution, pencil: Pencil) -> Markdown:
 
     >>> import graphcam as gc
     >>> print(error_budget(gc.solve(gc.builtin_task()), gc.Pencil.of(0.2)).data.splitlines()[2].split("|")[1:3])
-    [' Acceleration diagram: greatest ordinates                  ', ' 0.21 mm ']
+    [' Acceleration diagram: maximum ordinates                    ', ' 0.21 mm ']
     """
     from IPython.display import Markdown
 

@@ -139,7 +139,7 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
 
     >>> import graphcam as gc
     >>> drawing(gc.solve(gc.builtin_task()).drawn["minimum_radius"]).caption
-    'Displacement and velocity: the least radius'
+    'Displacement and velocity: the minimum radius'
 
     Raises
     ------

@@ -38,7 +38,7 @@ def budget_table(drawn: Chain | ArcChain, pencil: Pencil) -> tuple[tuple[Words, 
     >>> import graphcam as gc
     >>> header, rows = budget_table(gc.solve(gc.builtin_arcs_task()).chain, gc.Pencil.of(0.2))
     >>> [str(cell) for cell in header][:4], str(rows[0][1])
-    (['reading', 'scatter', 'uprights', 'lengths laid off'], '0.32 mm')
+    (['reading', 'scatter', 'verticals', 'lengths laid off'], '0.32 mm')
     """
     budget = ErrorBudget(drawn, pencil)
     told = [

@@ -125,7 +125,7 @@ def task_data(solution: Solution) -> str:
         MOVED[solution.task.follower.kind][roller],
         markdown_table(phases(solution), tell),
         *([asked.title, markdown_table(asked, tell)] if (asked := conditions(solution)) else []),
-        say("These are the data."),
+        say("The data:"),
         markdown_table(Table(given.title, given.header[:2], rows), tell),
         tell=tell,
     )
@@ -192,7 +192,7 @@ def _at_speed(solution: Solution) -> str:
         IN_GENERAL,
         say("For the phase {phase}", phase=phase_title(motion, k)),
         formula(IN_NUMBERS, omega=omega, **values),
-        say("These are the time and the maximum velocity and acceleration of every phase."),
+        say("The time, the maximum velocity and the maximum acceleration of every phase:"),
         table((say("phase"), *AT_SPEED[of_lift]), rows, solution.tell),
         tell=solution.tell,
     )
@@ -220,7 +220,7 @@ def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str, tell: Tell) -> st
         (say("{phi}°", phi=number(math.degrees(jump.phi))), *map(number, (jump.before, jump.after, jump.size)))
         for jump in jumps
     ]
-    return blocks(say("These are the jumps, in {unit}.", unit=unit(of_symbol)), table(header, rows, tell), tell=tell)
+    return blocks(say("The jumps, in {unit}:", unit=unit(of_symbol)), table(header, rows, tell), tell=tell)
 
 
 def _result(solution: Solution) -> str:

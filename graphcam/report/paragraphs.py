@@ -82,10 +82,10 @@ def acceleration(solution: Solution) -> str:
             equal=equal_parts(stations),
         ),
         say(
-            "The scale of the diagram is not known yet: the maximum ordinate of the first rise is chosen, "
-            "${symbol} = {chosen}$ mm. The lift of a phase is proportional to $y\\varphi^2/C$, where $C$ is the "
-            "law's factor in ${greatest} = C h/\\varphi^2$. For the displacement to return to the axis, every "
-            "other ordinate must be",
+            "The maximum ordinate of the first rise is chosen, ${symbol} = {chosen}$ mm; the scale follows "
+            "later. The lift of a phase is proportional to $y\\varphi^2/C$, where $C$ is the law's factor in "
+            "${greatest} = C h/\\varphi^2$. For the displacement to return to the axis, every other ordinate must "
+            "be",
             symbol=formula("y_{<k>}", k=k1),
             greatest="a_{\\max}",
             **alike,
@@ -121,16 +121,15 @@ def integration(solution: Solution) -> str:
     c, values = solution.drawn["integration"], _integrated(solution)
     return blocks(
         say(
-            "The poles lie $H_1 = {h1}$ mm and $H_2 = {h2}$ mm to the left of the origin. In every part of the "
-            "width $\\Delta x$ a chord is drawn parallel to the ray of the middle ordinate $y$, so it rises by",
+            "The poles lie $H_1 = {h1}$ mm and $H_2 = {h2}$ mm to the left of the origin. In every part, of "
+            "width $\\Delta x$, a chord is drawn parallel to the ray of the middle ordinate $y$, so it rises by",
             **values,
         ),
         r"$$\Delta y_v = y_a\,\Delta x/H_1, \qquad \Delta y_s = y_v\,\Delta x/H_2.$$",
         say(
-            "In the first part $\\Delta y_v = {y} \\cdot {width}/{h1}$, which on the drawing measures {chord} mm. "
-            "The residual velocity at the end of each moving phase, {left}, is removed by rotating its base "
-            "line; the residual displacement at the end of the turn, {left_s} mm, is distributed over the "
-            "returns.",
+            "In the first part $\\Delta y_v = {y} \\cdot {width}/{h1}$; on the drawing it measures {chord} mm. The "
+            "residual velocity at the end of each moving phase, {left}, is removed by rotating its base line; "
+            "the residual displacement at the end of the turn, {left_s} mm, is distributed over the returns.",
             left=lengths(np.atleast_1d(c.first("closing_v")).tolist()),
             **values,
         ),
@@ -250,9 +249,9 @@ def curvature(solution: Solution) -> str:
         return tell(UNREADABLE_BEND)
     angles = np.degrees(curved.first("phi") % FULL_TURN).tolist()
     said = say(
-        "The pitch curve is sharpest at the points of φ = {phi}. Their two chords measure {chords} at {ratio}; "
-        "the perpendicular bisectors meet in O, and from O to the middle point B are {radius} mm. So $\\rho = "
-        "{mu:g} \\cdot {radius} = {rho}$ mm is the minimum radius of curvature of the pitch curve.",
+        "The pitch curve is sharpest at the points φ = {phi}. Their two chords measure {chords} at {ratio}; the "
+        "perpendicular bisectors meet in O, and the distance from O to the middle point B is {radius} mm. So "
+        "$\\rho = {mu:g} \\cdot {radius} = {rho}$ mm is the minimum radius of curvature of the pitch curve.",
         phi=joined([say("{phi}°", phi=number(phi, 1)) for phi in angles]),
         chords=lengths(np.abs(np.diff(triple)).tolist()),
         **numbers(radius=abs(centre - triple[1]), rho=curved.value("rho")),

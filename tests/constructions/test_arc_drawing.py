@@ -175,7 +175,7 @@ def test_captions_carry_the_numbers_of_the_example():
     said = " ".join(str(step.caption) for c in ArcChain(board_of(EXAMPLE)).values() for step in c.steps())
     for part in (
         "G = (22.24, 37.84) mm", "C3 = (12.003, -14.394) mm", "F = (46.834, 25.855) mm", "C3′ = (20.977, 31.395) mm",
-        "F, C1, C3 and G, C3, C2, in these orders: the arcs touch internally", "26.888° at G", "which is 15.004 mm",
+        "F, C1, C3 and G, C3, C2: the arcs touch internally", "26.888° at G", "which is 15.004 mm",
     ):  # fmt: skip
         assert part in said, part
     for name, part in (("case 2", "Bisect AG: compass 35.75 mm"), ("case 3", "step 34.00 mm off from D towards O: C1")):

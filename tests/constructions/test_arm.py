@@ -364,7 +364,7 @@ def test_limits_that_no_cam_keeps_leave_no_radius_to_adopt(motion, distance, per
     where = "At this centre distance no" if distance is not None else "No"
     assert str(last.caption) == f"{where} cam centre satisfies all the limits."
     assert [type(mark) for mark in last.marks] == ([Arc] if distance is not None else [])  # it misses the hatching
-    with pytest.raises(DesignError, match=r"least prime radius .* give .*cam.prime_radius"):
+    with pytest.raises(DesignError, match=r"minimum prime radius .* give .*cam.prime_radius"):
         _ = Chain(board).prime_radius
     with pytest.raises(DesignError, match="minimum prime radius"):
         _ = Chain(board)["inversion"]

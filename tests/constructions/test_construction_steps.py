@@ -156,7 +156,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "curvature": [
             "station 1′",
             "enlarged to 2 times its size, at 2:1",
-            "wrong by 43 %",
+            "may be off by 43 %",
             "OB measures 61.49 mm",
             "ρ = 30.743 mm",
         ],
@@ -211,7 +211,7 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
                     "on the rise away from C",
                     "the line at 45° to this normal",
                 ],
-                "pressure_angle": ["At 1:2 draw AC = 75.0 mm level", "ψ₀ + s = 23.45° + 7.50° = 30.95°"],
+                "pressure_angle": ["At 1:2 draw AC = 75.0 mm horizontally", "ψ₀ + s = 23.45° + 7.50° = 30.95°"],
                 "inversion": ["r₀ = 61 mm", "c = 150 mm", "= 7.50°, a chord of 8.18 mm"],
             },
         ),

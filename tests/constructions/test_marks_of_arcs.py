@@ -260,7 +260,7 @@ def test_the_arcs_touch_on_their_line_of_centres(name, prime, at):
         (_, first), *_, (_, last) = order
         places = sorted(order, key=lambda pair: ((pair[1] - first) / (last - first)).real)
         assert ", ".join(text for text, _ in places) in str(step.caption)
-    assert ("can be built" in str(step.caption)) == (not prime)
+    assert ("can be made" in str(step.caption)) == (not prime)
 
 
 def ends_of(arc: Arc) -> tuple[complex, complex]:
@@ -523,7 +523,7 @@ def test_plan_and_diagrams_are_drawn_as_large_as_there_is_room_for(name):
 
 def scale_of_plan(step: Step) -> float:
     """mm of the cam in a mm of the plan."""
-    found = re.search(r"at ([\d.]+):([\d.]+):", str(step.caption))
+    found = re.search(r"at ([\d.]+):([\d.]+) with", str(step.caption))
     assert found is not None
     return float(found[2]) / float(found[1])
 
@@ -618,7 +618,7 @@ def test_the_velocities_of_all_stations_are_cut_off_by_their_rods(name):
         tilt = math.degrees(abs(cmath.phase((b[at] - k[at]) / b[at])))
         towards = f"from B{j} towards {CENTRES[int(chain(name).stations.arc[at])]} as far as"
         assert towards in said
-        found = re.findall(r"OK = (\S+) mm × (\S+) = (\S+) mm/rad, and the rod stands at (\S+)° to the ray", said)
+        found = re.findall(r"OK = (\S+) mm × (\S+) = (\S+) mm/rad, and the rod makes (\S+)° with the ray", said)
         exact = (abs(k[at]), mu, abs(k[at]) * mu, tilt)
         assert [float(x) for x in found[0]] == pytest.approx(exact, abs=0.0051)
 

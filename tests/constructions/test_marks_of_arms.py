@@ -371,11 +371,11 @@ def test_of_every_line_it_is_said_how_it_is_turned_and_on_which_side_of_it_the_c
         sign = 1 if found.group(1) == "rise" else -1
         limit = f"{math.degrees(permitted.rise if sign > 0 else permitted.return_):.6g}°"
         (lines,), (angle,) = marks(step, Segments), marks(step, AngleMark)
-        told = re.search(r"turned from it (\w+, \w+ \w* ?C)\. .* must lie on its side (.*?)\.", str(step.caption))
+        told = re.search(r"turned from it (\w+, \w+ \w* ?C)\. .* must lie on the side (.*?)\.", str(step.caption))
         turn, way = told.groups()
         kept_side(lines, way, turn)
         assert f"the line at {limit} to this normal" in str(step.caption)
-        assert f"on the {found.group(1)} it may be {limit} at most" in str(step.why)
+        assert f"on the {found.group(1)} this angle may be at most {limit}." in str(step.why)
         names, k = names_of(region), example_of(step, region)
         moving = [n for n in range(len(names)) if at[n] == sign]
         first, second, *others = step.parts
@@ -497,10 +497,12 @@ def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(n
 
 LIMITED = r"(rise|return), \d+′*(–\d+′*)?|dwell, (B₀|\d+′*)|arm (B₀|\d+′*)"
 WHERE = {
-    "built-in": "the place of the arc nearest to B₀ in the hatching, where the arc meets the line of the dwell from B₀",
-    "force, ccw": "the corner of the hatching nearest to B₀, "
+    "built-in": "the point of the arc nearest to B₀ in the hatched region, "
+    "where the arc meets the line of the dwell from B₀",
+    "force, ccw": "the corner of the hatched region nearest to B₀, "
     "between the lines of the rise and the line of the dwell from B₀",
-    "force, cw": "the place of the hatching nearest to B₀, the foot of the perpendicular on the lines of the rise",
+    "force, cw": "the point of the hatched region nearest to B₀, "
+    "the foot of the perpendicular to the lines of the rise",
 }
 
 
@@ -625,7 +627,7 @@ def test_from_the_numbers_of_the_parts_alone_the_mechanism_is_drawn_again(name, 
     measured, steps = steps_of(name, "pressure_angle", pencil)
     step, (k, scale) = titled(steps, MECHANISM), shown_at(measured, steps)
     level, swung, _, laid_off = (str(part.caption) for part in step.parts)
-    (ac,) = numbers(level, r"AC level, ([\d.]+) mm long")
+    (ac,) = numbers(level, r"AC horizontally, ([\d.]+) mm long")
     psi0, s, psi, cb = numbers(swung, r"ψ₀ \+ s = ([\d.]+)° \+ (-?[\d.]+)° = ([\d.]+)° upwards .* CB = ([\d.]+) mm")
     v, factor, bd = numbers(laid_off, r"lay off ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm")
     b = ac - cb * cmath.exp(-1j * math.radians(psi))
@@ -797,7 +799,7 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
             assert str(part.caption).startswith(f"C{text}: set ")
             assert numbers(part.caption, r"set ([\d.]+)° off at A " + way) == pytest.approx([turn], rel=1e-5)
         else:
-            assert str(part.caption).startswith((f"C{text} lies on the level", f"C{text}: set 360° off"))
+            assert str(part.caption).startswith((f"C{text} lies on the horizontal", f"C{text}: set 360° off"))
         begins = n in [span.start for span in inverted.givens.integrated.givens.stations.phases]
         if begins:
             assert "from the horizontal to the right" in str(part.caption) or "to the right: mark" in str(part.caption)
@@ -806,7 +808,7 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
         before = names_of(inverted)[n - 1]
         assert numbers(part.caption, rf", ([\d.]+)° on from C{before}, ") == pytest.approx([on], rel=1e-5)
         if n == k:
-            said = numbers(step.caption, rf"Station {text}: ([\d.]+)° {way}, ([\d.]+)° on from the one before")
+            said = numbers(step.caption, rf"Station {text}: ([\d.]+)° {way}, ([\d.]+)° on from the previous one")
             assert said == pytest.approx([turn, on], rel=1e-5)
 
 

@@ -300,7 +300,7 @@ def test_the_greatest_ordinate_said_is_the_top_of_the_plotted_points(kind):
             heights = list(side * derived.imag)
             found.append(top_of_three(heights, int(np.argmax(heights)), round_about=cyclic(kind)))
         assert number(step.caption, r"ordinate, ([\d.]+) mm") == pytest.approx(max(found), abs=0.006)
-        side, near = re.search(r"mm (up|down), stands near point (\d+)", str(step.caption)).groups()
+        side, near = re.search(r"mm (up|down), is near point (\d+)", str(step.caption)).groups()
         assert side == ("up" if found[0] >= found[1] else "down")
         k = int(near) - by_chords(kind)
         assert (derived.imag if side == "up" else -derived.imag)[k] == max(

@@ -38,7 +38,7 @@ FOUND = "minimum_radius", "The minimum prime radius"
 CIRCLE = "inversion", "Prime circle"
 RAYS = "inversion", "Rays of the inverted positions"
 FACES = "inversion", "Faces"
-CONTACTS = "inversion", "Contacts"
+CONTACTS = "inversion", "Contact points"
 EVERY = pytest.mark.parametrize("name", ["the built-in task", *BOARDS])
 
 
@@ -363,7 +363,7 @@ def test_every_ray_is_told_with_its_angle_and_the_sense_against_the_rotation_and
     for k, part in enumerate(step.parts[:-1]):
         said = str(part.caption)
         assert said.startswith(f"Ray {names[k]}: ")
-        angle = re.search(rf"to ([\d.]+)° from the upright, (?:{other}),", said)
+        angle = re.search(rf"to ([\d.]+)° from the vertical, (?:{other}),", said)
         assert (float(angle[1]) if angle else 0.0) == pytest.approx(math.degrees(stations(name).phi[k]), abs=0.0051)
         assert part.draws[1].place == pytest.approx(complex(rays.ends[k]), abs=EXACT)
     for label in (label for label in of_kind(step, Label) if str(label.text) in names):

@@ -114,7 +114,7 @@ def test_the_line_of_the_contact_force_leans_by_the_pressure_angle_and_bears_its
     assert 0 < mark.radius < abs(up)
     assert mark.radius < abs(line.points[1] - foot)
     side = "right" if (line.points[1] - foot).real > 0 else "left"
-    assert f"α = {abs(math.degrees(alpha)):.2f}° from the upright to the {side}," in str(step.caption)
+    assert f"α = {abs(math.degrees(alpha)):.2f}° from the vertical to the {side}," in str(step.caption)
 
 
 @EVERY
@@ -143,7 +143,7 @@ def test_the_line_of_the_reaction_leans_against_the_motion_by_the_friction_of_th
     assert_allclose(incline.points, [end.real, end], atol=EXACT)
     side, way = ("right" if end.real > 0 else "left"), ("up" if end.imag > 0 else "down")
     along, up, joined = (str(part.caption) for part in step.parts)
-    assert f"lay off {abs(end.real):g} mm from the tail of Q level to the {side}, for l = 90 mm." in along
+    assert f"lay off {abs(end.real):g} mm from the tail of Q horizontally to the {side}, for l = 90 mm." in along
     *lengths, height = re.search(
         r"= ([\d.]+) · ([\d.]+) · \(([\d.]+) \+ 2 · ([\d.]+)\)/([\d.]+) = ([\d.]+) mm straight " + way, up
     ).groups()

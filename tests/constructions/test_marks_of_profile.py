@@ -346,7 +346,7 @@ def test_what_short_chords_may_miss_is_reckoned_and_what_chords_twice_as_wide_re
     by = f"{100 * missed:.0f} %" if missed < 1 else "more than ρ itself"
     assert f"by {by}: 4 × 0.15 mm × ρ/h², with h = {chord:.1f} mm and ρ = {rho / mu:.1f} mm" in caption
     wide = re.search(
-        r"over ([\d′, ]+), miss.* ρ = ([\d.]+) mm instead of ([\d.]+) mm\. (By hand|So the short)", caption
+        r"over ([\d′, ]+), err.* ρ = ([\d.]+) mm instead of ([\d.]+) mm\. (For drawing by hand|So the short)", caption
     )
     at = [names_of(chain).index(each) for each in wide[1].split(", ")]
     assert at[1] - at[0] == at[2] - at[1] == 2
@@ -356,13 +356,13 @@ def test_what_short_chords_may_miss_is_reckoned_and_what_chords_twice_as_wide_re
     other = abs(centre_of(a, b, c) - b) * mu
     assert (f"{other:.1f}", f"{rho:.1f}") == wide.groups()[1:3]
     # Three quarters of what the short chords may miss by are won, what the bend changes by is lost.
-    assert (wide[4] == "By hand") == (abs(other - rho) < 0.75 * missed * rho)
+    assert (wide[4] == "For drawing by hand") == (abs(other - rho) < 0.75 * missed * rho)
 
 
 def test_chords_that_a_hand_cannot_tell_from_a_line_are_said_to_be_so():
     drawn = Chain(coursework("3-4-5", divisions=96))["curvature"]
     caption = str(drawn.steps()[0].caption)
-    assert "ρ may be wrong by more than itself" in caption
+    assert "ρ may be off by more than ρ itself" in caption
     assert caption.endswith("For drawing by hand the longer chords are better.")
 
 
@@ -494,7 +494,7 @@ def test_where_a_hand_proposes_less_than_was_decided_it_is_said():
     for chain in less:
         caption = str(chain["working_profile"].steps()[0].caption)
         assert caption.startswith(f"This drawing gives {float(chain['roller'].value('roller_radius')):.2f} mm; ")
-        assert caption.endswith(f"decided: {chain.roller_radius:g} mm.")
+        assert caption.endswith(f"with the ideal pencil: {chain.roller_radius:g} mm.")
 
 
 @pytest.mark.parametrize("radius", [0.0, 12.0, 40.0])

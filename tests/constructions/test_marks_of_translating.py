@@ -229,7 +229,7 @@ def bounds(name: str, hand: str) -> list[Bound]:
     permitted, step = BOARDS[name].limits, diagram(name, hand)[2]
     asked = [("rise", permitted.rise, side(name))]
     asked += [] if permitted.return_ is None else [("return", permitted.return_, -side(name))]
-    asked += [("rest", permitted.rise, -side(name))] if permitted.rest else []
+    asked += [("dwell", permitted.rise, -side(name))] if permitted.rest else []
     marks = zip(of(step, Line, Role.LIMIT), of(step, Segments), of(step, AngleMark), strict=True)
     return [Bound(title, *found, limit, lean) for (title, limit, lean), found in zip(asked, marks, strict=True)]
 
@@ -251,8 +251,8 @@ def test_the_limits_lean_at_the_angles_that_they_bear(name, hand):
             assert abs(bound.below - bound.above) > 60 - EXACT or bound.below.imag == pytest.approx(bottom)
         assert bound.inside(start) == pytest.approx(0, abs=EXACT)
         # It is shown not far below where the line touches; the rest line's low, to the other side.
-        touch = bound.above if bound.title == "rest" else bound.above + way * 10 / -way.imag
-        down = -1 if bound.title == "rest" else 1
+        touch = bound.above if bound.title == "dwell" else bound.above + way * 10 / -way.imag
+        down = -1 if bound.title == "dwell" else 1
         assert start == pytest.approx(touch + (bound.below - touch) * (0.12 if down > 0 else 0.85))
         assert complex(bound.upright.ends[0]) == pytest.approx(start - 26.4j * down)
         assert angle.centre == start
@@ -265,7 +265,7 @@ def test_the_limits_lean_at_the_angles_that_they_bear(name, hand):
 def test_the_limits_touch_their_curves_and_cross_them_nowhere(name, hand):
     curves, up = of(diagram(name, hand)[1], Line), rising(name)
     for bound in bounds(name, hand):
-        if bound.title == "rest":
+        if bound.title == "dwell":
             assert abs(bound.above) <= slack(hand, 1)
             continue
         pieces = zip(BOARDS[name].stations.pieces, curves, strict=True)
@@ -283,7 +283,7 @@ def test_the_caption_says_which_limits_and_where_the_rises_meets_zero_lift(name,
     step, rise = diagram(name, hand)[2], bounds(name, hand)[0]
     way = rise.below - rise.above
     at_zero = rise.above - way * rise.above.imag / way.imag
-    assert says(step, r"level of B₀ ([\d.]+) mm") == [pytest.approx(abs(at_zero.real), abs=0.051)]
+    assert says(step, r"horizontal through B₀ ([\d.]+) mm") == [pytest.approx(abs(at_zero.real), abs=0.051)]
     assert f"mm {beside(at_zero.real)} of it." in str(step.caption)
     assert ("spring" in str(step.caption)) == (BOARDS[name].limits.return_ is None)
 
@@ -296,7 +296,7 @@ def test_every_limit_is_a_part_that_says_angle_lean_side_and_touch(name, hand):
         caption, down = str(part.caption), bound.below - bound.above
         assert says(part, r"at ([\d.]+)° to the line of motion") == [pytest.approx(math.degrees(bound.limit))]
         assert {drawn.act for drawn in part.draws} >= {bound.angle.of, bound.upright.of}
-        if bound.title == "rest":
+        if bound.title == "dwell":
             said = f"From B₀ draw the dwell line at {math.degrees(bound.limit):g}° to the line of motion, "
             assert f"{said}down {beside(down.real)}" in caption
             continue
@@ -328,7 +328,7 @@ def test_every_limit_is_a_part_that_says_angle_lean_side_and_touch(name, hand):
 def test_the_caption_of_the_region_says_which_side_each_line_cuts_off(name, hand):
     step = diagram(name, hand)[3]
     for bound in bounds(name, hand):
-        level = "in the lower dwell" if bound.title == "rest" else f"on the {bound.title}"
+        level = "in the lower dwell" if bound.title == "dwell" else f"on the {bound.title}"
         side_of = f"A cam centre {beside(-bound.inward.real)} of the {bound.title} line"
         assert f"{side_of} would give more than {math.degrees(bound.limit):g}° {level}." in str(step.caption)
     hatching, *others = step.parts
@@ -378,7 +378,7 @@ def test_the_alternatives_are_the_foot_the_apex_and_the_central_followers_centre
     found, lines = crosses(name, hand), {b.title: b for b in bounds(name, hand)}
     rise, back = lines["rise"], lines.get("return")
     assert list(found) == [FOOT, *(["apex"] if back else []), CENTRAL]
-    assert f"textbooks take: {', '.join(found)}." in str(diagram(name, hand)[3].caption)
+    assert f"textbooks choose: {', '.join(found)}." in str(diagram(name, hand)[3].caption)
     assert rise.inside(found[FOOT]) == pytest.approx(0, abs=1e-7)
     way = (rise.below - rise.above) / abs(rise.below - rise.above)
     assert abs((found[FOOT] * way.conjugate()).real) <= slack(hand, 2)
@@ -442,12 +442,12 @@ def test_the_parts_of_the_cam_centre_say_what_is_measured_and_what_binds(name, h
         how = "the perpendicular from B₀ meets" if len(on) == 1 else "it lies on"
         assert f"nearest to B₀, where {how} {' and '.join(on)}." in caption
     else:
-        assert f"enters the hatching, {f'on {on[0]}' if on else 'level with B₀'}" in caption
+        assert f"enters the hatched region, {f'on {on[0]}' if on else 'level with B₀'}" in caption
     if offset:
         assert_offset(step.parts[0], offset, mu)
         line = one(step, Line, Role.AXIS)
         assert [drawn.act for drawn in step.parts[0].draws] == [line.of]
-    assert ("With e = 0 " in caption) == (offset == 0)
+    assert ("With e = 0, " in caption) == (offset == 0)
     marks = {mark.of for mark in step.marks if not isinstance(mark, Dimension | Label) and mark.of is not None}
     assert {drawn.act for part in step.parts for drawn in part.draws} == marks
 
@@ -583,14 +583,14 @@ def test_the_rounding_compares_what_is_adopted_with_the_least_radius_there():
         ),
         (
             Adoption(47.0, -10.0, 43.28, -9.7, False, 1.0),
-            "Take r₀ = 47 mm, a round radius that goes with it; the least",
+            "Take r₀ = 47 mm, a round value that goes with it; the minimum",
         ),
         (Adoption(61.0, 150.0, 32.81, None, True, 1.0), "The task gives r₀ = 61 mm, which is larger than the minimum"),
         (Adoption(30.0, 150.0, 32.81, None, True, 1.0), "smaller than the minimum permitted radius, 32.81 mm: a limit"),
         (Adoption(30.0, 150.0, math.nan, None, True, 1.0), "The task gives r₀ = 30 mm. On paper"),
         (
             Adoption(30.0, 150.0, math.nan, 149.6, False, 1.0),
-            "The place found, c = 149.6 mm, is rounded to 150 mm. Take",
+            "The value found, c = 149.6 mm, is rounded to 150 mm. Take",
         ),
     ],
 )
@@ -726,7 +726,7 @@ def test_the_captions_of_the_plan_say_the_lengths_that_are_drawn(name, hand):
     assert total == pytest.approx(at["B"].imag * scale, abs=2e-3 + slack(hand, 1.5) * mu)
     assert (paper, ab) == pytest.approx((at["B"].imag, abs(at["B"])), abs=0.0051)
     if e:
-        assert says(mechanism, r"upright, ([\d.]+) mm") == [pytest.approx(abs(at["B"].real), abs=0.0051)]
+        assert says(mechanism, r"vertical, ([\d.]+) mm") == [pytest.approx(abs(at["B"].real), abs=0.0051)]
         assert abs(at["B"].real) * scale == pytest.approx(abs(e), abs=EXACT + slack(hand, 2) * mu)
         assert f"mm {beside(e)} of A" in str(mechanism.caption)
     else:
@@ -758,7 +758,7 @@ def test_a_negative_angle_leaves_its_magnitude_for_the_transmission():
     alpha, gamma = says(measured[5], r"α = (-[\d.]+)°, .* = ([\d.]+)°")
     assert gamma == pytest.approx(90 + alpha, abs=0.011)
     # There the level of the start cuts the upright before any line does.
-    assert "enters the hatching, level with B₀, is A₀" in str(region[4].caption)
+    assert "A₀ is where this vertical enters the hatched region, level with B₀" in str(region[4].caption)
     assert "s₀ = 0, because it lies level with B₀" in str(region[4].caption)
 
 
@@ -778,7 +778,7 @@ def test_a_ray_to_every_end_has_the_angle_that_its_part_says(name, hand):
         assert float(angle) == pytest.approx(leans, abs=0.0051 if hand == "perfect" else math.degrees(MANY * TURN))
     worked, angle, shown_at, again, greatest, where, gamma = re.search(
         r"Ray (\S+): (-?[\d.]+)°; ray (\S+), the one of the plan: (-?[\d.]+)°\. "
-        r".* is (-?[\d.]+)°, at (\S+); .* least, ([\d.]+)°",
+        r".* is (-?[\d.]+)°, at (\S+); .* minimum, ([\d.]+)°",
         str(step.caption),
     ).groups()
     assert float(angle) == pytest.approx(alpha[names.index(worked)], abs=0.0051)

@@ -165,7 +165,7 @@ def test_the_parts_of_a_phase_are_as_wide_and_as_high_as_is_told(name, hand):
 
 def rays_told(run: Pass) -> list[tuple[str, float]]:
     """The names of the rays, and how high they end, as the parts say it."""
-    found = [re.match(rf"Rays? (.*?)(?: are one)?: .* = {NUMBER} mm", str(p.caption)) for p in run.rays.parts[1:]]
+    found = [re.match(rf"Rays? (.*?)(?: coincide)?: .* = {NUMBER} mm", str(p.caption)) for p in run.rays.parts[1:]]
     assert all(found)
     return [(each.group(1), float(each.group(2))) for each in found]
 
@@ -232,7 +232,7 @@ def test_chord_k_bears_the_number_of_the_ray_that_it_is_parallel_to_and_climbs_a
     assert len(parts) == len(ray)
     for part, own in zip(parts, parts_of(name), strict=True):
         said = re.fullmatch(
-            r"Chord (\S+): slide the set square from ray (\S+) to point (\S+), draw as far as upright (\S+); (.*)\.",
+            r"Chord (\S+): slide the set square from ray (\S+) to point (\S+), draw as far as vertical (\S+); (.*)\.",
             str(part.caption),
         ).groups()
         k = stations.index(own)

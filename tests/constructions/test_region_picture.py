@@ -85,7 +85,7 @@ def inside(polygon: np.ndarray, place: complex) -> float:
 
 def keeps_the_limits(solution: gc.Solution) -> bool:
     """Whether nothing is said of a limit that is broken, or of a given radius that is too small."""
-    return not any(re.search("pressure angle|least permitted", str(warning)) for warning in solution.warnings)
+    return not any(re.search("pressure angle|minimum permitted", str(warning)) for warning in solution.warnings)
 
 
 @every([*TASKS, *ARMS])

@@ -120,7 +120,7 @@ def test_the_teacher_reads_the_remark_with_its_rate_and_the_student_nothing_of_i
     unremarked = record | {"too_exact": False}
     shown = [group_page(exercise, [one], {"Anna": answer_key}) for one in (record, unremarked)]
     rate = f"Fewer than {100 * FALSE_ALARMS:g} % of careful drawings are flagged."
-    remark = f"Anna: the readings are as exact as a program: CAD or computed? {rate}"
+    remark = f"Anna: the readings are as exact as those of a program: drawn in CAD or computed? {rate}"
     assert [remark in page for page in shown] == [True, False]
     assert student_page(exercise, record, answer_key) == student_page(exercise, unremarked, answer_key)
     assert gradescope.results(exercise, record) == gradescope.results(exercise, unremarked)

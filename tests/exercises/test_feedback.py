@@ -46,7 +46,7 @@ def test_the_point_that_is_farthest_off_is_named_as_stations_are_counted():
     pitch[7] *= 1.1
     record = marked("inversion-translating", pitch=pitch)
     (said,) = (each for each in record.feedback if each.startswith("pitch"))
-    assert "most of all at point 8," in said
+    assert "most of all at point 8." in said
 
 
 def test_how_many_points_were_read_is_said_where_another_number_is_asked():
@@ -70,7 +70,7 @@ def test_every_answer_has_its_sentence_first():
         "v_2: right.",
         "v_3_return: the answer cannot be read: It says x.",
         "s_5: the answer cannot be read.",
-        "s_max: farther off than a careful hand draws or calculates.",
+        "s_max: your answer is farther off than careful drawing and calculation allow.",
     )
     assert said[4:8] == tuple(f"{name}: no answer was given." for name in ("s_3_return", "mu_v", "mu_a", "v_max"))
 

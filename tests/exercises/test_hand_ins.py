@@ -122,7 +122,7 @@ def test_what_may_be_that_of_two_is_graded_for_neither(course: Path):
     found, refused = hand_ins_in(course / "packed", AnswerKeys(course / TEACHER))
     assert found == []
     assert {one.place: str(one.why) for one in refused} == {
-        "Anna Müller_1_assignsubmission_file_": "it may be that of several students: s-17, s19",
+        "Anna Müller_1_assignsubmission_file_": "it may belong to several students: s-17, s19",
         "4711": "several of these belong to 4711; keep one",
         "kuz@uni.edu": "several of these belong to 4711; keep one",
     }

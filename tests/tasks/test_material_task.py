@@ -85,7 +85,8 @@ def test_a_stress_that_is_exceeded_is_warned_of(tmp_path):
 @pytest.mark.parametrize(
     ("permitted", "marked", "words"),
     [(1000, True, "Only 1000 MPa are permitted. A contact 19.80 mm wide satisfies this."),
-     (1200, False, "1200 MPa are permitted: a contact 13.75 mm wide would be enough."), (None, False, "there pitting begins.")],
+     (1200, False, "1200 MPa are permitted: a contact 13.75 mm wide would be enough."),
+     (None, False, "there pitting begins.")],
 )  # fmt: skip
 def test_the_diagram_and_the_note_say_what_is_permitted(tmp_path, permitted, marked, words):
     limit = "" if permitted is None else f"permitted_stress = {permitted}\n"

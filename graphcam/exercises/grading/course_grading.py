@@ -258,7 +258,7 @@ def _graded(
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
     watched = f" (memory watched, {assignment.memory} MiB for all processes)" if assignment.memory else ""
     where = f"in {course.out.parent}: {', '.join(files)}"
-    done = f"{len(records)} hand-ins, graded at level {course.level}{watched}, {where}"
+    done = f"{len(records)} submissions, graded at level {course.level}{watched}, {where}"
     return "\n".join([done, *map(_line, told)])
 
 

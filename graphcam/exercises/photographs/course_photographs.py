@@ -241,7 +241,7 @@ def summary(read: ReadCourse) -> Iterator[str]:
     waiting = [one for one in read.students if one.open]
     unmeasured = [one for one in read.students if one.pages and not one.corrections.bars]
     known = f"{_counted(read.photos, 'photograph')} of {_counted(read.students, 'student')}"
-    yield f"{read.folder}: {known}, {len(refused)} refused; to be looked at: {_counted(waiting, 'student')}"
+    yield f"{read.folder}: {known}, {len(refused)} refused; to check: {_counted(waiting, 'student')}"
     if unmeasured:
         whose = _counted(unmeasured, "student")
         yield f"of {whose} no scale bar is typed; a printer may be off by 1 %, and no photograph shows it"
@@ -249,7 +249,7 @@ def summary(read: ReadCourse) -> Iterator[str]:
         yield f"refused: {photo.name}: {photo.why}; {photo.remedy}"
     for one in waiting:
         names = ", ".join(each.asked.name for each in one.answers if each.status in ("refused", "not seen"))
-        yield f"to be looked at: {one.student}: {names}"
+        yield f"to check: {one.student}: {names}"
 
 
 def _counted(things: Sequence[object], name: str) -> str:

@@ -66,7 +66,7 @@ class PaperArea:
         Traceback (most recent call last):
         ...
         graphcam.exercises.reading.regular_file.UnreadableError: the drawing on the layer pitch lies far from where \
-it can be, counted from the drawing's own zero; mark the origin of the paper by a POINT on the layer ORIGIN
+it should be, counted from the drawing's own zero; mark the origin of the paper by a POINT on the layer ORIGIN
         """
         sizes = [_size(_points(each)) for each in self.known]
         if not min(sizes) / SIZES <= _size(points) <= max(sizes) * SIZES:

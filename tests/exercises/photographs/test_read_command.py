@@ -90,8 +90,8 @@ def lines_of(course) -> list[dict[str, str]]:
 def test_from_scans_to_marks_and_feedback(course, scans, tmp_path):
     done = read(course, scans, workers=1, review=tmp_path / "review.html")
     assert done.exit_code == 0, done.output
-    assert "2 photographs of 2 students, 0 refused; to be looked at: 1 student" in done.output
-    assert "to be looked at: Boris: pitch" in done.output
+    assert "2 photographs of 2 students, 0 refused; to check: 1 student" in done.output
+    assert "to check: Boris: pitch" in done.output
     status = {line["student"]: line["status"] for line in lines_of(course)}
     assert status == {"Anna": "counts", "Boris": "to check"}
     given = np.array(tomllib.loads((course.photos / "Anna" / "answers.toml").read_text())[NAME]) @ [1, 1j]

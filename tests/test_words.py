@@ -1,0 +1,119 @@
+"""The words of the field, in all that a user reads: the style sheet of ``.github/CONTRIBUTING.md`` held over captions,
+notebooks, exercises and the pages of the site, and the Russian one over the Russian catalog."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import graphcam
+from graphcam.catalog import read_catalog
+
+ROOT = Path(__file__).parent.parent
+CATALOG = Path(graphcam.__file__).parent / "data" / "languages" / "ru.po"
+INSTEAD = {
+    r"\bgreatest\b|(?<!\bat )\bleast\b": "maximum, minimum",
+    r"\brest line\b|\blow rest\b|\bat the rest\b|\brests\b|\bresting\b": "dwell, dwell line, lower dwell",
+    r"\bscheme of the mechanism\b": "kinematic diagram",
+    r"\bgauge\b": "scale bar",
+    r"\b(?:perfect|careful) hands?\b|\bperfect pencil\b|\bhand without error\b": "ideal pencil, careful drawing",
+    r"\bhand's (?:errors?|scatter)\b|\berrors? of the hand\b": "drawing error",
+    r"\bhand-ins?\b": "submission",
+    r"\bthe papers\b": "handouts",
+    r"\bcertificates?\b": "answer key",
+    r"\bfoot from\b": "foot of the perpendicular",
+    r"\btouch points?\b|\bpoint of touch\b": "contact point, point of contact",
+    r"\bin balance\b": "in equilibrium",
+    r"\bbears the (?:follower|arm)\b": "pushes, supports",
+    r"\bno bend\b|\bbend is readable\b": "the curvature cannot be read",
+    r"\bupright\b": "vertical",
+    r"\bshared? out\b|\btaken up by turning\b": "distributed, removed by rotating the base line",
+    r"\blooks (?:drawn|laid off|taken|turned|given|exchanged|read)\b": "You seem to have ...",
+    r"\bnought\b|\bshall\b|\bwhither\b|\ban own\b|\bforetell\b": "zero, is to, where, of their own, predict",
+}
+"""What is not written, as a pattern, and what is."""
+RUSSIAN = {
+    r"\b[Рр]ук(?:а|и|е|у|ой|ами)\b": "идеальное построение, погрешность построения",
+    r"(?<!то )(?<!То )\bесть\b": "тире",
+    r"(?:^|[,.] )[Зз]начит\b": "следовательно",
+    r"\b[Нн]атяг": "предварительное поджатие",
+    r"\bмм чертежа\b": "мм на чертеже",
+    r"\bпоступательн(?:ый|ого|ому|ом) толкател": "поступательно движущийся толкатель",
+    r"\bпоперёк движения\b": "перпендикулярно движению",
+    r"\bнормаль коромысла\b": "нормаль к коромыслу",
+    r"\bтеоретическ\w+ профил": "центровой профиль",
+    r"\b[Оо]тсчёт(?:ы|ов)?\b": "измеренные величины",
+    r"^(?:доказанная )?[Гг]раница(?:,| \(|$)": "предельная погрешность",
+    r"^Рев\.$": "Ред.",
+}
+"""The same in Russian."""
+
+
+@pytest.fixture(scope="module")
+def russian() -> list[str]:
+    """What the Russian catalog says."""
+    return [form for forms in read_catalog(CATALOG.read_text(encoding="utf-8")).told.values() for form in forms]
+
+
+def captions() -> Iterator[str]:
+    """The captions of the program, without what stands in their places."""
+    for _, text in read_catalog(CATALOG.read_text(encoding="utf-8")).told:
+        yield re.sub(r"\{[^}]*\}", "", text)
+
+
+def prose(page: str) -> str:
+    """What is read on a page of Markdown: no code, no formulas, no addresses."""
+    return re.sub(r"^```.*?^```|`[^`]*`|\$[^$]*\$|\]\([^)]*\)", " ", page, flags=re.DOTALL | re.MULTILINE)
+
+
+def cells(notebook: str) -> str:
+    """What is read in a notebook: its prose, and the texts of its figures, tables and questions."""
+    lines, prosaic = [], False
+    for line in notebook.splitlines():
+        if line.startswith("# %%"):
+            prosaic = "[markdown]" in line
+        elif prosaic:
+            lines.append(line.removeprefix("#").strip())
+        else:
+            lines += [re.sub(r"\{[^}]*\}", "", text) for text in re.findall(r'"([^"]*)"', line) if " " in text]
+    return prose("\n".join(lines))
+
+
+@pytest.fixture(scope="module")
+def pages() -> dict[str, str]:
+    """What is read, by the file in which it stands."""
+    written = [*ROOT.glob("notebooks/site/pages/**/*.md"), *ROOT.glob("notebooks/*.md"), ROOT / "exercises/README.md"]
+    found = {str(path.relative_to(ROOT)): prose(path.read_text(encoding="utf-8")) for path in written}
+    for path in ROOT.glob("notebooks/*.py"):
+        found[path.name] = cells(path.read_text(encoding="utf-8"))
+    for path in ROOT.glob("exercises/*.toml"):
+        exercise = tomllib.loads(path.read_text(encoding="utf-8"))
+        asked = [exercise["title"], exercise["text"], *(answer["text"] for answer in exercise["answers"])]
+        found[path.name] = "\n".join(text["en"] for text in asked)
+    return found | {"captions": "\n".join(captions())}
+
+
+def said(pattern: str, text: str) -> list[str]:
+    """The lines in which it is said."""
+    lines = [text[max(0, found.start() - 60) : found.end() + 20] for found in re.finditer(pattern, text, re.IGNORECASE)]
+    return [" ".join(line.split()) for line in lines]
+
+
+@pytest.mark.parametrize("pattern", INSTEAD, ids=INSTEAD.values())
+def test_the_words_of_the_field_are_used(pages, pattern):
+    assert {name: lines for name, text in pages.items() if (lines := said(pattern, text))} == {}
+
+
+@pytest.mark.parametrize("pattern", RUSSIAN, ids=RUSSIAN.values())
+def test_russian_is_written_as_lecturers_write_it(russian, pattern):
+    assert [form for form in russian if re.search(pattern, form)] == []
+
+
+def test_a_word_that_is_not_used_would_be_found():
+    name = "greatest v\nthe follower rests\nat least 3 mm, `least` and $least$"
+    assert [bool(said(pattern, prose(name))) for pattern in INSTEAD][:2] == [True, True]
+    assert said(next(iter(INSTEAD)), prose("at least 3 mm, `least` and $least$")) == []
