@@ -136,6 +136,34 @@ def test_the_reference_has_every_public_name_and_the_course_every_notebook(site)
 
 
 @pytest.mark.slow
+def test_the_player_of_the_first_page_steps_where_it_stands(site):
+    """It moves its own boxes, not the page around it."""
+    with opened(site / "index.html", site) as (shown, wrong):
+        player = shown.frame_locator("figure.player iframe")
+        player.locator("#next").wait_for()
+        assert shown.evaluate("scrollY") == 0
+        player.locator("#next").click()
+        stood = shown.evaluate("scrollY")
+        for _ in range(8):
+            shown.keyboard.press("ArrowRight")
+        assert shown.frames[1].evaluate("location.hash") == "#3.2/13"
+        assert shown.evaluate("scrollY") == stood
+        # And the part is in sight.
+        part, words = player.locator(".parts [aria-current=step]"), player.locator("#words")
+        (inner, outer) = (found.bounding_box() for found in (part, words))
+        assert outer["y"] <= inner["y"]
+        assert inner["y"] + inner["height"] <= outer["y"] + outer["height"] + 1
+    assert wrong == []
+
+
+@pytest.mark.slow
+def test_the_summaries_of_the_commands_are_whole(site):
+    text = (site / "reference" / "commands.html").read_text(encoding="utf-8")
+    assert "draw the sheet, write the note and the tables, compare with exact values." in text
+    assert re.findall(r"<li>.*<code.*?</code>: .*\.\.\.</p>", text) == []
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("page", ["index", "course/04_shaded_region", "reference/index", "how-to/check-my-drawing"])
 def test_a_page_opens_without_a_fault_or_a_request(site, page):
     with opened(site / f"{page}.html", site) as (shown, wrong):
