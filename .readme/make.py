@@ -1,6 +1,7 @@
 """Draw the pictures of README.md anew: ``python .readme/make.py``."""
 
 import shutil
+import sys
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,6 +17,9 @@ from graphcam.bench.bench_report import QUICK
 from graphcam.studio.local_studio import local_studio, opened_address
 
 HERE = Path(__file__).parent
+sys.path.append(str(HERE.parent / "notebooks" / "site"))
+from graded_page import graded_page  # noqa: E402
+
 WIDTHS = {"coursework": 1800, "arm": 1200, "flat": 1200}
 """The built-in tasks that are shown, and how wide [pixels]."""
 COLOURS = 32
@@ -37,6 +41,25 @@ def player_picture(page_file: Path) -> Image.Image:
     both = Image.new("RGB", (2 * 1180 + 20, 760), "#8a94a0")
     for k, shot in enumerate(shots):
         both.paste(Image.open(BytesIO(shot)).convert("RGB"), (1200 * k, 0))
+    return both
+
+
+def graded_picture() -> Image.Image:
+    """The page that a student gets back: marks, the mistake by its name, and the drawing over the right one."""
+    with TemporaryDirectory() as folder, sync_playwright() as playwright:
+        page_file = Path(folder, "graded.html")
+        page_file.write_text(graded_page(), encoding="utf-8")
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 900, "height": 900})
+        page.goto(page_file.as_uri())
+        shot = Image.open(BytesIO(page.screenshot(full_page=True))).convert("RGB")
+        middle = round(page.locator("h2", has_text="The first step").bounding_box()["y"])
+        last = page.locator("figure svg, svg").last.bounding_box()
+        browser.close()
+    both = Image.new("RGB", (1560, middle), "#ffffff")
+    both.paste(shot.crop((0, 0, 900, middle)), (0, 0))
+    drawn = shot.crop(tuple(round(x) for x in (last["x"], last["y"], last["x"] + last["width"], shot.height)))
+    both.paste(drawn, (930, (middle - drawn.height) // 2))
     return both
 
 
@@ -69,6 +92,7 @@ for name, width in WIDTHS.items():
     # Of all ways this one keeps grey lines grey.
     picture.quantize(COLOURS, Image.Quantize.FASTOCTREE).save(HERE / f"{name}.png", optimize=True)
 
+graded_picture().quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "graded.png", optimize=True)
 studio_picture().quantize(64, Image.Quantize.MAXCOVERAGE).save(HERE / "studio.png", optimize=True)
 
 cam = gc.solve(gc.builtin_task()).cam

@@ -66,6 +66,17 @@ def _sentence(what: str, value: object, allowed: str, remedy: str) -> str:
     return f"{what} is {shown}, but must be {allowed}" + (f"; {remedy}" if remedy else "")
 
 
+def install_advice(extra: str) -> str:
+    """How an extra is installed: from the source that graphcam came from, as any index may hold another package.
+
+    In double quotes, which every shell takes, and by the interpreter's own pip.
+
+    >>> print(install_advice("photo"))
+    in the folder of graphcam's source run: python -m pip install ".[photo]"
+    """
+    return f'in the folder of graphcam\'s source run: python -m pip install ".[{extra}]"'
+
+
 @contextmanager
 def installed(option: str, library: str, extra: str) -> Generator[None]:
     """An import of what an option needs and an extra brings.
@@ -77,12 +88,12 @@ def installed(option: str, library: str, extra: str) -> Generator[None]:
     >>> with installed("--cluster", "dask", "cluster"):  # doctest: +ELLIPSIS
     ...     import no_such_module
     Traceback (most recent call last):
-    graphcam.errors.TaskError: --cluster: dask is 'not installed', but must be installed; pip install ...
+    graphcam.errors.TaskError: --cluster: dask is 'not installed', but must be installed; in the folder ...
     """
     try:
         yield
     except ImportError:
-        raise TaskError(option, library, "not installed", "installed", f"pip install 'graphcam[{extra}]'") from None
+        raise TaskError(option, library, "not installed", "installed", install_advice(extra)) from None
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -16,7 +16,7 @@
 #
 # **Aim.** At the end you can say where the material under a roller is stressed most, and judge whether the stress from a finite element program can be right.
 #
-# **You need** the stress between roller and profile (notebook 9), the radius of curvature (notebook 6), and for the computation `pip install 'graphcam[fem]'`. On paper: A4. **Time:** 45
+# **You need** the stress between roller and profile (notebook 9), the radius of curvature (notebook 6), and for the computation `python -m pip install ".[fem]"` in the folder of graphcam's source. On paper: A4. **Time:** 45
 # minutes, 15 of them with the pencil.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]

@@ -78,6 +78,16 @@ def test_the_checks_run_the_commands_of_the_readme():
         assert subprocess.check_output(["bash", "-c", code], cwd=ROOT, text=True) == f"{command}\n"
 
 
+def test_no_advice_names_a_package_index():
+    """What an index has under the name may be somebody else's: all is installed from the source."""
+    places = [*ROOT.glob("*.md"), *(ROOT / ".github").rglob("*.md")]
+    places += [p for room in ("graphcam", "notebooks", "exercises") for p in (ROOT / room).rglob("*")]
+    texts = [path for path in places if path.suffix in {".py", ".md", ".toml", ".po", ".html", ".js", ".ipynb"}]
+    named = re.compile(r"(?:pip|uv|pipx|conda) (?:\w+ )*['\"]?graphcam\b")
+    assert [str(path) for path in texts if named.search(path.read_text(encoding="utf-8"))] == []
+    assert named.search("pip install 'graphcam[photo]'")
+
+
 def test_a_commit_is_checked_as_a_clone_is():
     hooks = (ROOT / ".pre-commit-config.yaml").read_text()
     script = (ROOT / ".ci" / "run").read_text()

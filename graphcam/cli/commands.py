@@ -45,7 +45,7 @@ def notebook(
 
     graphcam notebook cam.toml --out lesson --html --pdf
 
-    Executing needs the extra: pip install 'graphcam\\[notebooks]'
+    Executing needs the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
     """
     with one_message():
         given = graphcam.builtin_task() if task is None else graphcam.load_task(task)

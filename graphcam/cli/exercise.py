@@ -26,6 +26,7 @@ from graphcam.cli.grade_options import (
     ShowRight,
 )
 from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_bar, progress_lines
+from graphcam.errors import install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 
@@ -187,9 +188,7 @@ def make(
         chosen = usual_paper(name) if not paper else "" if paper == UNMARKED else paper
         if not paper and chosen and find_spec("segno") is None:
             chosen = ""
-            progress(
-                f"{name}: worksheets without tags; for such that can be photographed: pip install 'graphcam[photo]'"
-            )
+            progress(f"{name}: worksheets without tags; for such that can be photographed, {install_advice('photo')}")
         papers = {"language": language, "hand": hand, "paper": chosen}
         count = run(name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step)
         if studio:

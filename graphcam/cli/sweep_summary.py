@@ -12,7 +12,7 @@ import typer
 from graphcam.cli.shared import print_table
 from graphcam.cli.telling_files import tell_file
 from graphcam.files import whole_file
-from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, Found, front_csv
+from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
 
 if TYPE_CHECKING:
     from graphcam.sweeps.dataset import Summary
@@ -23,7 +23,7 @@ MOST_ROWS = 12
 """Of the table; the file has all."""
 
 
-def tell_sweep(space: Space, found: Found | Summary) -> None:
+def tell_sweep(space: Space, found: FoundBest | Summary) -> None:
     """Print how many designs keep the limits, the smallest of them, and the front as a table."""
     designs = f"{found.designs} designs"
     if found.feasible is None:

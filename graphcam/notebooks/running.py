@@ -8,7 +8,7 @@ from types import ModuleType
 
 from nbformat import NotebookNode
 
-from graphcam.errors import GraphcamError
+from graphcam.errors import GraphcamError, install_advice
 
 PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
@@ -20,15 +20,15 @@ LONGEST = 120
 class MissingExtraError(GraphcamError):
     """A library of an extra that is not installed.
 
-    >>> print(MissingExtraError("executing a notebook", "nbclient"))
-    executing a notebook needs nbclient, which is not installed; pip install 'graphcam[notebooks]'
+    >>> print(MissingExtraError("executing a notebook", "nbclient"))  # doctest: +ELLIPSIS
+    executing a notebook needs nbclient, which is not installed; in the folder of graphcam's source run: python -m ...
     """
 
     what: str
     library: str
 
     def __str__(self) -> str:
-        return f"{self.what} needs {self.library}, which is not installed; pip install 'graphcam[notebooks]'"
+        return f"{self.what} needs {self.library}, which is not installed; {install_advice('notebooks')}"
 
 
 def needed(library: str, what: str) -> ModuleType:

@@ -1,6 +1,6 @@
 """The studio as a widget of a notebook: the page in a frame, the engine in the kernel, the task shared by both.
 
-It needs the extra ``notebooks``: pip install 'graphcam[notebooks]'.
+It needs the extra ``notebooks``.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.files import OutputError
-from graphcam.sweeps.front import Found, joined_front
+from graphcam.sweeps.front import FoundBest, joined_front
 from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
@@ -140,7 +140,7 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
     _, file, first, stop = job
     if version != __version__:
         return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
-    start, blocks, seen = time.thread_time(), list[Record](), Found(0)
+    start, blocks, seen = time.thread_time(), list[Record](), FoundBest(0)
     try:
         if MANIFEST not in place.sizes():
             return f"the worker on {socket.gethostname()} does not see it; all workers must share it"

@@ -23,7 +23,7 @@ SIZE, ANGLE, FEASIBLE = "prime_radius", "max_pressure_angle_rise_deg", "feasible
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundBest:
     """What a sweep found besides its rows.
 
     feasible : designs within the limits;  front : by column, from the smallest design to that of the least pressure
@@ -34,14 +34,14 @@ class Found:
     feasible: int | None = None
     front: Columns | None = None
 
-    def with_block(self, space: Space, columns: Columns) -> Found:
+    def with_block(self, space: Space, columns: Columns) -> FoundBest:
         """The same with some more designs of a space, by the columns of their results."""
         designs = self.designs + next(iter(columns.values())).size
         if FEASIBLE not in columns:
-            return Found(designs)
+            return FoundBest(designs)
         front = front_of(space, columns)
         feasible = (self.feasible or 0) + int(np.count_nonzero(columns[FEASIBLE]))
-        return Found(designs, feasible, front if self.front is None else joined_front([self.front, front]))
+        return FoundBest(designs, feasible, front if self.front is None else joined_front([self.front, front]))
 
 
 def pareto_front(first: ArrayLike, second: ArrayLike) -> NDArray[np.intp]:

@@ -8,8 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from graphcam.errors import install_advice
 from graphcam.files import OutputError, whole_file
-from graphcam.sweeps.front import Found
+from graphcam.sweeps.front import FoundBest
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
 from graphcam.workers import in_order
@@ -28,7 +29,7 @@ def is_file(place: str) -> bool:
 
 def sweep_to_file(
     space: Space, path: Path | str, executor: Executor | None = None, progress: Callable[[int], None] | None = None
-) -> Found:
+) -> FoundBest:
     """Compute every design of a space and write it, a row each, into a CSV or Parquet file: whole, or not at all.
 
     Returned is how many keep the limits, and the front of the best of them.
@@ -48,7 +49,7 @@ def sweep_to_file(
     with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
-        found = Found(0)
+        found = FoundBest(0)
         for columns in in_order(executor, space.results, blocks, JOBS_AHEAD):
             write(columns)
             found = found.with_block(space, columns)
@@ -89,7 +90,7 @@ def parquet_rows(path: Path | str, draft: Any) -> Generator[Write]:
         import pyarrow as arrow
         from pyarrow import parquet
     except ImportError:
-        remedy = "pip install 'graphcam[parquet]', or write a .csv file"
+        remedy = f"write a .csv file, or {install_advice('parquet')}"
         raise OutputError(path, "there is no pyarrow", remedy) from None
     writer: Any = None
     try:

@@ -14,10 +14,12 @@ import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import jupytext
 import nbformat
 from docstrings import public_names
+from graded_page import graded_page
 from nbformat import NotebookNode
 from PIL import Image
 from sphinx.cmd.build import build_main
@@ -40,6 +42,8 @@ GALLERY = {
 SHEET_DPI = 60
 """Of the gallery's pictures: small to load, and the captions can still be read."""
 COLOURS = 32
+PICTURES = "graded.png", "bench-time.png"
+"""Of README, which the first page shows too."""
 GROUPS = {
     "motion": ("Motions, followers, loads", ("given",)),
     "exact": ("Exact values", ("mechanism", "comparison")),
@@ -76,7 +80,8 @@ def build(
     with tempfile.TemporaryDirectory(prefix="graphcam-site-") as folder:
         source = Path(folder) / "source"
         shutil.copytree(HERE / "pages", source)
-        shutil.copy(COURSE.parent / ".readme" / "coursework.png", source)
+        for name in PICTURES:
+            shutil.copy(COURSE.parent / ".readme" / name, source)
         shutil.copy(COURSE.parent / "exercises" / "README.md", source / "exercises.md")
         for path in NOTEBOOKS:
             lesson = notebook(path)
@@ -87,9 +92,19 @@ def build(
             write_studio(source, out / FOLDER, pyodide)
         write_gallery(source / "gallery", sheets)
         write_reference(source / "reference")
+        write_shown(out)
         return build_main(
             ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]
         )
+
+
+def write_shown(out: Path) -> None:
+    """What the first page shows in frames: the step player of the coursework task, and a graded page."""
+    out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        gc.solve(gc.builtin_task()).write(folder, files=["player"])
+        shutil.copy(Path(folder) / "player.html", out)
+    (out / "graded.html").write_text(graded_page(), encoding="utf-8")
 
 
 def write_studio(source: Path, out: Path, pyodide: Path) -> None:
@@ -99,7 +114,8 @@ def write_studio(source: Path, out: Path, pyodide: Path) -> None:
     write_site(out, pyodide, gc.builtin_task())
     (source / "studio.md").write_text(studio_page(), encoding="utf-8")
     index = (source / "index.md").read_text(encoding="utf-8")
-    (source / "index.md").write_text(index.replace("\nfirst-sheet\n", "\nstudio\nfirst-sheet\n", 1), encoding="utf-8")
+    listed = index.replace("\ninstallation\n", "\nstudio\ninstallation\n", 1)
+    (source / "index.md").write_text(listed, encoding="utf-8")
 
 
 def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
@@ -159,11 +175,19 @@ def commands() -> str:
 
     from graphcam.cli import app
 
-    command = typer.main.get_command(app)
+    command = whole_summaries(typer.main.get_command(app))
     text = get_docs_for_click(obj=command, ctx=typer.Context(command, info_name="graphcam"), name="graphcam")
     text = text.replace("# `graphcam`", "# Commands", 1).replace("[bold]", "**").replace("[/bold]", "**")
     # An example is a paragraph: a command, and perhaps what it is for.
     return re.sub(r"^(graphcam .+?)(   \(.+\))?$", r"`\1`\2", text, flags=re.MULTILINE)
+
+
+def whole_summaries(command: Any) -> Any:
+    """A command with its summary, and those of its commands, as long as they are: without one Click cuts at 45 letters."""
+    command.short_help = (command.short_help or command.help or "").split("\n\n")[0].replace("\n", " ")
+    for inner in getattr(command, "commands", {}).values():
+        whole_summaries(inner)
+    return command
 
 
 def main() -> int:

@@ -176,7 +176,7 @@ def test_a_missing_extra_is_named_and_nothing_is_left(tmp_path, monkeypatch):
     monkeypatch.setattr(running, "import_module", missing)
     done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--execute"])
     assert done.exit_code == WRONG_INPUT
-    assert "pip install 'graphcam[notebooks]'" in done.stderr
+    assert 'pip install ".[notebooks]"' in done.stderr
     assert not (tmp_path / "out").exists()
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from babel.messages.pofile import read_po, write_po
 from mpmath import mp, mpf
-from pages import HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
+from pages import BLOCK, HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
 from graphcam.given import laws
 from graphcam.mechanism.least_radius_translating import steepest_tangent
@@ -70,6 +70,35 @@ def test_the_commands_of_a_page_run_in_order(page, tmp_path):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "warning" not in done.stderr
+
+
+ON_WINDOWS_TOO = {"graphcam", "jupyter", "mkdir", "npm", "pybabel", "pytest", "python"}
+"""Programs that a page may call: they are the same in PowerShell and in the Command Prompt."""
+
+
+def not_on_windows(line: str) -> str:
+    """Why a line of a page is no command on Windows; empty where it is one."""
+    command = line.split("  #")[0]
+    if command.split()[0] not in ON_WINDOWS_TOO or command.startswith("mkdir -"):
+        return "program"
+    return next((sign for sign in ("'", "\\", "$", "|", "&&", "<<", "~/") if sign in command), "")
+
+
+def test_the_commands_of_the_pages_exist_on_windows():
+    texts = [text_of(page) for page in HOW_TO]
+    texts += [(ROOT / folder / "README.md").read_text(encoding="utf-8") for folder in ("exercises", "notebooks")]
+    lines = [line for text in texts for found in BLOCK.finditer(text) if found["language"] in ("bash", "sh")
+             for line in found["text"].splitlines() if line]  # fmt: skip
+    assert len(lines) > 40
+    assert [(line, why) for line in lines if (why := not_on_windows(line))] == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["head -c 32 /dev/urandom > secret", "mkdir -p build", "python -m pip install '.[photo]'", "graphcam solve \\"],
+)
+def test_a_command_that_windows_has_not_would_be_found(line):
+    assert not_on_windows(line)
 
 
 def commands_for_developers() -> list[str]:

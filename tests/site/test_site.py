@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -70,6 +71,8 @@ def faults(site: Path) -> Iterator[str]:
                 yield f"{path.name} leads to {address}"
             elif to.fragment.startswith("1.") and target.parent.name == "studio":
                 continue  # a state of the studio
+            elif target.name == "player.html" and re.fullmatch(r"\d+\.\d+/\d+", to.fragment):
+                continue  # a part of a step
             elif to.fragment and target in pages and unquote(to.fragment) not in pages[target].anchors:
                 yield f"{path.name} leads to {address}, which has no such place"
 
@@ -130,6 +133,34 @@ def test_the_reference_has_every_public_name_and_the_course_every_notebook(site)
     assert {f"graphcam.{name}" for name in gc.__all__} <= anchors
     course = {path.stem for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.py")}
     assert {path.stem for path in (site / "course").glob("[0-9]*.html")} == course
+
+
+@pytest.mark.slow
+def test_the_player_of_the_first_page_steps_where_it_stands(site):
+    """It moves its own boxes, not the page around it."""
+    with opened(site / "index.html", site) as (shown, wrong):
+        player = shown.frame_locator("figure.player iframe")
+        player.locator("#next").wait_for()
+        assert shown.evaluate("scrollY") == 0
+        player.locator("#next").click()
+        stood = shown.evaluate("scrollY")
+        for _ in range(8):
+            shown.keyboard.press("ArrowRight")
+        assert shown.frames[1].evaluate("location.hash") == "#3.2/13"
+        assert shown.evaluate("scrollY") == stood
+        # And the part is in sight.
+        part, words = player.locator(".parts [aria-current=step]"), player.locator("#words")
+        (inner, outer) = (found.bounding_box() for found in (part, words))
+        assert outer["y"] <= inner["y"]
+        assert inner["y"] + inner["height"] <= outer["y"] + outer["height"] + 1
+    assert wrong == []
+
+
+@pytest.mark.slow
+def test_the_summaries_of_the_commands_are_whole(site):
+    text = (site / "reference" / "commands.html").read_text(encoding="utf-8")
+    assert "draw the sheet, write the note and the tables, compare with exact values." in text
+    assert re.findall(r"<li>.*<code.*?</code>: .*\.\.\.</p>", text) == []
 
 
 @pytest.mark.slow

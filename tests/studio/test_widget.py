@@ -52,7 +52,7 @@ def test_the_room_alone_loads_no_widget_and_the_function_says_what_it_lacks():
     assert loaded == "set()"
     code = "import sys\nsys.modules['anywidget'] = None\nimport graphcam as gc\n"
     code += "try: gc.studio()\nexcept gc.TaskError as e: print(e)"
-    assert run(code).endswith("pip install 'graphcam[notebooks]'")
+    assert run(code).endswith('pip install ".[notebooks]"')
 
 
 def test_the_task_goes_both_ways(widget):

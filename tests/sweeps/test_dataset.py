@@ -253,8 +253,8 @@ def test_a_folder_that_holds_something_else_is_left_alone(space, tmp_path, name,
 @pytest.mark.parametrize(
     ("missing", "option", "message"),
     [
-        ("fsspec.core", (), "pip install 'graphcam[parquet]'"),
-        ("distributed", ("--cluster", "tcp://127.0.0.1:9"), "pip install 'graphcam[cluster]'"),
+        ("fsspec.core", (), 'pip install ".[parquet]"'),
+        ("distributed", ("--cluster", "tcp://127.0.0.1:9"), 'pip install ".[cluster]"'),
     ],
 )
 def test_what_is_not_installed_is_named_with_its_extra(space, tmp_path, monkeypatch, missing, option, message):

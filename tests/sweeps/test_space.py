@@ -116,7 +116,7 @@ def test_without_pyarrow_the_message_names_the_remedy(space, tmp_path, monkeypat
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     result = run(space, "--out", tmp_path / "out.parquet")
     assert result.exit_code == WRONG_INPUT
-    assert "pip install 'graphcam[parquet]'" in result.stderr
+    assert 'pip install ".[parquet]"' in result.stderr
     assert "Traceback" not in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["space.toml"]
 

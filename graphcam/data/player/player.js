@@ -82,7 +82,18 @@
     });
     if (isNew) at("words").scrollTop = 0;
     // The first part leaves the caption in sight.
-    if (part !== null && (part || !isNew)) items[part].scrollIntoView({ block: "nearest" });
+    if (part !== null && (part || !isNew)) bringIntoSight(items[part]);
+  }
+
+  // In the player's own boxes alone: in a frame scrollIntoView would move the page around it too.
+  function bringIntoSight(item) {
+    for (let box = item.parentElement; box !== document.body; box = box.parentElement) {
+      const room = parseFloat(getComputedStyle(box).scrollPaddingTop) || 0;
+      const own = item.getBoundingClientRect(), around = box.getBoundingClientRect();
+      const above = own.top - around.top - room, below = own.bottom - around.bottom + room;
+      if (above < 0) box.scrollTop += above;
+      else if (below > 0) box.scrollTop += Math.min(above, below);
+    }
   }
 
   function markContents() {
@@ -99,7 +110,7 @@
     const row = document.querySelector("#protocol tr.here");
     row?.classList.remove("here");
     at(`row-${current}`).classList.add("here");
-    if (!at("protocol").hidden) at(`row-${current}`).scrollIntoView({ block: "nearest" });
+    if (!at("protocol").hidden) bringIntoSight(at(`row-${current}`));
   }
 
   // --- where the reader looks ------------------------------------------------------------------------------------
@@ -229,7 +240,7 @@
     at("words").hidden = open;
     document.body.classList.toggle("listing", open);
     at("list").setAttribute("aria-expanded", open);
-    if (open) at(`row-${current}`).scrollIntoView({ block: "nearest" });
+    if (open) bringIntoSight(at(`row-${current}`));
   }
   at("protocol").addEventListener("change", ({ target }) => {
     for (const { board } of panes) board.putAway(Number(target.dataset.shows), !target.checked);

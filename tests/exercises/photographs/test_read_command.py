@@ -262,7 +262,7 @@ def test_without_the_libraries_the_extra_is_named(course, monkeypatch):
     monkeypatch.setitem(sys.modules, "zxingcpp", None)
     done = command("read", "--course", course.place, "--secret-file", course.secret)
     assert done.exit_code == 2
-    assert "pip install 'graphcam[photo]'" in done.output
+    assert 'pip install ".[photo]"' in done.output
 
 
 def test_two_runs_do_not_write_the_same_files(course):
