@@ -342,7 +342,9 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     if sum(waves) >= (room := DEEPEST * float(np.min(room))):
         k = int(np.argmax(waves))
         n, follower = errors.harmonics[k], "roller" if roller else "face"
-        limit = f"less than {room / n**2:.3g} mm at {n} waves per turn: the {follower} would bridge the hollows of deep ones"
+        limit = (
+            f"less than {room / n**2:.3g} mm at {n} waves per turn: a {follower} would bridge the hollows of deep ones"
+        )
         raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, "take smaller amplitudes or fewer waves")
 
 

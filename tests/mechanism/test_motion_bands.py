@@ -37,7 +37,7 @@ def errors(kind: str, **changed) -> gc.MakingErrors:
 @pytest.mark.parametrize("kind", CAMS)
 def test_the_root_of_the_sum_of_squares_is_the_scatter_of_solved_mechanisms(kind, distribution):
     """The variances of independent errors add; a sample of n misses a standard deviation by its 1/sqrt(2 n) part."""
-    samples = 1500
+    samples = 800
     bands = gc.motion_bands(CAMS[kind], errors(kind, distribution=distribution), samples=samples, seed=7)
     ratio = bands.sample.deviation / bands.deviation
     second_order = 0.01
@@ -50,10 +50,10 @@ def test_the_root_of_the_sum_of_squares_is_the_scatter_of_solved_mechanisms(kind
 def test_a_single_wave_fills_its_band_and_no_more(kind):
     """Of a random phase it lies within cos(pi/2 (1 - p)) of its amplitude in the part p of all cams."""
     alone = gc.MakingErrors((0.004,), (24,))
-    bands = gc.motion_bands(CAMS[kind], alone, samples=3000, coverage=0.9)
+    bands = gc.motion_bands(CAMS[kind], alone, samples=1500, coverage=0.9)
     assert bands.half_width.tolist() == bands.worst.tolist()
     assert bands.sample.half_width / bands.worst == pytest.approx(
-        np.full_like(bands.worst, np.cos(0.05 * np.pi)), rel=0.02
+        np.full_like(bands.worst, np.cos(0.05 * np.pi)), rel=0.03
     )
 
 
@@ -81,7 +81,8 @@ def test_the_table_stands_where_the_bands_are_widest():
     for k, widest in enumerate(bands.widest):
         assert widest.value == pytest.approx(bands.half_width[k].max(), rel=1e-5)
         reached = np.sqrt(sum((bands.errors.part(share.name) * share.effects[k]) ** 2 for share in bands.table()))
-        assert 1.959964 * reached == pytest.approx(widest.value, rel=1e-6)
+        at_ends = sum(share.effects[k] for share in bands.table())
+        assert min(1.959964 * reached, at_ends) == pytest.approx(widest.value, rel=1e-6)
 
 
 def test_a_larger_tolerance_never_narrows_a_band():
@@ -135,13 +136,13 @@ def test_errors_that_a_cam_cannot_have_are_refused(kind, given, message):
 
 
 def test_the_deepest_waves_that_are_let_pass_can_be_followed():
-    """At r n^2 A of almost L M the roller touches the bottom of every hollow; a hundredth more is refused."""
+    """Half as deep as a hollow may be, r n^2 A = L M/2, the roller touches its bottom; a deeper one is refused."""
     cam = CAMS["translating"]
     with pytest.raises(gc.DesignError) as caught:
         gc.motion_bands(cam, gc.MakingErrors((1.0,), (40,)))
     deepest = float(caught.value.limit.split()[2])
     gc.motion_bands(cam, gc.MakingErrors((0.98 * deepest,), (40,)), samples=200).sample  # noqa: B018
-    with pytest.raises(gc.DesignError, match="bridges the hollows"):
+    with pytest.raises(gc.DesignError, match="bridge the hollows"):
         gc.motion_bands(cam, gc.MakingErrors((1.02 * deepest,), (40,)))
 
 
