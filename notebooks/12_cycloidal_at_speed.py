@@ -344,8 +344,32 @@ assert abs(perfect - exact) < 0.06 * exact
 assert hands.std() < 0.5
 
 # %% [markdown]
-# Larger than both is the uncertainty of the model. A real train has more than one natural frequency, clearances that open, and a shaft that twists; its damping is hardly known. The spectrum tells which law to choose, not the force to the
-# newton.
+# And the cam is not made exactly. A wave of the profile that occurs $n$ times in a turn, $\delta = A\cos n\varphi$, lifts the follower by $\delta/\cos\alpha$; its velocity grows with $n A$ and its **acceleration with $n^2 A$**. One micrometre,
+# 30 times in a turn, is seen in no displacement and adds 0.9 mm/rad² to the acceleration. Here is the cycloidal cam with a long wave of 10 µm, as a chuck with three jaws leaves it, a short one of 1 µm, and tolerances of roller and offset:
+
+# %%
+cam = gc.Cam(motion("cycloidal"), gc.Translating(offset=-10, roller_radius=12), prime_radius=60, rotation="cw")
+bands = gc.motion_bands(cam, gc.MakingErrors(waviness=(0.010, 0.001), harmonics=(3, 30), roller_diameter=0.02, offset=0.05))
+table(("error", "of s, %", "of v, %", "of a, %"), [(share.name, *(100 * share.shares)) for share in bands.table()], digits=0)
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+figure, _ = chart("", "", 5.0)
+figure.clear()
+bands.plot(figure)
+figure.tight_layout()
+picture_of(figure, "Displacement, velocity and acceleration of the cam over the turn, each with a band about it that is drawn many times as wide. The bands of 2000 solved mechanisms lie within those of the first order; that of the acceleration is drawn the least magnified.",
+           "Where 95 of 100 cams lie that are made to these tolerances; the bands are magnified as written beside them")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+long_wave, short_wave = (next(share for share in bands.table() if share.name == f"waviness {n}") for n in (3, 30))
+assert long_wave.shares[0] > 20 * short_wave.shares[0]
+assert short_wave.shares[2] > 0.9
+assert abs(bands.sample.deviation / bands.deviation - 1).max() < 0.1
+
+# %% [markdown]
+# The short wave has no part in the displacement and nearly all of the acceleration: what a smooth law gains at speed, a wavy profile takes away.
+#
+# Larger than all of these is the uncertainty of the model. A real train has more than one natural frequency, clearances that open, and a shaft that twists; its damping is hardly known. The spectrum tells which law to choose, not the force to the newton.
 #
 # ## Questions
 #

@@ -59,7 +59,7 @@ def magnified(nominal: Floats, half_width: Floats) -> float:
     """How many times as wide a band is drawn, a round number.
 
     >>> magnified(np.array([0.0, 30.0]), np.array([0.01, 0.02]))
-    200.0
+    100.0
     """
     wanted = OF_RANGE * float(np.ptp(nominal)) / max(float(half_width.max()), 1e-300)
     power = 10.0 ** np.floor(np.log10(max(wanted, 1.0)))

@@ -91,7 +91,8 @@ def _solved(design: ToleranceDesign) -> Caption:
         )
     return say(
         "As a check, {samples} mechanisms with random errors were solved exactly, for the place where each follower "
-        "touches its wavy profile. Where their bands are widest, they are {bands}.",
+        "touches its wavy profile. Where their bands are widest, they are {bands}. Where one wave dominates, the first "
+        "order takes a band too wide.",
         samples=bands.samples,
         bands=joined(rows),
     )

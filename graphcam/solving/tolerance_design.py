@@ -67,8 +67,8 @@ WHYS = (
     say("Because the force of inertia grows with the square of the number of waves."),
 )
 SAID = say(
-    "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The band "
-    "is widest at {phi}."
+    "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The "
+    "band is widest at {phi}."
 )
 
 

@@ -372,3 +372,12 @@ def test_the_stress_of_the_page_is_permitted_and_the_elements_agree(tmp_path):
     most, by_elements = followed("how-to/check-the-contact-stress.md", tmp_path).splitlines()
     assert 500 < float(most.split()[0]) < 1000
     assert float(by_elements.split()[0]) == pytest.approx(float(most.split()[0]), rel=0.005)
+
+
+def test_the_bands_of_the_page_are_those_of_solved_mechanisms(tmp_path):
+    *bands, most = followed("how-to/choose-the-tolerances.md", tmp_path).splitlines()
+    for said in bands:
+        linear, solved = (float(number) for number in re.findall(r"\d+\.\d+", said))
+        # Where one wave dominates the first order is up to 1.96/sqrt(2) times too wide.
+        assert linear / 1.39 < solved < 1.03 * linear
+    assert most == "for s: waviness 3"

@@ -60,6 +60,21 @@ NOT_REACHED = {
         "parts by conditions stand in files and in Python: the form does not change them",
     ),
     **dict.fromkeys(("blends", "blends[*]", "smooth"), "blends stand in files and in Python: the form keeps them"),
+    **dict.fromkeys(
+        (
+            "coverage",
+            "harmonics",
+            "distribution",
+            "waviness",
+            "samples",
+            "seed",
+            "harmonics[*]",
+            "roller_diameter",
+            "waviness[*]",
+            "tolerances.*",
+        ),
+        "tolerances stand in files and in Python: the form keeps them",
+    ),
     "lift of the law '*'": "a law of one's own stands in Python only",
 }
 """Quantities that no request of the studio meets, and why."""
