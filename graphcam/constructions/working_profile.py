@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import SUBSCRIPTS, phase_kind, station_names
+from graphcam.constructions.axes import low_dwell_symbol, phase_kind, station_names
 from graphcam.constructions.profile_view import Inverted, piecewise_curve
 from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
@@ -323,7 +323,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
             continue
         places, direction = touch[[start, end]], float(np.angle(touch[start].place))
         (low, high), degrees = sorted((direction, direction - sigma * angle)), math.degrees(angle)
-        symbol = say("δ{index}", index=f"{k + 1}".translate(SUBSCRIPTS))
+        symbol = low_dwell_symbol(inverted.givens.integrated.givens.motion, k)
         said = say("{symbol} = {angle:.1f}°", symbol=symbol, angle=degrees)
         radius = DIMENSION * abs(touch[start].place)
         marks += [
