@@ -95,7 +95,7 @@ def acceleration_diagram(
     omega : of the cam [rad/s], where the task gives a speed: then the axis is one of time too
 
     Readings besides those of the meaning: ordinates at the ``stations``, and ``before``, on the near side of a jump.
-    Points: the stations on the ``axis``.
+    Points: the stations on the ``axis``, the ``plotted`` ordinates there, and those on the ``near side`` of a jump.
     """
     hand, phases = Hand(pencil, MEANING), moving_phases(motion, stations)
     steepness = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
@@ -126,8 +126,10 @@ def acceleration_diagram(
         hand.read(name, between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
     hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
     hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
+    # What a chord between neighbouring stations is drawn from and to.
+    plotted, nearer = hand.take("plotted", plotted), hand.take("near side", nearer)
     givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit, omega=omega)
-    return hand.finished(givens, _draw, {"axis": axis, "stations": plotted, "before": nearer})
+    return hand.finished(givens, _draw, {"axis": axis, "plotted": plotted, "near side": nearer})
 
 
 def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:

@@ -130,6 +130,7 @@ SYMBOLS = {
     "lower dwell": say_in("angle of the dwell at the bottom", "φ{number.index}"),
     "dwell": say_in("angle of a dwell between", "φ{number.index}"),
 }
+LOW_DWELL = say_in("angle of the profile's arc at the bottom", "δ{number.index}")
 PHASES = {
     "rise": say("rise {symbol}"),
     "return": say("return {symbol}"),
@@ -156,10 +157,24 @@ def phase_symbol(motion: Motion, k: int) -> Caption:
     ...     gc.Dwell(FULL_TURN - 5.0)]), 3))
     'φ₄'
     """
+    return SYMBOLS[phase_kind(motion, k)].where(number=_number(motion, k))
+
+
+def low_dwell_symbol(motion: Motion, k: int) -> Caption:
+    """The symbol of the angle of the profile's arc on which the follower rests at the bottom in phase ``k``.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, 2.0), gc.Return(30, 2.0), gc.Dwell(FULL_TURN - 4.0)])
+    >>> str(low_dwell_symbol(motion, 2))
+    'δ₃'
+    """
+    return LOW_DWELL.where(number=_number(motion, k))
+
+
+def _number(motion: Motion, k: int) -> PhaseNumber:
     kinds = [phase_kind(motion, i) for i in range(len(motion.phases))]
     again = f"{kinds[: k + 1].count(kinds[k])}" if kinds.count(kinds[k]) > 1 else ""
-    number = PhaseNumber(f"{k + 1}".translate(SUBSCRIPTS), again.translate(SUBSCRIPTS))
-    return SYMBOLS[kinds[k]].where(number=number)
+    return PhaseNumber(f"{k + 1}".translate(SUBSCRIPTS), again.translate(SUBSCRIPTS))
 
 
 def phase_title(motion: Motion, k: int) -> Caption:

@@ -93,7 +93,7 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
     diagram, stations, mu_phi = integrated.givens.diagram, integrated.givens.stations, integrated.givens.mu_phi
     hand, left = Hand(pencil, MEANING, integrated.givens.unit), stations.left
     axis, origin = hand.found(diagram, "axis"), hand.given("origin")
-    after, before = hand.found(diagram, "stations"), hand.found(diagram, "before")
+    after, before = hand.found(diagram, "plotted"), hand.found(diagram, "near side")
     uprights = hand.erect("uprights", axis)
     chords = hand.join("chords", after[left], before[left + 1])
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)

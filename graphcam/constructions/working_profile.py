@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import SUBSCRIPTS, phase_kind, station_names
+from graphcam.constructions.axes import low_dwell_symbol, phase_kind, station_names
 from graphcam.constructions.profile_view import Inverted, piecewise_curve
 from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
@@ -329,13 +329,13 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
         if math.isnan(angle):
             continue
         places, direction = touch[[start, end]], float(np.angle(touch[start].place))
-        limits, degrees = sorted((direction, direction - sigma * angle)), math.degrees(angle)
-        symbol = say("δ{index}", index=f"{k + 1}".translate(SUBSCRIPTS))
+        (low, high), degrees = sorted((direction, direction - sigma * angle)), math.degrees(angle)
+        symbol = low_dwell_symbol(inverted.givens.integrated.givens.motion, k)
         said = say("{symbol} = {angle:.1f}°", symbol=symbol, angle=degrees)
         radius = DIMENSION * abs(touch[start].place)
         marks += [
             Segments(0 * places.shown, places.shown, Role.AXIS, of=places.act, index=places.index),
-            AngleMark(0j, radius, *limits, said, places.act, places.index[:1]),
+            AngleMark(0j, radius, low, high, said, places.act, places.index[:1]),
         ]
         told.append(said)
         names = [_names(profile)[at] for at in (start, end)]

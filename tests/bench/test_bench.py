@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import graphcam as gc
 from graphcam.bench import bench_report as reports, peers as other_packages
 from graphcam.bench.bench_files import FILES
 from graphcam.bench.convergence import (
@@ -22,6 +23,17 @@ from graphcam.bench.convergence import (
 )
 from graphcam.bench.exact_rows import designs
 from graphcam.bench.hand_errors import budgets, by_hand
+from graphcam.bench.load_rows import (
+    FRICTION,
+    condition_rows,
+    conditions_error,
+    extreme_forces,
+    load_of,
+    looped_forces,
+    residual_of_cycloid,
+    sampled_forces,
+    stepped_residual,
+)
 from graphcam.bench.rivals import (
     INTEGRATORS,
     arm_lines,
@@ -32,7 +44,7 @@ from graphcam.bench.rivals import (
     integrated_error,
     translating_lines,
 )
-from graphcam.bench.rows import Row
+from graphcam.bench.rows import Gauge, Row
 from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
 from graphcam.bench.sweep_curve import swept_file
 from graphcam.bench.timing import Timer
@@ -46,6 +58,7 @@ from graphcam.bench.tradeoff import (
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT, table_lines
 from graphcam.sweeps.sweep import sweep
+from graphcam.sweeps.sweep_forces import FORCES
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 SMOOTH = ("cycloidal", "3-4-5")
@@ -55,6 +68,44 @@ TINY = reports.Effort(
     TimedSizes((12, 24), (12, 24), (12, 24), (12, 36), (12, 36), (24, 96)), 1000, 1000, 0.0,
 )  # fmt: skip
 FOUR_EPS = 4 * 2.0**-52
+
+
+@pytest.mark.parametrize("follower", ["translating", "arm", "flat"])
+def test_sampled_forces_come_near_the_extremes_from_inside(follower):
+    """No sample exceeds the extreme that is found; more samples come nearer."""
+    cam = scene(follower, "3-4-5").cam
+    exact, few, many = (
+        extreme_forces(cam, follower),
+        sampled_forces(cam, follower, 60),
+        sampled_forces(cam, follower, 6000),
+    )
+    for sign, found, coarse, fine in zip((1, -1, 1), exact, few, many, strict=True):
+        assert sign * coarse <= sign * found * (1 + 1e-12)
+        assert abs(fine - found) <= abs(coarse - found) + 1e-12 * abs(found)
+        assert fine == pytest.approx(found, rel=1e-5)
+
+
+@pytest.mark.parametrize("follower", ["translating", "arm"])
+def test_swept_forces_are_those_of_one_cam_after_another(follower):
+    some = designs(follower, "3-4-5", 6)
+    swept = sweep(some, FORCES, load=load_of(follower), friction=FRICTION)
+    looped = np.array(looped_forces(some, follower))
+    for k, name in enumerate(FORCES[:3]):
+        assert np.abs(swept[name] / looped[:, k] - 1).max() < 1e-12
+
+
+def test_steps_and_spectrum_come_to_the_closed_form_of_the_cycloid():
+    n = np.array([0.5, 2.0, 3.3, 7.5])
+    exact = residual_of_cycloid(n)
+    assert np.abs(gc.shock_spectrum("cycloidal", n).residual - exact).max() < 1e-13 * exact.max()
+    assert [stepped_residual(x, 1e-10) for x in n] == pytest.approx(exact, abs=1e-8 * exact.max())
+
+
+def test_a_motion_by_conditions_is_right_to_a_few_eps_and_its_rows_have_a_rival():
+    assert conditions_error() < 8
+    rows = list(condition_rows(Gauge(Timer(0.0, 1), 1000, 1000).unit(1000), Timer(0.0, 1)))
+    assert [row.name for row in rows] == ["motion by conditions"] * 3
+    assert float(rows[-1].what.split()[-2]) < 1e-12
 
 
 @pytest.fixture(scope="module")

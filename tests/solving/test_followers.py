@@ -45,7 +45,9 @@ def test_the_solution_is_strict_json_with_all_its_keys(name):
     for quantity in again["quantities"].values():
         assert set(quantity) == {"drawn", "exact", "unit", "error", "error_paper", "tolerance_paper"}
     for station in again["stations"]:
-        assert set(station) == {"phi_deg", "phase", "s", "v", "a", "pressure_angle_deg", "pitch"}
+        assert set(station) == {
+            *("phi_deg", "phase", "s", "v", "a", "pressure_angle_deg", "transmission_angle_deg", "pitch")
+        }
 
 
 @each_task

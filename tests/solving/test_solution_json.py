@@ -14,7 +14,7 @@ from graphcam.solving.solve import solve
 from graphcam.tasks.task import CamTable, LimitsTable, Task, TranslatingTable
 from graphcam.tasks.task_file import builtin_task
 
-TOP = {"graphcam", "task", "cam", "scales", "quantities", "stations", "files"}
+TOP = {"graphcam", "task", "cam", "scales", "quantities", "stations", "low_dwells", "files"}
 QUANTITIES = {
     "max_v": "mm/rad", "max_a": "mm/rad²", "minimum_prime_radius": "mm", "minimum_offset": "mm",
     "max_pressure_angle_rise_deg": "deg", "max_pressure_angle_return_deg": "deg", "min_pitch_curvature_radius": "mm",
@@ -47,15 +47,47 @@ def test_keys(document):
     assert document["graphcam"] == graphcam.__version__
     assert document["task"] == builtin_task().to_dict()
     assert document["cam"].keys() == {"prime_radius", "offset", "roller_radius", "rotation"}
-    assert document["scales"].keys() == {"phi", "s", "v", "a"}
+    assert document["scales"].keys() == {"phi", "s", "v", "a", "t", "v_at_speed", "a_at_speed"}
     assert {name: q["unit"] for name, q in document["quantities"].items()} == QUANTITIES
     for quantity in document["quantities"].values():
         assert quantity.keys() == {"drawn", "exact", "unit", "error", "error_paper", "tolerance_paper"}
     for station in document["stations"]:
-        assert station.keys() == {"phi_deg", "phase", "s", "v", "a", "pressure_angle_deg", "pitch"}
-        for name in ("s", "v", "a", "pressure_angle_deg", "pitch"):
+        both = {"s", "v", "a", "pressure_angle_deg", "transmission_angle_deg", "pitch"}
+        assert station.keys() == {"phi_deg", "phase", *both}
+        for name in both:
             assert station[name].keys() == {"drawn", "exact"}
     assert document["files"].keys() == FILES
+
+
+def test_the_transmission_angle_is_what_the_pressure_angle_leaves_of_a_right_one(document):
+    for station in document["stations"]:
+        for side in ("drawn", "exact"):
+            alpha, gamma = (station[f"{name}_angle_deg"][side] for name in ("pressure", "transmission"))
+            assert gamma == pytest.approx(90 - abs(alpha), abs=1e-12)
+
+
+def test_the_scales_over_time_are_those_of_the_speed(document):
+    """At 120 rpm omega is 4 pi; metres and seconds."""
+    scales, omega = document["scales"], radians(720)
+    assert scales["t"] == {"per_mm": pytest.approx(radians(1) / omega), "unit": "s"}
+    assert scales["v_at_speed"] == {"per_mm": pytest.approx(scales["v"]["per_mm"] * omega / 1000), "unit": "m/s"}
+    assert scales["a_at_speed"] == {"per_mm": pytest.approx(scales["a"]["per_mm"] * omega**2 / 1000), "unit": "m/s²"}
+
+
+def test_the_jerk_is_told_where_it_is_drawn():
+    task = builtin_task()
+    document = solve(replace(task, drawing=replace(task.drawing, jerk=True))).to_dict()
+    json.dumps(document, allow_nan=False)
+    assert document["scales"]["j"]["unit"] == document["jerk"]["unit"] == "mm/rad³"
+    assert document["quantities"]["max_j"]["exact"] == 0  # of constant accelerations
+    assert [jump["phi_deg"] for jump in document["jerk"]["infinite"]] == pytest.approx([0, 40, 80, 125, 155, 185])
+    assert len(document["jerk"]["parts"]) == 24
+
+
+def test_the_arcs_of_the_lower_dwells_are_told(document):
+    assert document["low_dwells"] == [
+        {"phase": 3, "angle_deg": {"drawn": pytest.approx(175), "exact": pytest.approx(175)}}
+    ]
 
 
 def test_scales_follow_through_the_poles(document):
