@@ -30,7 +30,7 @@ from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 
@@ -335,14 +335,19 @@ class Chain(Drawings):
     def _readable(self, region: Construction, name: str) -> float:
         """The machine value of a reading that a decision rests on."""
         value = float(region.readings[name].value)
+        if math.isnan(value) and (slip := self.board.limits.slip()):
+            way, angle = slip
+            limit = "large enough for lines that cross at a degree or more"
+            remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given"
+            raise DesignError(f"permitted pressure angle on the {way}", Unquoted(f"{angle:g} degrees"), limit, remedy)
         if math.isnan(value):
             follower, given = self.board.follower, self.board.prime_radius
             missing = [f"follower.{follower.place_name}"] if follower.place is None else []
             missing += ["cam.prime_radius"] if given is None else []
             limit = "a place within all limits, where lines cross at a degree or more"
-            remedy = f"give {' and '.join(missing)}, or permit greater pressure angles"
-            raise DesignError("least prime radius", "unreadable", limit, remedy)
+            remedy = f"give {' and '.join(missing)}, or permit larger pressure angles"
+            raise DesignError("least prime radius", Unquoted("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = "any radius keeps the limits: give cam.prime_radius, or stricter limits"
-            raise DesignError("least prime radius", f"{value:g} mm", "greater than 0 mm", remedy)
+            raise DesignError("least prime radius", Unquoted(f"{value:g} mm"), "greater than 0 mm", remedy)
         return value

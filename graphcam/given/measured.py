@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
-from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
 from graphcam.given.spline_law import AT_REST, TURNING, spline_law
 
@@ -24,6 +24,8 @@ DEFAULT_TOLERANCE = 0.01
 FEWEST_ROWS, MOST_ROWS = 8, 10_000
 WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
+SHORTEST_TURN = 0.85
+"""So much of a turn a table covers that ends a step before it, where another unit is looked for."""
 LARGEST, SMALLEST = 1e100, 1e-100
 """A value of a row and a tolerance between which squares are numbers still."""
 SAMPLES = 50
@@ -212,7 +214,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     span, widest = float(phi[-1] - phi[0]), float(np.max(np.diff(phi)))
     last = phi.size - 1
     if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
-        limit, remedy = "360 degrees, or a step less", "give one revolution of the cam"
+        limit, remedy = "360 degrees, or a step less", _turn_remedy(span)
         raise RowError(last, "turn that the rows cover", _degrees(span), limit, remedy)
     if span < FULL_TURN - ROUNDING:
         return phi, values
@@ -222,8 +224,19 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     return phi[:-1], values[:-1]
 
 
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.10g} degrees"
+def _turn_remedy(span: float) -> str:
+    """What to do about rows that do not cover a turn: perhaps their angles are in the other unit."""
+    for turn, remedy in (
+        (360.0, "angles are in radians here: convert them by numpy.radians"),
+        (math.radians(FULL_TURN), "about 2 pi: give the angles in degrees, not in radians"),
+    ):
+        if SHORTEST_TURN * turn < span < (1 + NEARLY) * turn:
+            return remedy
+    return "give one revolution of the cam"
+
+
+def _degrees(angle: float) -> Unquoted:
+    return Unquoted(f"{math.degrees(angle):.10g} degrees")
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

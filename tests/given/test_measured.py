@@ -239,7 +239,7 @@ S = table(LAWS["3-4-5"])
         (DEGREES, np.where(DEGREES[7] == DEGREES, -1e300, S), 7, "numbers up to 1e+100"),
         (np.insert(DEGREES, 5, DEGREES[4]), np.insert(S, 5, S[4]), 5, "greater than the one before, 4 degrees; give"),
         (np.roll(DEGREES, 3), S, 3, "sort the rows"),
-        (DEGREES[:300], S[:300], 299, "299 degrees', but must be 360 degrees, or a step less"),
+        (DEGREES[:300], S[:300], 299, "299 degrees, but must be 360 degrees, or a step less"),
         (DEGREES * 1.01, S, 359, "360 degrees"),
         ([*DEGREES, FULL_TURN], [*S, 0.5], 360, "0.5', but must be 0 as in the first"),
     ],

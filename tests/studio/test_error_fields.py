@@ -209,7 +209,7 @@ WRONG = [
     (
         "coursework",
         {"follower.offset": None, "limits.pressure_angle_return": 0.5, "limits.pressure_angle_rise": 0.4},
-        "cam.prime_radius",
+        "limits.pressure_angle_rise",
     ),
     ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None}, "follower.distance"),
     ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None, "cam.prime_radius": None}, "cam.prime_radius"),
