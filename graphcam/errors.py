@@ -60,28 +60,31 @@ class TaskError(GraphcamError):
 
 
 class MissingFileError(TaskError):
-    """A file or folder that is not where it is looked for; ``beside`` is the file that names it.
+    """A file or folder that is not where it is looked for.
 
-    >>> print(MissingFileError("motion.csv", "check motion.table", beside="cam.toml"))
+    kind : what is missing, in a word
+    where : where it was looked for, if the path does not say it
+
+    >>> print(MissingFileError("motion.csv", "check motion.table", where="beside cam.toml"))
     there is no file motion.csv beside cam.toml; check motion.table
     """
 
-    def __init__(self, path: str, remedy: str = "check the name", *, kind: str = "file", beside: str = "") -> None:
+    def __init__(self, path: str, remedy: str = "check the name", *, kind: str = "file", where: str = "") -> None:
         super().__init__(path, f"the {kind}", Unquoted("missing"), f"a {kind} that is there", remedy)
         self.kind = kind
-        self.beside = beside
+        self.where = where
 
     def __str__(self) -> str:
-        where = f" beside {self.beside}" if self.beside else ""
-        return f"there is no {self.kind} {self.path}{where}; {self.remedy}"
+        place = f" {self.where}" if self.where else ""
+        return f"there is no {self.kind} {self.path}{place}; {self.remedy}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _missing_file, (self.path, self.remedy, self.kind, self.beside)
+        return _missing_file, (self.path, self.remedy, self.kind, self.where)
 
 
-def _missing_file(path: str, remedy: str, kind: str, beside: str) -> MissingFileError:
+def _missing_file(path: str, remedy: str, kind: str, where: str) -> MissingFileError:
     """The error again, in another process."""
-    return MissingFileError(path, remedy, kind=kind, beside=beside)
+    return MissingFileError(path, remedy, kind=kind, where=where)
 
 
 class Unquoted(str):

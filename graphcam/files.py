@@ -230,5 +230,7 @@ def _remove(made: list[Path]) -> None:
 
 def _output_error(path: str | Path, error: OSError | ValueError) -> OutputError:
     if isinstance(error, OSError):
-        return OutputError(path, error.strerror or str(error), REMEDIES.get(error.errno, ELSEWHERE))
+        # Some libraries put the number of the error into words of their own.
+        why = os.strerror(error.errno) if error.errno in REMEDIES and error.errno else error.strerror
+        return OutputError(path, why or str(error), REMEDIES.get(error.errno, ELSEWHERE))
     return OutputError(path, str(error))

@@ -299,7 +299,7 @@ class Chain(Drawings):
         proposed = float(self.perfect.roller.readings["roller_radius"].value)
         if not proposed > 0:
             remedy = "give follower.roller_radius or another rule"
-            raise DesignError("roller radius by the rule", f"{proposed:.4g} mm", "greater than 0 mm", remedy)
+            raise DesignError("roller radius by the rule", Unquoted(f"{proposed:.4g} mm"), "greater than 0 mm", remedy)
         # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 

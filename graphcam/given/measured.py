@@ -196,16 +196,20 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
     if phi.ndim != 1 or phi.shape != values.shape:
         shapes = f"{phi.shape} and {values.shape}"
-        raise DesignError("shapes of the table's columns", shapes, "one number for each cam angle", "give two lists")
+        raise DesignError(
+            "shapes of the table's columns", Unquoted(shapes), "one number for each cam angle", "give two lists"
+        )
     if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
         limit = f"{FEWEST_ROWS} to {MOST_ROWS}"
         remedy = "measure at more or at fewer cam angles"
         raise RowError(max(phi.size - 1, 0), "number of rows", phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
-            raise RowError(k, "row", f"{phi[k]:g}, {values[k]:g}", "finite numbers", "measure it")
+            raise RowError(k, "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), "finite numbers", "measure it")
     for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
-        raise RowError(int(k), "row", f"{phi[k]:g}, {values[k]:g}", f"numbers up to {LARGEST:g}", "measure again")
+        raise RowError(
+            int(k), "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), f"numbers up to {LARGEST:g}", "measure again"
+        )
     for k, step in enumerate(np.diff(phi), 1):
         if step <= ROUNDING:
             remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"
@@ -220,7 +224,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
         limit, remedy = f"{values[0]:g} as in the first, a turn before", "the follower comes back to where it was"
-        raise RowError(last, "last row", f"{values[-1]:g}", limit, remedy)
+        raise RowError(last, "last row", Unquoted(f"{values[-1]:g}"), limit, remedy)
     return phi[:-1], values[:-1]
 
 

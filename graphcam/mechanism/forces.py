@@ -41,7 +41,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -364,4 +364,4 @@ class CamForces:
         found = f"{math.degrees(alpha):.4g} degrees at a cam angle of {math.degrees(worst.phi):.4g}"
         allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
         remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
-        raise DesignError("pressure angle", found, allowed, remedy)
+        raise DesignError("pressure angle", Unquoted(found), allowed, remedy)

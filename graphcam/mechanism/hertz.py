@@ -13,7 +13,7 @@ from typing import NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
@@ -77,7 +77,7 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
         found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
-        raise DesignError("radii", found, "such that they touch in one line", remedy)
+        raise DesignError("radii", Unquoted(found), "such that they touch in one line", remedy)
     return bend
 
 
@@ -163,7 +163,9 @@ class ContactStress:
         if not self._roller < rho:
             raise self._undercut(rho)
         if self.forces.greatest_normal().value <= 0:
-            raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
+            raise DesignError(
+                "contact force", Unquoted("nowhere positive"), "greater than 0 N somewhere", "preload the spring"
+            )
         squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
@@ -90,7 +90,9 @@ def sweep(
         if name not in (known := (*QUANTITIES, *FORCES)):
             raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))
         if name in FORCES and load is None:
-            raise DesignError("load", "left out", f"given where {name} is asked for", "give a SpringLoad or an ArmLoad")
+            raise DesignError(
+                "load", Unquoted("left out"), f"given where {name} is asked for", "give a SpringLoad or an ArmLoad"
+            )
     if chunk < 1:
         raise DesignError("chunk", chunk, "at least 1 design")
     swept = None if load is None else SweptLoad(load, friction)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Annotated, ClassVar, Literal
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -103,7 +103,7 @@ class MotionTable:
         ways = {"phases": self.phases, "table": self.table and self.table.file, "parts": self.parts}
         given = [name for name, value in ways.items() if value is not None]
         if not given:
-            raise DesignError("phases", "missing", "given")
+            raise DesignError("phases", Unquoted("missing"), "given")
         if len(given) > 1:
             limit = f"left out where there {'is a table' if given[0] == 'table' else 'are phases'}"
             raise DesignError(given[1], ways[given[1]], limit, "give one of the two")

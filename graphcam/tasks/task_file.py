@@ -130,7 +130,7 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     """
     task = _task(path, data, data)
     if not isinstance(task, Task):
-        raise TaskError(path, "arcs", "a table", "left out", "this takes a task with phases of motion")
+        raise TaskError(path, "arcs", Unquoted("a table"), "left out", "this takes a task with phases of motion")
     return task
 
 
@@ -232,7 +232,7 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
     try:
         table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
     except MissingFileError:
-        raise MissingFileError(name, "check motion.table", beside=path) from None
+        raise MissingFileError(name, "check motion.table", where=f"beside {path}") from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
 
 

@@ -178,7 +178,7 @@ FAULTS = {
         "line 361: turn that the rows cover", "6.26 2 pi in degrees, not in radians",
     ),
     "more than a turn": (WHOLE + "360.5,0\n", "line 362: turn that the rows cover", "360.5 degrees"),
-    "not closed": (WHOLE + "360,0.5\n", "line 362: last row", "'0.5' 0 as in the first"),
+    "not closed": (WHOLE + "360,0.5\n", "line 362: last row", "0.5 0 as in the first"),
     "not UTF-8": (WHOLE.encode() + b"\xff\xfe", "line 362", "UTF-8"),
     "a picture": (b"\x89PNG\r\n\x1a\n\x00\x00", "line 1", "UTF-8"),
 }  # fmt: skip
@@ -250,5 +250,5 @@ def test_a_table_in_python():
     rows = tuple(zip(DEGREES.tolist(), EXACT(np.radians(DEGREES))[0].tolist(), strict=True))
     table = CurveTable("rows", "s_mm", rows)
     assert MotionTable(table=table)().lift == pytest.approx(30, abs=0.01)
-    with pytest.raises(DesignError, match="phases is 'missing'"):
+    with pytest.raises(DesignError, match="phases is missing"):
         MotionTable()

@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.reading.submission_files import LIMITS
 
@@ -67,7 +67,9 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
         except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
         if left < 0:
-            raise TaskError(str(place), "the size", "more", f"{MOST_BYTES} bytes unpacked", "look into it by hand")
+            raise TaskError(
+                str(place), "the size", Unquoted("more"), f"{MOST_BYTES} bytes unpacked", "look into it by hand"
+            )
     return refused
 
 
