@@ -25,7 +25,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def said(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter("'' names no place; the folder in which you are is '.'")
+        raise typer.BadParameter("'' names no place; '.' is the current folder")
     return place
 
 

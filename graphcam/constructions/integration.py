@@ -195,7 +195,7 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     risen = top > FLAT * full
     if pencil.samples is None and not risen:
         remedy = "divide into more parts, or draw longer ordinates"
-        raise DesignError("greatest displacement on paper", Unquoted(f"{float(top):.3g} mm"), "above the axis", remedy)
+        raise DesignError("maximum displacement on paper", Unquoted(f"{float(top):.3g} mm"), "above the axis", remedy)
     return np.where(risen, top, np.nan)
 
 

@@ -140,7 +140,7 @@ class _Part:
             found = f"decided by the last digits of the numbers: s changes by {float(off):.3g} with them"
             remedy = "move the points apart, or give fewer conditions"
             raise DesignError(
-                "points", Unquoted(found), f"conditions that keep s to {LAST_DIGITS:g} of its greatest", remedy
+                "points", Unquoted(found), f"conditions that keep s to {LAST_DIGITS:g} of its maximum", remedy
             )
 
 
@@ -240,7 +240,7 @@ class SplinePart(_Part):
         self._check_points()
         least, most = SPLINE_DEGREES
         if not least <= self.degree <= most:
-            raise DesignError("degree", self.degree, f"{least} to {most}", "take 5 for a jerk without jumps")
+            raise DesignError("degree", self.degree, f"from {least} to {most}", "take 5 for a jerk without jumps")
         inner = self._count - self.degree - 1
         if inner < 0:
             limit = f"{self.degree + 1} or more for a degree of {self.degree}"

@@ -135,7 +135,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     if tolerance < SMALLEST:
-        raise DesignError("tolerance", tolerance, f"{SMALLEST:g} at least", "give what the table was measured to")
+        raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)
     least = LEAST_NOISE * float(np.ptp(s))
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
@@ -200,7 +200,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
             "shapes of the table's columns", Unquoted(shapes), "one number for each cam angle", "give two lists"
         )
     if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
-        limit = f"{FEWEST_ROWS} to {MOST_ROWS}"
+        limit = f"from {FEWEST_ROWS} to {MOST_ROWS}"
         remedy = "measure at more or at fewer cam angles"
         raise RowError(max(phi.size - 1, 0), "number of rows", phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
@@ -223,7 +223,10 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     if span < FULL_TURN - ROUNDING:
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
-        limit, remedy = f"{values[0]:g} as in the first, a turn before", "the follower comes back to where it was"
+        limit, remedy = (
+            f"{values[0]:g} as in the first, a turn before",
+            "end where the turn began, or leave the last row out",
+        )
         raise RowError(last, "last row", Unquoted(f"{values[-1]:g}"), limit, remedy)
     return phi[:-1], values[:-1]
 

@@ -71,7 +71,7 @@ class ArcFlank:
         DesignError : it is not, or they do not
         """
         if not self.sound:
-            raise DesignError("root", Unquoted("not sound"), "a sound one", self.why)
+            raise DesignError("root", Unquoted("not sound"), "one that can be built", self.why)
         if not np.dot(self.A, self.A - self.C2) > 0:
             raise DesignError("C2", _shown(self.C2), "so that the second arc goes around the cam centre", "move C2")
         for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):

@@ -77,7 +77,7 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
         found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
-        raise DesignError("radii", Unquoted(found), "such that they touch in one line", remedy)
+        raise DesignError("pair of radii", Unquoted(found), "such that they touch along one line", remedy)
     return bend
 
 

@@ -66,7 +66,9 @@ class SizingProblem:
             positive = name == "offset" or low > 0
             if not (math.isfinite(low) and math.isfinite(high) and low <= high and positive):
                 quantity = f"range of the {name.replace('_', ' ')}"
-                raise DesignError(quantity, Unquoted(f"{low:g} to {high:g} mm"), "from a size to one no smaller")
+                raise DesignError(
+                    quantity, Unquoted(f"{low:g} to {high:g} mm"), "from a size to one that is not smaller"
+                )
         for quantity, most in (("offset", max(map(abs, self.offset))), ("roller radius", self.roller_radius[1])):
             if not most < self.prime_radius[0]:
                 limit = f"less than the least prime radius of {self.prime_radius[0]:g} mm"
@@ -222,8 +224,8 @@ def _refuse(problem: SizingProblem, nearest: Sizes) -> NoReturn:
     worst = min(left, key=lambda name: left[name])
     has = f"r0 = {nearest.radius:.4g}, e = {nearest.offset:.4g}, roller {nearest.roller:.4g}"
     remedy = f"widen the ranges or permit more; it has {has} and face width {nearest.width:.4g} mm"
-    found = f"none: the nearest exceeds the limit of the {worst}"
-    raise DesignError("smallest cam", Unquoted(found), "in the given ranges", remedy)
+    found = f"not found (the nearest one exceeds the limit of the {worst})"
+    raise DesignError("smallest cam", Unquoted(found), "within the given ranges", remedy)
 
 
 def _starts(problem: SizingProblem, places: TurnPlaces) -> list[Sizes]:

@@ -105,7 +105,7 @@ def task_data(data: Data) -> dict[str, Any]:
     DesignError : there is none
     """
     if not isinstance(task := data.get("task"), dict) or not task:
-        raise DesignError("task", "missing" if task is None else type(task).__name__, "a table with a task")
+        raise DesignError("task", Unquoted("missing" if task is None else type(task).__name__), "a table with a task")
     return task
 
 

@@ -398,7 +398,7 @@ def test_what_is_no_law_is_refused(message):
 @pytest.mark.parametrize(
     ("choices", "message"),
     [
-        ({"formulas": lambda u: (u, u)}, r"one that returns 2 values', but must be one that takes an array of u"),
+        ({"formulas": lambda u: (u, u)}, r"one that returns 2 values, but must be one that takes an array of u"),
         ({"peaks": (1.5,)}, r"peaks of the law 'mine' is \(1.5,\), but must be two numbers"),
         ({"ratio": -1.0}, "ratio of the law 'mine' is -1.0, but must be greater than 0"),
     ],

@@ -177,7 +177,7 @@ def test_the_sheet_of_the_region_speaks_russian():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"permitted_stress": 300.0}, "smallest cam is none: the nearest exceeds the limit of the stress"),
+        ({"permitted_stress": 300.0}, "smallest cam is not found .the nearest one exceeds the limit of the stress."),
         ({"prime_radius": (75, 70)}, "range of the prime radius is 75 to 70 mm"),
         ({"face_width": (0, 70)}, "range of the face width is 0 to 70 mm"),
         ({"offset": (0, 80)}, "range of the offset is up to 80 mm, but must be less than the least prime radius"),

@@ -120,7 +120,7 @@ def test_what_is_missing_is_named_with_the_command_that_brings_it(folder):
 
 def test_a_package_that_is_cut_off_is_told(folder):
     (folder / "pyodide.tgz").write_bytes(NUMPIES[CONDA][:50])
-    with pytest.raises(TaskError, match="one that can be read"):
+    with pytest.raises(TaskError, match="not readable"):
         parts.pyodide_parts(folder)
 
 

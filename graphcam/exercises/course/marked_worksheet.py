@@ -116,8 +116,8 @@ def _one_sheet_each(
     while blocks:
         entities, left = maker.column([], len(drawn) + 1).filled(blocks, BETWEEN)
         if len(left) == len(blocks):
-            limit, remedy = f"for which a page of {paper} has room", "shorten them, or take a larger paper"
-            raise DesignError("the text and the answers", Unquoted("longer"), limit, remedy)
+            limit, remedy = f"short enough for a page of {paper}", "shorten them, or take a larger paper"
+            raise DesignError("the text with the answers", Unquoted("too long"), limit, remedy)
         blocks = left
         drawn.append(([], entities))
     made = [maker.page(placed, entities, k, len(drawn)) for k, (placed, entities) in enumerate(drawn, 1)]

@@ -40,7 +40,9 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
             with zipfile.ZipFile(place) as archive:
                 refused = _unpack(archive, place, Path(scratch))
         except (OSError, zipfile.BadZipFile) as error:
-            raise TaskError(str(place), "the zip", str(error), "one that can be read", "fetch it again") from None
+            raise TaskError(
+                str(place), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "download it again"
+            ) from None
         yield Path(scratch), refused
 
 
@@ -68,7 +70,11 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
         if left < 0:
             raise TaskError(
-                str(place), "the size", Unquoted("more"), f"{MOST_BYTES} bytes unpacked", "look into it by hand"
+                str(place),
+                "the size",
+                Unquoted("larger"),
+                f"at most {MOST_BYTES} bytes unpacked",
+                "look into it by hand",
             )
     return refused
 

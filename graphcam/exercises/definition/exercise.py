@@ -43,7 +43,11 @@ class Parameter:
     def __post_init__(self) -> None:
         grid = (self.start, self.stop, self.step)
         if (self.choices is None) == (None in grid):
-            raise DesignError("parameter", Unquoted("neither or both"), "start, stop and step, or choices")
+            raise DesignError(
+                "parameter",
+                Unquoted("given in neither or in both ways"),
+                "given by start, stop and step, or by choices",
+            )
         if self.choices is not None and not self.choices:
             raise DesignError("choices", Unquoted("empty"), "a list of one or more")
         if self.choices is None:

@@ -93,7 +93,7 @@ def exercise_path(name: str) -> Path:
         return Path(name)
     if name not in library():
         known = "one that 'graphcam exercise list' names"
-        raise TaskError(name, "the exercise", Unquoted("not there"), known, nearest(name, library()))
+        raise TaskError(name, "the exercise", Unquoted("unknown"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 

@@ -123,9 +123,11 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
         text = read_regular(path, LARGEST).decode("utf-8")
         said = json.loads(text)
     except UnreadableError as error:
-        raise TaskError(str(path), "the file", str(error), "a file of corrections", "check the name") from None
+        raise TaskError(
+            str(path), "the file", Unquoted(f"not readable ({error})"), "a file of corrections", "check the name"
+        ) from None
     except (ValueError, RecursionError):
-        raise TaskError(str(path), "the file", Unquoted("no JSON"), "a file of corrections", BY_REVIEW) from None
+        raise TaskError(str(path), "the file", Unquoted("not JSON"), "a file of corrections", BY_REVIEW) from None
     reader = _Reader(str(path), exercise)
     table = reader.table("the file", said, {"format", "exercise", "students"})
     reader.one_of("format", table["format"], (FORMAT,))
