@@ -32,7 +32,7 @@ NOT_REACHED = {
     "length": "a guide stands in Python only",
     "built-in task": "the page has the tasks themselves",
     "force": "Hertzian stress is worked out in Python only",
-    "radii": "Hertzian stress is worked out in Python only",
+    "pair of radii": "Hertzian stress is worked out in Python only",
     "poisson": "the contact by finite elements stands in Python only",
     "parts": "the contact by finite elements stands in Python only",
     "contact force": "Hertzian stress is worked out in Python only",
