@@ -102,4 +102,4 @@ def _heif(file: BinaryIO, name: str) -> Photograph:
 
 
 def _broken() -> PhotographError:
-    return PhotographError(say("the file is broken or breaks off"), say("send it again"))
+    return PhotographError(say("the file is damaged or incomplete"), say("send it again"))

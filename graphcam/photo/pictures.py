@@ -119,7 +119,7 @@ def _colours(image: Image.Image) -> Pixels:
         white.paste(seen, mask=seen.getchannel("A"))
         return _copied(white, "RGB")
     if image.mode == "F":
-        raise PhotographError(say("the picture's colours are none that are known"), say("send a JPEG"))
+        raise PhotographError(say("the picture's colours are of an unknown kind"), say("send a JPEG"))
     return _copied(image, "RGB")
 
 

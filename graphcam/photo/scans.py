@@ -37,7 +37,7 @@ def scanned_pages(file: BinaryIO, name: str) -> Iterator[Photograph | Photograph
     except PdfiumError as error:
         if "password" in str(error).lower():
             raise PhotographError(say("the PDF is locked with a password"), say("save it without one")) from None
-        raise PhotographError(say("the PDF is broken or breaks off"), say("send it again")) from None
+        raise PhotographError(say("the PDF is damaged or incomplete"), say("send it again")) from None
     with closing(document):
         count = len(document)
         if not count:

@@ -102,7 +102,7 @@ def _millimetres(name: str, document: Drawing) -> float:
     except (ValueError, TypeError, IndexError):
         unit = shown(str(code))
         raise UnreadableError(
-            say("{name}: the drawing's unit ($INSUNITS {code}) is no length; set it to mm", name=name, code=unit)
+            say("{name}: the drawing's unit ($INSUNITS {code}) is not a length; set it to mm", name=name, code=unit)
         ) from None
 
 

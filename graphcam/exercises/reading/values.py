@@ -37,7 +37,7 @@ def number(name: str, value: object) -> float:
         raise _no_number(name, value)
     # An int of any length compares, but does not always convert; a NaN is not less than anything.
     if not -GREATEST <= value <= GREATEST:
-        raise UnreadableError(say("{answer} is no number that a drawing can show", answer=shown(name)))
+        raise UnreadableError(say("{answer} is not a number that a drawing can show", answer=shown(name)))
     return float(value)
 
 
