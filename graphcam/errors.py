@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 
 class GraphcamError(Exception):
@@ -57,6 +59,46 @@ class TaskError(GraphcamError):
         return f"{self.path}: {_sentence(self.field, self.value, self.expected, self.remedy)}"
 
 
+class MissingFileError(TaskError):
+    """A file or folder that is not where it is looked for.
+
+    kind : what is missing, in a word
+    where : where it was looked for, if the path does not say it
+
+    >>> print(MissingFileError("motion.csv", "check motion.table", where="beside cam.toml"))
+    there is no file motion.csv beside cam.toml; check motion.table
+    """
+
+    def __init__(self, path: str, remedy: str = "check the name", *, kind: str = "file", where: str = "") -> None:
+        super().__init__(path, f"the {kind}", Unquoted("missing"), f"a {kind} that is there", remedy)
+        self.kind = kind
+        self.where = where
+
+    def __str__(self) -> str:
+        place = f" {self.where}" if self.where else ""
+        return f"there is no {self.kind} {self.path}{place}; {self.remedy}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _missing_file, (self.path, self.remedy, self.kind, self.where)
+
+
+def _missing_file(path: str, remedy: str, kind: str, where: str) -> MissingFileError:
+    """The error again, in another process."""
+    return MissingFileError(path, remedy, kind=kind, where=where)
+
+
+class Unquoted(str):
+    """Words about a value, which a message shows without the quotes of a text that somebody wrote.
+
+    >>> print(DesignError("arm", Unquoted("missing"), "given"), DesignError("arm", "12 mm", "a number"), sep="\\n")
+    arm is missing, but must be given
+    arm is '12 mm', but must be a number
+    """
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
 class LetteringWarning(UserWarning):
     """A drawing has characters that no font on the machine has."""
 
@@ -88,12 +130,35 @@ def installed(option: str, library: str, extra: str) -> Generator[None]:
     >>> with installed("--cluster", "dask", "cluster"):  # doctest: +ELLIPSIS
     ...     import no_such_module
     Traceback (most recent call last):
-    graphcam.errors.TaskError: --cluster: dask is 'not installed', but must be installed; in the folder ...
+    graphcam.errors.TaskError: --cluster: dask is not installed, but must be installed; in the folder ...
     """
     try:
         yield
     except ImportError:
-        raise TaskError(option, library, "not installed", "installed", install_advice(extra)) from None
+        missing = Unquoted("not installed")
+        raise TaskError(option, library, missing, "installed", install_advice(extra)) from None
+
+
+def unreadable(path: str | Path, what: str, expected: str, error: OSError | ValueError, remedy: str = "") -> TaskError:
+    """The error of a file that cannot be read: it is missing, a folder, or what the system says.
+
+    what : the file, as a message names it: "the roster"
+    expected : what it must be: "a CSV file"
+    remedy : of a missing one, in place of "check the name"
+
+    >>> print(unreadable("no.csv", "the roster", "a CSV file", FileNotFoundError()))
+    there is no file no.csv; check the name
+    >>> print(unreadable("a.csv", "the roster", "a CSV file", PermissionError(13, "Permission denied")))
+    a.csv: the roster is not readable (Permission denied), but must be a CSV file; check its permissions
+    """
+    if isinstance(error, FileNotFoundError):
+        return MissingFileError(str(path), remedy or "check the name")
+    if isinstance(error, IsADirectoryError | PermissionError) and Path(path).is_dir():
+        return TaskError(str(path), what, Unquoted("a folder"), expected, "name the file in it")
+    why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    denied = isinstance(error, PermissionError)
+    advice = "check its permissions" if denied else "check the name"
+    return TaskError(str(path), what, Unquoted(f"not readable ({why})"), expected, advice)
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

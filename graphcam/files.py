@@ -68,7 +68,7 @@ def whole_folder(folder: str | Path, former: Mapping[str, str] = NOTHING) -> Gen
     ['a.txt']
     """
     if folder == "":
-        raise OutputError(folder, "it has no name", "name a folder; that in which you are is '.'")
+        raise OutputError(folder, "it has no name", "name a folder; '.' is the current one")
     folder = Path(folder)
     # In the folder itself, so that each file moves by a rename within one file system.
     with _draft(folder, folder) as draft:
@@ -143,9 +143,9 @@ def check_new(path: str | Path) -> None:
     OutputError : the file is there already, or its folder is not
     """
     if os.path.lexists(path):
-        raise OutputError(path, "it is there already", "name a new file, or remove that one first")
+        raise OutputError(path, "it already exists", "choose another name, or remove that file first")
     if not Path(path).parent.is_dir():
-        raise OutputError(path, "its folder is not there", "make the folder first")
+        raise OutputError(path, "its folder does not exist", "make the folder first")
 
 
 def write_new(path: str | Path, text: str) -> None:
@@ -162,7 +162,7 @@ def write_new(path: str | Path, text: str) -> None:
             file.flush()
             on_error.pop_all()
     except FileExistsError as error:
-        raise OutputError(path, "it is there already", "name a new file, or remove that one first") from error
+        raise OutputError(path, "it already exists", "choose another name, or remove that file first") from error
     except (OSError, ValueError) as error:
         raise _output_error(path, error) from error
 
@@ -230,5 +230,7 @@ def _remove(made: list[Path]) -> None:
 
 def _output_error(path: str | Path, error: OSError | ValueError) -> OutputError:
     if isinstance(error, OSError):
-        return OutputError(path, error.strerror or str(error), REMEDIES.get(error.errno, ELSEWHERE))
+        # Some libraries put the number of the error into words of their own.
+        why = os.strerror(error.errno) if error.errno in REMEDIES and error.errno else error.strerror
+        return OutputError(path, why or str(error), REMEDIES.get(error.errno, ELSEWHERE))
     return OutputError(path, str(error))

@@ -76,7 +76,7 @@ def cluster(address: str) -> WorkerPool:
     try:
         client: Any = Client(address, timeout=ANSWERED_WITHIN)
     except (OSError, ValueError) as error:
-        raise OSError(f"no dask scheduler answers at {address!r} ({error})") from None
+        raise OSError(f"no dask scheduler answers at {address!r} ({error}); start one, or check the address") from None
     return WorkerPool(
         partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), FEWEST_EXPECTED), client.close
     )

@@ -169,7 +169,7 @@ def test_init_writes_a_task_once(run, asked, tmp_path):
     (tmp_path / "my cam.toml").write_text("changed")
     again = run("init", "my cam.toml")
     assert again.exit_code == WRONG_INPUT
-    assert again.stderr.startswith("graphcam: the output 'my cam.toml' cannot be written (it is there already)")
+    assert again.stderr.startswith("graphcam: the output 'my cam.toml' cannot be written (it already exists)")
     assert (tmp_path / "my cam.toml").read_text() == "changed"
 
 

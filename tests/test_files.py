@@ -102,7 +102,7 @@ def test_a_folder_that_cannot_be(place, tmp_path):
 def test_a_new_file_is_new(tmp_path):
     write_new(tmp_path / "cam.toml", "é")
     assert (tmp_path / "cam.toml").read_bytes() == b"\xc3\xa9"
-    with pytest.raises(OutputError, match="there already"):
+    with pytest.raises(OutputError, match="it already exists"):
         write_new(tmp_path / "cam.toml", "other")
     assert (tmp_path / "cam.toml").read_text(encoding="utf-8") == "é"
 
@@ -116,7 +116,7 @@ def test_a_new_file_that_cannot_be(place, tmp_path):
 
 def test_a_folder_without_a_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(OutputError, match=r"that in which you are is '\.'"), whole_folder(""):
+    with pytest.raises(OutputError, match=r"'\.' is the current one"), whole_folder(""):
         pytest.fail("nobody has said where")
     with whole_folder(".") as draft:
         (draft / "one").write_text("1")

@@ -25,7 +25,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def said(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter("'' names no place; the folder in which you are is '.'")
+        raise typer.BadParameter("'' names no place; '.' is the current folder")
     return place
 
 
@@ -45,8 +45,13 @@ def one_message() -> Generator[None]:
     """Wrong input ends with one message and status 2."""
     try:
         yield
-    except (GraphcamError, OSError) as error:
+    except GraphcamError as error:
         typer.echo(f"graphcam: {error}", err=True)
+        raise typer.Exit(WRONG_INPUT) from None
+    except OSError as error:
+        # Without the number that the system gives it.
+        told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else error
+        typer.echo(f"graphcam: {told}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
 
 

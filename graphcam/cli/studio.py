@@ -13,7 +13,7 @@ from typer import Option
 
 import graphcam
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, named, one_message, warnings_told
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -69,7 +69,9 @@ def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
         raise DesignError("--site", str(site), "left out with --html", "write one after the other")
     if (html or site) is not None and pyodide is None:
         asked = "--site" if html is None else "--html"
-        raise DesignError("--pyodide", "missing", f"given with {asked}", "name the folder with Pyodide and NumPy")
+        raise DesignError(
+            "--pyodide", Unquoted("missing"), f"given with {asked}", "name the folder with Pyodide and NumPy"
+        )
     if (html or site) is None and pyodide is not None:
         raise DesignError("--pyodide", str(pyodide), "left out without --html and --site", "the server needs none")
 

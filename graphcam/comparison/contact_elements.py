@@ -128,7 +128,7 @@ def contact_by_elements(
     reach = REACH * min(abs(radius1), abs(radius2))
     if not hertz.half_width < MOST_FLAT * reach / REACH:
         expected = f"such that the half-width {hertz.half_width:.3g} mm is less than {MOST_FLAT:g} of the radius"
-        raise DesignError("force", force, expected, "lessen the force, or widen the contact")
+        raise DesignError("force", force, expected, "reduce the force, or widen the contact")
     x = _graded(ABREAST * hertz.half_width, round(ABREAST * parts), reach)
     depth = _graded(DEEP * hertz.half_width, round(DEEP * parts), reach)
     bodies = [_Body(radius, young, poisson, x, depth) for radius in (radius1, radius2)]

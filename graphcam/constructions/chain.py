@@ -31,7 +31,7 @@ from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 
@@ -309,7 +309,7 @@ class Chain(Drawings):
         proposed = float(self.perfect.roller.readings["roller_radius"].value)
         if not proposed > 0:
             remedy = "give follower.roller_radius or another rule"
-            raise DesignError("roller radius by the rule", f"{proposed:.4g} mm", "greater than 0 mm", remedy)
+            raise DesignError("roller radius by the rule", Unquoted(f"{proposed:.4g} mm"), "greater than 0 mm", remedy)
         # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
@@ -345,14 +345,19 @@ class Chain(Drawings):
     def _readable(self, region: Construction, name: str) -> float:
         """The machine value of a reading that a decision rests on."""
         value = float(region.readings[name].value)
+        if math.isnan(value) and (slip := self.board.limits.slip()):
+            way, angle = slip
+            limit = "large enough for lines that cross at a degree or more"
+            remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given"
+            raise DesignError(f"permitted pressure angle on the {way}", Unquoted(f"{angle:g} degrees"), limit, remedy)
         if math.isnan(value):
             follower, given = self.board.follower, self.board.prime_radius
             missing = [f"follower.{follower.place_name}"] if follower.place is None else []
             missing += ["cam.prime_radius"] if given is None else []
             limit = "a place within all limits, where lines cross at a degree or more"
-            remedy = f"give {' and '.join(missing)}, or permit greater pressure angles"
-            raise DesignError("minimum prime radius", "unreadable", limit, remedy)
+            remedy = f"give {' and '.join(missing)}, or permit larger pressure angles"
+            raise DesignError("minimum prime radius", Unquoted("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = "any radius keeps the limits: give cam.prime_radius, or stricter limits"
-            raise DesignError("minimum prime radius", f"{value:g} mm", "greater than 0 mm", remedy)
+            raise DesignError("minimum prime radius", Unquoted(f"{value:g} mm"), "greater than 0 mm", remedy)
         return value

@@ -25,7 +25,7 @@ from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import NOTHING, unit
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.plane import dot
@@ -155,10 +155,10 @@ def _check(x: Floats, s: Floats, turn: float | None) -> None:
     if x.ndim != 1 or x.shape != s.shape or x.size < FEWEST:
         raise DesignError(checked, x.size, f"{FEWEST} or more, each with its ordinate")
     if not np.all(np.diff(x) > 0):
-        raise DesignError(checked, "not in order", "growing along the axis", "sort them")
+        raise DesignError(checked, Unquoted("not in order"), "growing along the axis", "sort them")
     if turn is not None and not x[-1] - x[0] < turn:
         remedy = "leave out the last one where it is the first one again"
-        raise DesignError(checked, f"over {x[-1] - x[0]:g} mm", f"within one turn of {turn:g} mm", remedy)
+        raise DesignError(checked, Unquoted(f"over {x[-1] - x[0]:g} mm"), f"within one turn of {turn:g} mm", remedy)
 
 
 def _going_on(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
@@ -179,13 +179,15 @@ class PlacedArmLoad:
             return
         if self._anchor == 0:
             remedy = "anchor the spring beside the pivot"
-            raise DesignError("at.anchor", "at the pivot", "elsewhere, for there the spring turns nothing", remedy)
+            raise DesignError(
+                "at.anchor", Unquoted("at the pivot"), "elsewhere, for there the spring turns nothing", remedy
+            )
         limit = (
             f"beside the line on which the spring passes over the pivot, after {math.degrees(self._left):.4g} degrees"
         )
         remedy = "move the anchor round the pivot, or the spring's point to the other side of it"
         anchor = f"({self.given.at.anchor[0]:g}, {self.given.at.anchor[1]:g})"
-        raise DesignError("at.anchor", anchor, limit, remedy)
+        raise DesignError("at.anchor", Unquoted(anchor), limit, remedy)
 
     def presses(self, swing: Any) -> Any:
         """Whether the spring turns the arm towards the cam over the whole swing [rad]."""

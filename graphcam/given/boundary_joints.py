@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.boundary_parts import Part
 from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.exact_polynomials import PI
@@ -38,11 +38,11 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
     if abs(s[1] - s[0]) > SAME * size:
         limit = f"{float(s[0]):.10g}, as the part before ends"
         raise DesignError(
-            f"parts[{number}] (s where it begins)", f"{float(s[1]):.10g}", limit, f"give one s at {where}"
+            f"parts[{number}] (s where it begins)", Unquoted(f"{float(s[1]):.10g}"), limit, f"give one s at {where}"
         )
     if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
         limit, remedy = f"{float(v[0]):.10g}, as the part before ends", f"give v, the same in both, at {where}"
-        raise DesignError(f"parts[{number}] (v where it begins)", f"{float(v[1]):.10g}", limit, remedy)
+        raise DesignError(f"parts[{number}] (v where it begins)", Unquoted(f"{float(v[1]):.10g}"), limit, remedy)
 
 
 def _check_gap(
@@ -51,12 +51,12 @@ def _check_gap(
     if abs(s[1] - s[0]) > SAME * size:
         found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower rests {where}"
         raise DesignError(
-            f"parts[{number}] (s before it)", found, limit, "give a part that leads from one to the other"
+            f"parts[{number}] (s before it)", Unquoted(found), limit, "give a part that leads from one to the other"
         )
     if max(map(abs, v)) > SAME * size:
         found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower rests {where}"
         raise DesignError(
-            f"parts[{number}] (v before it)", found, limit, "give v = 0 there, or a part that fills the gap"
+            f"parts[{number}] (v before it)", Unquoted(found), limit, "give v = 0 there, or a part that fills the gap"
         )
 
 
@@ -75,7 +75,7 @@ def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:
     DesignError : the parts do not join, or do not close the turn
     """
     if not parts:
-        raise DesignError("parts", "empty", "one part or more", "give what leads the follower up and back")
+        raise DesignError("parts", Unquoted("empty"), "one part or more", "give what leads the follower up and back")
     size = greatest_lift(parts)
     for k, (before, after) in enumerate(pairwise(parts), 1):
         check_joint(before, after, k, size)
@@ -108,10 +108,10 @@ def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
     if abs(s[1] - s[0]) > SAME * size:
         limit = f"{float(s[1]):.10g}, as the first part begins"
         remedy = "lead the follower back to where it was a turn before"
-        raise DesignError("parts (s at their end)", f"{float(s[0]):.10g}", limit, remedy)
+        raise DesignError("parts (s at their end)", Unquoted(f"{float(s[0]):.10g}"), limit, remedy)
     gap = turn < TURN - SAME
     off = max(map(abs, v)) if gap else abs(v[1] - v[0])
     if off > SAME * (size + abs(v[0])):
         found = f"{float(v[0]):.10g}, and {float(v[1]):.10g} where they begin"
         limit = "0 at both: the follower rests between them" if gap else "the same at both"
-        raise DesignError("parts (v at their end)", found, limit, "give v at the first and at the last point")
+        raise DesignError("parts (v at their end)", Unquoted(found), limit, "give v at the first and at the last point")

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.boundary_joints import SAME, TURN, joined_turn
 from graphcam.given.boundary_parts import Part, SplinePart
 from graphcam.given.exact_pieces import ExactPiece, between
@@ -88,7 +88,7 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
     legs = _legs(pieces)
     if len(legs) < 2:
         value = f"at rest at {float(pieces[0].p[0]):g} over the whole turn"
-        raise DesignError("motion", value, "one with a rise and a return", "give different s")
+        raise DesignError("motion", Unquoted(value), "one with a rise and a return", "give different s")
     # Twice round, so that a leg over the end of the turn is found whole.
     round_ = [*pieces, *(replace(piece, start=piece.start + TURN) for piece in pieces)]
     phases: list[tuple[float, Phase]] = []

@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.exact_pieces import ExactPiece, turning_places
 from graphcam.given.exact_polynomials import Exact, derivative, rounded, shortest, solved, value
 from graphcam.given.motion_point import MotionPoint, exact_angle, told
@@ -94,10 +94,12 @@ class _Part:
 
     def _open(self) -> DesignError:
         if all(point.s is None for point in self.points):
-            return DesignError("points", "without any s", "points of which one gives s", "say how high the motion is")
+            return DesignError(
+                "points", Unquoted("without any s"), "points of which one gives s", "say how high the motion is"
+            )
         limit = "conditions that determine the part: some of these leave it open or contradict each other"
         remedy = "give s where only v, a or j is given"
-        return DesignError("points", f"{self._count} conditions that depend on each other", limit, remedy)
+        return DesignError("points", Unquoted(f"{self._count} conditions that depend on each other"), limit, remedy)
 
     def _check_sound(self) -> None:
         """Refuse what swings, and what the last digits of the given numbers decide."""
@@ -117,7 +119,7 @@ class _Part:
             if len(between) > MOST_TURNS:
                 value_ = f"{len(between)} {where}"
                 raise DesignError(
-                    f"points[{k}] (turns behind it)", value_, f"at most {MOST_TURNS}; the part swings", remedy
+                    f"points[{k}] (turns behind it)", Unquoted(value_), f"at most {MOST_TURNS}; the part swings", remedy
                 )
             if before.s is None or after.s is None or not span:
                 continue
@@ -125,7 +127,7 @@ class _Part:
             for place, piece in between:
                 if not least <= (s := float(piece.at(place))) <= most:
                     limit = f"from {least:.6g} to {most:.6g}; the part swings"
-                    raise DesignError(f"points[{k}] (s behind it)", f"{s:.6g} {where}", limit, remedy)
+                    raise DesignError(f"points[{k}] (s behind it)", Unquoted(f"{s:.6g} {where}"), limit, remedy)
 
     def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
         nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
@@ -137,7 +139,9 @@ class _Part:
         if off > LAST_DIGITS * max(abs(here) for here, _ in both):
             found = f"decided by the last digits of the numbers: s changes by {float(off):.3g} with them"
             remedy = "move the points apart, or give fewer conditions"
-            raise DesignError("points", found, f"conditions that keep s to {LAST_DIGITS:g} of its greatest", remedy)
+            raise DesignError(
+                "points", Unquoted(found), f"conditions that keep s to {LAST_DIGITS:g} of its maximum", remedy
+            )
 
 
 @dataclass(frozen=True)
@@ -169,7 +173,7 @@ class PolynomialPart(_Part):
         degree = self._count - 1
         if degree > MOST_DEGREE:
             limit = f"at most {MOST_DEGREE + 1}, for a degree of {MOST_DEGREE}"
-            raise DesignError("points", f"{degree + 1} conditions", limit, "give fewer, or take a spline")
+            raise DesignError("points", Unquoted(f"{degree + 1} conditions"), limit, "give fewer, or take a spline")
         if self.degree is not None and self.degree != degree:
             too = "many" if self.degree < degree else "few"
             limit = f"{degree}, one less than the {degree + 1} conditions"
@@ -236,12 +240,12 @@ class SplinePart(_Part):
         self._check_points()
         least, most = SPLINE_DEGREES
         if not least <= self.degree <= most:
-            raise DesignError("degree", self.degree, f"{least} to {most}", "take 5 for a jerk without jumps")
+            raise DesignError("degree", self.degree, f"from {least} to {most}", "take 5 for a jerk without jumps")
         inner = self._count - self.degree - 1
         if inner < 0:
             limit = f"{self.degree + 1} or more for a degree of {self.degree}"
             remedy = "give more points or conditions, or a lower degree"
-            raise DesignError("points", f"{self._count} conditions", limit, remedy)
+            raise DesignError("points", Unquoted(f"{self._count} conditions"), limit, remedy)
         if self.knots is not None:
             self._check_knots(tuple(self.knots), inner)
         self._check_sound()

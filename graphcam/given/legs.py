@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.rests import Stop, Surroundings, find_stop
@@ -81,7 +81,7 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
     if not np.ptp(s) > DEPTH * tolerance:
         limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
         remedy = "give the table of a motion, or a smaller tolerance"
-        raise DesignError("the table's lift", f"{np.ptp(s):.4g}", limit, remedy)
+        raise DesignError("the table's lift", Unquoted(f"{np.ptp(s):.4g}"), limit, remedy)
     turnings = _turnings(s, DEPTH * tolerance)
     if len(turnings) > MOST_TURNINGS:
         limit = f"greater than the noise that turns the table {len(turnings)} times"

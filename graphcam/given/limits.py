@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import Translating
 
 QUARTER_TURN = math.pi / 2
@@ -29,6 +29,20 @@ class Limits:
         back = self.return_
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
             name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
-            limit, remedy = "between 0 and 90 degrees, both excluded", "30 degrees is usual for a translating follower"
-            quantity = f"permitted pressure angle on the {name}"
-            raise DesignError(quantity, f"{math.degrees(value or 0.0):g} degrees", limit, remedy)
+            given, limit = math.degrees(value or 0.0), "between 0 and 90 degrees, both excluded"
+            remedy = "30 degrees is usual for a translating follower"
+            if given > 360:
+                remedy = f"write math.radians({value:g}) if it is in degrees"
+            raise DesignError(f"permitted pressure angle on the {name}", Unquoted(f"{given:g} degrees"), limit, remedy)
+
+    def slip(self) -> tuple[str, float] | None:
+        """The name and the degrees of a limit so small that radians were given for degrees; None if there is none.
+
+        >>> Limits(rise=math.radians(0.52)).slip()
+        ('rise', 0.52)
+        >>> Limits(rise=0.52).slip()
+        """
+        for name, value in (("rise", self.rise), ("return", self.return_)):
+            if value is not None and (given := math.degrees(value)) <= QUARTER_TURN:
+                return name, round(given, 12)
+        return None

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
-from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
 from graphcam.given.spline_law import AT_REST, TURNING, spline_law
 
@@ -24,6 +24,8 @@ DEFAULT_TOLERANCE = 0.01
 FEWEST_ROWS, MOST_ROWS = 8, 10_000
 WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
+SHORTEST_TURN = 0.85
+"""So much of a turn a table covers that ends a step before it, where another unit is looked for."""
 LARGEST, SMALLEST = 1e100, 1e-100
 """A value of a row and a tolerance between which squares are numbers still."""
 SAMPLES = 50
@@ -133,7 +135,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise DesignError("tolerance", tolerance, "a finite number greater than 0")
     if tolerance < SMALLEST:
-        raise DesignError("tolerance", tolerance, f"{SMALLEST:g} at least", "give what the table was measured to")
+        raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)
     least = LEAST_NOISE * float(np.ptp(s))
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
@@ -194,16 +196,20 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
     if phi.ndim != 1 or phi.shape != values.shape:
         shapes = f"{phi.shape} and {values.shape}"
-        raise DesignError("shapes of the table's columns", shapes, "one number for each cam angle", "give two lists")
+        raise DesignError(
+            "shapes of the table's columns", Unquoted(shapes), "one number for each cam angle", "give two lists"
+        )
     if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
-        limit = f"{FEWEST_ROWS} to {MOST_ROWS}"
+        limit = f"from {FEWEST_ROWS} to {MOST_ROWS}"
         remedy = "measure at more or at fewer cam angles"
         raise RowError(max(phi.size - 1, 0), "number of rows", phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
-            raise RowError(k, "row", f"{phi[k]:g}, {values[k]:g}", "finite numbers", "measure it")
+            raise RowError(k, "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), "finite numbers", "measure it")
     for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
-        raise RowError(int(k), "row", f"{phi[k]:g}, {values[k]:g}", f"numbers up to {LARGEST:g}", "measure again")
+        raise RowError(
+            int(k), "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), f"numbers up to {LARGEST:g}", "measure again"
+        )
     for k, step in enumerate(np.diff(phi), 1):
         if step <= ROUNDING:
             remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"
@@ -212,18 +218,32 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     span, widest = float(phi[-1] - phi[0]), float(np.max(np.diff(phi)))
     last = phi.size - 1
     if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
-        limit, remedy = "360 degrees, or a step less", "give one revolution of the cam"
+        limit, remedy = "360 degrees, or a step less", _turn_remedy(span)
         raise RowError(last, "turn that the rows cover", _degrees(span), limit, remedy)
     if span < FULL_TURN - ROUNDING:
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
-        limit, remedy = f"{values[0]:g} as in the first, a turn before", "the follower comes back to where it was"
-        raise RowError(last, "last row", f"{values[-1]:g}", limit, remedy)
+        limit, remedy = (
+            f"{values[0]:g} as in the first, a turn before",
+            "end where the turn began, or leave the last row out",
+        )
+        raise RowError(last, "last row", Unquoted(f"{values[-1]:g}"), limit, remedy)
     return phi[:-1], values[:-1]
 
 
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.10g} degrees"
+def _turn_remedy(span: float) -> str:
+    """What to do about rows that do not cover a turn: perhaps their angles are in the other unit."""
+    for turn, remedy in (
+        (360.0, "angles are in radians here: convert them by numpy.radians"),
+        (math.radians(FULL_TURN), "about 2 pi: give the angles in degrees, not in radians"),
+    ):
+        if SHORTEST_TURN * turn < span < (1 + NEARLY) * turn:
+            return remedy
+    return "give one revolution of the cam"
+
+
+def _degrees(angle: float) -> Unquoted:
+    return Unquoted(f"{math.degrees(angle):.10g} degrees")
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

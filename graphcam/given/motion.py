@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
@@ -19,11 +19,20 @@ from graphcam.showing import Shown, in_lines
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the greatest)."""
 FULL_TURN = 2 * math.pi
+NEARLY = 0.02
+"""So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
 
 
 def _check_positive(quantity: str, value: float, unit: str) -> None:
     if not (math.isfinite(value) and value > 0):
         raise DesignError(quantity, value, f"a finite number greater than 0 {unit}")
+
+
+def _check_angle(angle: float, remedy: str) -> None:
+    """That a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
+    _check_positive("angle", angle, "rad")
+    if angle > FULL_TURN + CLOSURE:
+        raise DesignError("angle", Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
 
 
 def wrap(phi: ArrayLike) -> Floats:
@@ -67,7 +76,7 @@ class Dwell:
     direction: ClassVar[int] = 0
 
     def __post_init__(self) -> None:
-        _check_positive("angle", self.angle, "rad")
+        _check_angle(self.angle, f"write math.radians({self.angle:.6g}) if it is in degrees")
 
     @property
     def lift(self) -> float:
@@ -89,7 +98,10 @@ class Moving:
 
     def __post_init__(self) -> None:
         _check_positive("lift", self.lift, "mm")
-        _check_positive("angle", self.angle, "rad")
+        remedy = f"write math.radians({self.angle:.6g}) if it is in degrees"
+        if self.lift <= FULL_TURN:
+            remedy += f", or {_swapped(self)} if the two are swapped"
+        _check_angle(self.angle, remedy)
         _ = self.normalised  # says at once if there is no such law
 
     @cached_property
@@ -172,15 +184,16 @@ class Motion(Shown):
         steps = [phase.direction * phase.lift for phase in phases]
         for direction, kind in ((1, "rise"), (-1, "return")):
             if all(phase.direction != direction for phase in phases):
-                raise DesignError("motion", f"without a {kind}", "at least one rise and one return", f"add a {kind}")
+                limit = "one with a rise and a return"
+                raise DesignError("motion", Unquoted(f"without a {kind}"), limit, f"add a {kind}")
         turn = math.fsum(angles)
         if abs(turn - FULL_TURN) > CLOSURE:
-            total, remedy = f"{math.degrees(turn):.10g} degrees", "lengthen or shorten a dwell by the difference"
-            raise DesignError("sum of the phase angles", total, "360 degrees", remedy)
+            total = Unquoted(f"{turn:.6g} rad ({math.degrees(turn):.10g} degrees)")
+            raise DesignError("sum of the phase angles", total, "2 pi rad (360 degrees)", _remedy(phases, turn))
         closing = math.fsum(steps)
         if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
             remedy = "make the lifts of rises and returns equal"
-            raise DesignError("sum of rises less returns", f"{closing:.10g} mm", "0 mm", remedy)
+            raise DesignError("sum of rises less returns", Unquoted(f"{closing:.10g} mm"), "0 mm", remedy)
         heights = [math.fsum(steps[:k]) for k in range(len(phases))]
         heights.append(heights[0])  # closed by definition: what the sum misses is rounding
         object.__setattr__(self, "phases", phases)
@@ -320,6 +333,21 @@ class Motion(Shown):
     def _from_end(self) -> NDArray[np.bool_]:
         """(p,) whether a piece is seen from the end of its phase."""
         return np.array([piece.length < 0 for piece in self._piecewise.pieces])
+
+
+def _remedy(phases: Sequence[Phase], turn: float) -> str:
+    """What to do about phases that do not sum to a turn."""
+    moving = next(phase for phase in phases if isinstance(phase, Moving))
+    lifts = math.fsum(phase.angle if isinstance(phase, Dwell) else phase.lift for phase in phases)
+    if abs(lifts - FULL_TURN) < NEARLY * FULL_TURN:
+        return f"the lifts make a turn: name the arguments, {_swapped(moving)}"
+    change = "lengthen" if turn < FULL_TURN else "shorten"
+    return f"{change} a dwell by {abs(math.degrees(turn) - 360):.10g} degrees"
+
+
+def _swapped(phase: Moving) -> str:
+    """A phase with its first two arguments the other way round, as one would write it."""
+    return f"{type(phase).__name__}(lift={phase.angle:.6g}, angle={phase.lift:.6g})"
 
 
 def _in_words(phase: Phase) -> str:

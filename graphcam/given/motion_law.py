@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
@@ -248,7 +248,8 @@ class Law:
         return places[:-1].T.ravel(), places[1:].T.ravel()
 
     def _wrong(self, what: str, value: object, limit: str, remedy: str = "") -> DesignError:
-        return DesignError(f"{what} of the law '{self.name}'", value, limit, remedy)
+        shown = Unquoted(value) if isinstance(value, str) else value
+        return DesignError(f"{what} of the law '{self.name}'", shown, limit, remedy)
 
     def _check(self) -> None:
         """Refuse what is no law.

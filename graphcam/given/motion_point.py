@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.exact_polynomials import PI, shortest
 
 ORDERS = "s", "v", "a", "j"
@@ -44,7 +44,9 @@ class MotionPoint:
                 raise DesignError(name, number, "a finite number")
         if not self.given:
             remedy = "give s, v, a or j there, or leave the point out"
-            raise DesignError("s", f"missing at {told(self.angle)}", "given with v, a or j, or one of these", remedy)
+            raise DesignError(
+                "s", Unquoted(f"missing at {told(self.angle)}"), "given with v, a or j, or one of these", remedy
+            )
 
     @property
     def place(self) -> Fraction:
@@ -73,10 +75,10 @@ def exact_angle(angle: float) -> Fraction:
     return plain
 
 
-def told(angle: float) -> str:
+def told(angle: float) -> Unquoted:
     """A cam angle in the words of a message.
 
     >>> told(math.pi)
-    '180 degrees'
+    180 degrees
     """
-    return f"{math.degrees(angle):.10g} degrees"
+    return Unquoted(f"{math.degrees(angle):.10g} degrees")

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.boundary_joints import check_joint, greatest_lift
 from graphcam.given.boundary_parts import Part, PolynomialPart
 from graphcam.given.exact_pieces import ExactPiece, between
@@ -122,11 +122,13 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
     points = [part for part in given if isinstance(part, MotionPoint)]
     if points:
         if len(points) < len(given):
-            raise DesignError("parts", "points and parts", "points of one polynomial, or parts", "give one of the two")
+            raise DesignError(
+                "parts", Unquoted("points and parts"), "points of one polynomial, or parts", "give one of the two"
+            )
         given = (PolynomialPart(points),)
     made = tuple(part for part in given if not isinstance(part, MotionPoint))
     if not made:
-        raise DesignError("parts", "empty", "one part or more")
+        raise DesignError("parts", Unquoted("empty"), "one part or more")
     pieces = [piece for part in made for piece in part.pieces]
     for k, part in enumerate(made[1:], 1):
         check_joint(made[k - 1], part, k, greatest_lift(made))
@@ -165,7 +167,7 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     first, last = shortest(float(start)), shortest(float(end))
     if not 1 - first - last >= Fraction(LEAST_BLEND):
         remedy = "shorten them: the constant velocity takes what they leave"
-        raise DesignError("blends", f"{start:g} and {end:g}", "less than 1 together", remedy)
+        raise DesignError("blends", Unquoted(f"{start:g} and {end:g}"), "less than 1 together", remedy)
     if smooth not in range(1, SMOOTHEST + 1):
         raise DesignError("smooth", smooth, f"1 (velocity), 2 (acceleration) or {SMOOTHEST} (jerk continuous)")
     v = 2 / (2 - first - last)

@@ -1,5 +1,10 @@
-"""Tables of a measured motion in CSV files: a header, then a cam angle and a value on every line."""
+"""Tables of a measured motion in CSV files: a header, then a cam angle and a value on every line.
 
+The columns stand apart by commas, semicolons or tabs, as the header has them; a spreadsheet that separates them by
+semicolons writes decimals with a comma, and both are read.
+"""
+
+import csv
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -8,7 +13,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, unreadable
 from graphcam.given.measured import (
     DEFAULT_TOLERANCE,
     MeasuredMotion,
@@ -82,10 +87,14 @@ def table_in(text: str, name: str, path: str, tolerance: float | None = None) ->
     >>> rows = "".join(f"{15 * k},{min(k, 12)}\n" for k in range(24))
     >>> table_in("phi_deg,a\n" + rows, "a.csv", "a.csv").rows[:2]
     ((0.0, 0.0), (15.0, 1.0))
+    >>> table_in(("phi_deg,a\n" + rows).replace(",", ";"), "a.csv", "a.csv").rows[:2]
+    ((0.0, 0.0), (15.0, 1.0))
     """
     lines = text.rstrip().splitlines()
-    column = _column(path, lines[0] if lines else "")
-    rows = tuple(_row(path, number, line, column) for number, line in enumerate(lines[1:], _FIRST_ROW))
+    header = lines[0] if lines else ""
+    between = next((sign for sign in ";\t" if sign in header), ",")
+    column = _column(path, header, between)
+    rows = tuple(_row(path, number, line, column, between) for number, line in enumerate(lines[1:], _FIRST_ROW))
     phi, values = np.array(rows).reshape(-1, 2).T
     try:
         closes_to = math.inf if column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
@@ -100,8 +109,7 @@ def _text(path: Path) -> str:
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise TaskError(str(path), "the table", why, "a CSV file that can be read", "check motion.table") from None
+        raise unreadable(path, "the table", "a CSV file", error, "check motion.table") from None
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -109,22 +117,30 @@ def _text(path: Path) -> str:
         raise TaskError(str(path), f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
 
 
-def _column(path: str, header: str) -> Column:
-    names = [name.strip() for name in header.split(",")]
+def _column(path: str, header: str, between: str) -> Column:
+    names = _cells(header, between)
     for column in get_args(Column):
         if names == [ANGLES, column]:
             return column
     raise TaskError(path, "line 1", _short(header), f"one of {_HEADERS}", "name the two columns of the table")
 
 
-def _row(path: str, number: int, line: str, column: Column) -> tuple[float, float]:
+def _cells(line: str, between: str) -> list[str]:
+    """The cells of a line, without spaces and quotes around them."""
     try:
-        phi, value = (float(cell) for cell in line.split(","))
+        return [cell.strip() for row in csv.reader([line], delimiter=between) for cell in row]
+    except csv.Error:
+        return [line]
+
+
+def _row(path: str, number: int, line: str, column: Column, between: str) -> tuple[float, float]:
+    try:
+        phi, value = (float(cell.replace(",", ".")) for cell in _cells(line, between))
     except ValueError:
         phi = value = math.nan
     if not (math.isfinite(phi) and math.isfinite(value)):
         limit = f"two finite numbers, {ANGLES} and {column}"
-        remedy = "write decimals with a point, and a comma between the numbers"
+        remedy = "write decimals with a point, or separate the columns by semicolons"
         raise TaskError(path, f"line {number}", _short(line), limit, remedy)
     if abs(value) > _MOST[column]:
         raise TaskError(path, f"line {number}: {column}", value, f"at most {_MOST[column]:.15g}", REMEDY)

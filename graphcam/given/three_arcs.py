@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 
 Point = Sequence[float] | Floats
@@ -52,7 +52,7 @@ class ThreeArcs:
         if not (math.isfinite(self.rho1) and self.rho1 > 0):
             raise DesignError("rho1", self.rho1, "a finite radius of more than 0 mm")
         if self.C2 is None and self.A is None:
-            raise DesignError("C2", "left out", "given, or A in its place", "give C2, or A to have it found")
+            raise DesignError("C2", Unquoted("left out"), "given, or A in its place", "give C2, or A to have it found")
         if self.C2 == self.G:
             raise DesignError("C2", self.C2, "away from G", "the second arc needs a radius")
         if self.C1 is None and self.rho1 >= math.hypot(*self.D):
@@ -69,7 +69,7 @@ def _point(name: str, value: Point) -> tuple[float, float]:
     try:
         x, y = (float(coordinate) for coordinate in value)
     except (TypeError, ValueError):
-        raise DesignError(name, f"{value!r}", "two numbers, x and y in mm") from None
+        raise DesignError(name, Unquoted(f"{value!r}"), "two numbers, x and y in mm") from None
     if not (math.isfinite(x) and math.isfinite(y)):
         raise DesignError(name, (x, y), "two finite numbers, x and y in mm")
     if x == y == 0 and name != "C2":

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes
@@ -71,7 +71,7 @@ class ArcFlank:
         DesignError : it is not, or they do not
         """
         if not self.sound:
-            raise DesignError("root", "not sound", "a sound one", self.why)
+            raise DesignError("root", Unquoted("not sound"), "one that can be built", self.why)
         if not np.dot(self.A, self.A - self.C2) > 0:
             raise DesignError("C2", _shown(self.C2), "so that the second arc goes around the cam centre", "move C2")
         for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
@@ -96,9 +96,9 @@ class ArcFlank:
         for name, angle in zip(NAMES, -sigma * turning, strict=True):
             if not angle > 0:
                 limit, found = "greater than 0, in the sense from A to D", f"{math.degrees(angle):.4g} degrees"
-                raise DesignError(f"angle of the arc {name}", found, limit, "move G or C1")
+                raise DesignError(f"angle of the arc {name}", Unquoted(found), limit, "move G or C1")
         return sigma
 
 
-def _shown(point: Point) -> str:
-    return f"({point[0]:.6g}, {point[1]:.6g})"
+def _shown(point: Point) -> Unquoted:
+    return Unquoted(f"({point[0]:.6g}, {point[1]:.6g})")

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.impact import ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
@@ -96,7 +96,7 @@ class ArcMotion(Shown):
         for name, n, z in zip("AGFD", outward.tolist(), trace.tolist(), strict=True):
             if not (n * z.conjugate()).real > 0:
                 at = f"90 degrees or more at {name}"
-                raise DesignError("pressure angle", at, "less than 90 degrees", "move G or C1")
+                raise DesignError("pressure angle", Unquoted(at), "less than 90 degrees", "move G or C1")
         object.__setattr__(self, "edges", self._edges(self.sigma * np.angle(trace[0] * np.conj(trace))))
 
     def _followed(self, trace: Complexes, inward: Complexes, r0: float, r1: float) -> Arcs:
@@ -115,11 +115,11 @@ class ArcMotion(Shown):
         """The cam angles where the arcs begin, from those of A, G, F and D on the rise."""
         rise, angles = float(turned[3]), np.degrees(turned[1:]).round(4).tolist()
         if not 0 < turned[1] < turned[2] < rise:
-            raise DesignError("rise", f"{angles} degrees at G, F and D", "growing angles", "move G or C1")
+            raise DesignError("rise", Unquoted(f"{angles} degrees at G, F and D"), "growing angles", "move G or C1")
         moving = 2 * rise + self.dwell
         if moving > FULL_TURN + CLOSURE:
             found = f"{math.degrees(moving):.6g} degrees"
-            raise DesignError("rise, dwell and return", found, "at most a turn", "shorten the dwell")
+            raise DesignError("rise, dwell and return", Unquoted(found), "at most a turn", "shorten the dwell")
         return np.concatenate([turned, moving - turned[::-1]])
 
     @property

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from textwrap import shorten
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +23,7 @@ from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.stationary import Places
+from graphcam.mechanism.stationary import Places, places_told
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import WIDTH, Shown, in_lines
 
@@ -166,12 +167,18 @@ class Cam(Shown):
         pitch, profile, curvature = self._in_chunks(self._write_curves, phi, side, points=2, numbers=1)
         return pitch, profile, curvature
 
-    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints:
-        """All of this at the fraction u of a phase, so that an end of a phase is seen from inside.
+    @overload
+    def at(self, phi: ArrayLike, /, *, side: Side = "right") -> CamPoints: ...
+    @overload
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints: ...
+    def at(self, phase: ArrayLike, u: ArrayLike | None = None, side: Side = "right") -> CamPoints:
+        """All of this at cam angles phi [rad], or at fractions of phases, whose ends are seen from inside then.
 
-        phase : index of the phase, one or as many as there are u
+        ``at(phi)``: any real numbers; at a break the value of the named side.
+        ``at(phase, u)``: the index of the phase, one or as many as there are fractions u.
         """
-        phi, values = self.motion.angle_at(phase, u), self.motion.at(phase, u, side)
+        places = places_told(self.motion, phase, u, side)
+        phi, values = places.phi, places.values
         (pitch, profile), curvature = np.empty((2, *phi.shape, 2)), np.empty(phi.shape)
         self._write_curves(phi, values, pitch, profile, curvature)
         return CamPoints(phi, values, pitch, profile, self._pressure_angle(values), curvature)

@@ -167,7 +167,7 @@ class VibratingFollower(Shown):
     def __post_init__(self) -> None:
         _turning(self.speed_rpm)
         if self.vibrations > MOST_VIBRATIONS:
-            limit = f"so great that at most {MOST_VIBRATIONS:g} natural vibrations fit into a turn"
+            limit = f"so high that at most {MOST_VIBRATIONS:g} natural vibrations fit into a turn"
             raise DesignError("speed_rpm", self.speed_rpm, limit, "a rigid follower is gc.Contact")
         _ = self._solved
 

@@ -36,11 +36,12 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -55,7 +56,7 @@ from graphcam.mechanism.jamming import (
     transmission,
 )
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_told
 from graphcam.showing import by_parts
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
@@ -131,6 +132,8 @@ class CamForces:
     >>> at = forces.at(phase=0, u=0.5)
     >>> float(at.load.round(3)), float(at.normal.round(3)), float(at.side.round(3))
     (160.0, 165.459, 42.15)
+    >>> forces.at(radians(60)).normal.round(3).item()
+    165.459
     >>> most = forces.greatest_normal()
     >>> round(most.value, 3), round(degrees(most.phi), 3)
     (221.756, 120.0)
@@ -160,12 +163,17 @@ class CamForces:
         """The load as it stands beside this cam."""
         return self.cam.kinematics.pressed_by(self.load)
 
-    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Forces:
-        """The forces at the fraction u of a phase, so that an end of a phase is seen from inside.
+    @overload
+    def at(self, phi: ArrayLike, /, *, side: Side = "right") -> Forces: ...
+    @overload
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Forces: ...
+    def at(self, phase: ArrayLike, u: ArrayLike | None = None, side: Side = "right") -> Forces:
+        """The forces at cam angles phi [rad], or at fractions of phases, whose ends are seen from inside then.
 
-        phase : index of the phase, one or as many as there are u
+        ``at(phi)``: any real numbers; at a break the value of the named side.
+        ``at(phase, u)``: the index of the phase, one or as many as there are fractions u.
         """
-        return self.of(places_in(self.cam.motion, phase, u, side))
+        return self.of(places_told(self.cam.motion, phase, u, side))
 
     def of(self, places: Places) -> Forces:
         """The forces at places that belong to phases."""
@@ -356,4 +364,4 @@ class CamForces:
         found = f"{math.degrees(alpha):.4g} degrees at a cam angle of {math.degrees(worst.phi):.4g}"
         allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
         remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
-        raise DesignError("pressure angle", found, allowed, remedy)
+        raise DesignError("pressure angle", Unquoted(found), allowed, remedy)

@@ -8,17 +8,17 @@ Source: K. L. Johnson, *Contact Mechanics* (1985), chapter 4.
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in
+from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_told
 from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.showing import by_parts
 
@@ -77,7 +77,7 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
         found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
-        raise DesignError("radii", found, "such that they touch in one line", remedy)
+        raise DesignError("pair of radii", Unquoted(found), "such that they touch along one line", remedy)
     return bend
 
 
@@ -129,9 +129,13 @@ class ContactStress:
             reason = "a knife edge has no line contact: the pressure on it is infinite"
             raise DesignError("roller radius", self._roller, "greater than 0 mm", reason)
 
-    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses:
-        """The contact at the fraction u of a phase, so that an end of a phase is seen from inside."""
-        return self.of(places_in(self.forces.cam.motion, phase, u, side))
+    @overload
+    def at(self, phi: ArrayLike, /, *, side: Side = "right") -> Stresses: ...
+    @overload
+    def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses: ...
+    def at(self, phase: ArrayLike, u: ArrayLike | None = None, side: Side = "right") -> Stresses:
+        """The contact at cam angles phi [rad], or at fractions of phases, as :meth:`CamForces.at` takes them."""
+        return self.of(places_told(self.forces.cam.motion, phase, u, side))
 
     def of(self, places: Places) -> Stresses:
         """The contact at places that belong to phases."""
@@ -159,7 +163,9 @@ class ContactStress:
         if not self._roller < rho:
             raise self._undercut(rho)
         if self.forces.greatest_normal().value <= 0:
-            raise DesignError("contact force", "nowhere positive", "greater than 0 N somewhere", "preload the spring")
+            raise DesignError(
+                "contact force", Unquoted("nowhere positive"), "greater than 0 N somewhere", "preload the spring"
+            )
         squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -136,7 +136,9 @@ class Kinematics(ABC):
         """
         if not isinstance(load, SpringLoad):
             found = f"of the kind {type(load).__name__}"
-            raise DesignError("load", found, "a SpringLoad, for the follower slides", "an ArmLoad turns an arm")
+            raise DesignError(
+                "load", Unquoted(found), "a SpringLoad, for the follower slides", "an ArmLoad turns an arm"
+            )
         return load
 
     @property

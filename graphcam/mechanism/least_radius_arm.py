@@ -21,7 +21,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import Oscillating
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
@@ -98,7 +98,7 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     if motion.lift >= room:
         lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
         remedy = "permit larger pressure angles or swing the arm less"
-        raise DesignError("lift", lift, f"less than {limit} for these limits", remedy)
+        raise DesignError("lift", Unquoted(lift), f"less than {limit} for these limits", remedy)
 
 
 # --- the lines -------------------------------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Oscillating
 from graphcam.given.follower_load import FollowerLoad
@@ -40,7 +40,7 @@ class OscillatingKinematics(RollerKinematics):
         """With the arm and its centre distance; the lift is an angle."""
         if sizes.distance is None:
             remedy = "take the one that minimum_radius(...) finds"
-            raise DesignError("centre distance", "left open", "given for a cam", remedy)
+            raise DesignError("centre distance", Unquoted("left open"), "given for a cam", remedy)
         made = cls(sigma, prime_radius, sizes.arm, sizes.distance, lift)
         _ = made.psi0  # so that its parts know it
         return made
@@ -57,7 +57,7 @@ class OscillatingKinematics(RollerKinematics):
             left = math.degrees(math.pi - angle_between(distance, arm, r0))
             limit = f"less than the {left:g} degrees from the low rest to the stretched arm"
             remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
-            raise DesignError("lift", f"{math.degrees(self.swing):g} degrees", limit, remedy)
+            raise DesignError("lift", Unquoted(f"{math.degrees(self.swing):g} degrees"), limit, remedy)
 
     @cached_property
     def psi0(self) -> Any:
@@ -114,7 +114,9 @@ class OscillatingKinematics(RollerKinematics):
         """A torque about the pivot."""
         if not isinstance(load, ArmLoad):
             found = f"of the kind {type(load).__name__}"
-            raise DesignError("load", found, "an ArmLoad, for the follower swings", "give its inertia about the pivot")
+            raise DesignError(
+                "load", Unquoted(found), "an ArmLoad, for the follower swings", "give its inertia about the pivot"
+            )
         return load.placed(self.arm, self.distance, self.psi0, self.swing)
 
     @property

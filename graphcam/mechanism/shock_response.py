@@ -29,7 +29,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats, law as law_of
 from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.motion_law import Law
@@ -98,7 +98,7 @@ def _of_motion(motion: AnyMotion) -> Event:
     first = next((k for k, (kind, *_) in enumerate(phases) if kind == "rise" and phases[k - 1][0] == "dwell"), None)
     if first is None:
         remedy = "the steady motion of one without dwells is gc.VibratingFollower"
-        raise DesignError("motion", "without a dwell before a rise", "one with such a dwell", remedy)
+        raise DesignError("motion", Unquoted("without a dwell before a rise"), "one with such a dwell", remedy)
     turned = [*phases[first:], *((kind, a + FULL_TURN, b + FULL_TURN) for kind, a, b in phases[:first])]
     count = next(k for k, (kind, *_) in enumerate(turned) if kind == "dwell")
     start, end, stop = turned[0][1], turned[0][2], turned[count][1]
@@ -232,7 +232,7 @@ def _check_ratios(n: Floats) -> None:
             remedy = "so stiff a follower follows the cam"
         raise DesignError("n", value, limit, remedy)
     if not n.size:
-        raise DesignError("n", "empty", "one ratio or more", "leave it out for the usual range")
+        raise DesignError("n", Unquoted("empty"), "one ratio or more", "leave it out for the usual range")
 
 
 # --- over the ratio of times -----------------------------------------------------------------------------------------

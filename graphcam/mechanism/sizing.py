@@ -16,7 +16,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -66,16 +66,20 @@ class SizingProblem:
             positive = name == "offset" or low > 0
             if not (math.isfinite(low) and math.isfinite(high) and low <= high and positive):
                 quantity = f"range of the {name.replace('_', ' ')}"
-                raise DesignError(quantity, f"{low:g} to {high:g} mm", "from a size to one no smaller")
+                raise DesignError(
+                    quantity, Unquoted(f"{low:g} to {high:g} mm"), "from a size to one that is not smaller"
+                )
         for quantity, most in (("offset", max(map(abs, self.offset))), ("roller radius", self.roller_radius[1])):
             if not most < self.prime_radius[0]:
                 limit = f"less than the least prime radius of {self.prime_radius[0]:g} mm"
-                raise DesignError(f"range of the {quantity}", f"up to {most:g} mm", limit, "no such cam could be made")
+                raise DesignError(
+                    f"range of the {quantity}", Unquoted(f"up to {most:g} mm"), limit, "no such cam could be made"
+                )
         least = Contact(self.motion, self.load).least_force()
         if least.value < -BINDS * abs(self.load.preload):
             limit = "0 N or more, so that the follower stays on its cam"
             remedy = "preload the spring: spring_preload(...) tells the least"
-            raise DesignError("minimum contact force", f"{least.value:.4g} N", limit, remedy)
+            raise DesignError("minimum contact force", Unquoted(f"{least.value:.4g} N"), limit, remedy)
 
     @property
     def bounds(self) -> list[Range]:
@@ -220,8 +224,8 @@ def _refuse(problem: SizingProblem, nearest: Sizes) -> NoReturn:
     worst = min(left, key=lambda name: left[name])
     has = f"r0 = {nearest.radius:.4g}, e = {nearest.offset:.4g}, roller {nearest.roller:.4g}"
     remedy = f"widen the ranges or permit more; it has {has} and face width {nearest.width:.4g} mm"
-    found = f"none: the nearest exceeds the limit of the {worst}"
-    raise DesignError("smallest cam", found, "in the given ranges", remedy)
+    found = f"not found (the nearest one exceeds the limit of the {worst})"
+    raise DesignError("smallest cam", Unquoted(found), "within the given ranges", remedy)
 
 
 def _starts(problem: SizingProblem, places: TurnPlaces) -> list[Sizes]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -45,7 +45,7 @@ class SizingLimits:
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
                 quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
-                raise DesignError(quantity, f"{math.degrees(angle):g} degrees", limit)
+                raise DesignError(quantity, Unquoted(f"{math.degrees(angle):g} degrees"), limit)
         if not 0 < self.roller_share <= 1:
             quantity = "roller's share of the radius of curvature"
             raise DesignError(quantity, self.roller_share, "greater than 0, at most 1")

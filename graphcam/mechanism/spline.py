@@ -22,7 +22,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.envelope import Envelope, Indices
@@ -135,7 +135,7 @@ def profile_spline(
     if lost and not trimmed:
         where = " and ".join(f"from {math.degrees(part.begin):.2f} to {math.degrees(part.end):.2f}" for part in lost)
         remedy = "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
-        raise DesignError("profile", f"undercut {where} degrees", "without undercut", remedy)
+        raise DesignError("profile", Unquoted(f"undercut {where} degrees"), "without undercut", remedy)
     spans, joints = stretches(envelope, lost)
     closed = not joints
     curves = [_Stretch(envelope, stretch, degree, closed) for stretch in spans]
@@ -203,7 +203,7 @@ def _near(stretch: _Stretch, deviation: float) -> _Fit:
         more = np.maximum(missed ** (1 / (stretch.degree + 1)), LEAST_GROWTH)
         counts = np.where(poor, np.ceil(counts) * more, counts)
     remedy = "state a larger one, or take a smaller roller"
-    raise DesignError("deviation", f"{deviation:g} mm", "larger for this profile", remedy)
+    raise DesignError("deviation", Unquoted(f"{deviation:g} mm"), "larger for this profile", remedy)
 
 
 def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], deviation: float) -> list[_Fit]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import Dwell, Motion, Phase
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, wrap
 from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Values
 
@@ -72,6 +72,28 @@ def places_in(motion: Motion, phase: ArrayLike, u: ArrayLike, side: Side = "righ
     """Places at fractions u of phases, shaped like both together."""
     index, fraction = np.broadcast_arrays(np.asarray(phase, dtype=np.intp), np.asarray(u, dtype=np.float64))
     return Places(index, fraction, motion.angle_at(index, fraction), motion.at(index, fraction, side))
+
+
+def places_at(motion: Motion, phi: ArrayLike, side: Side = "right") -> Places:
+    """Places at cam angles [rad], any real numbers, shaped like them; an end of a phase belongs to that on its side.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)])
+    >>> [places_at(motion, [0.0, pi / 2, pi], side).phase.tolist() for side in ("left", "right")]
+    [[1, 0, 0], [0, 0, 1]]
+    """
+    turned = wrap(phi)
+    if side == "left":
+        turned = np.where(turned == 0, FULL_TURN, turned)
+    phase = motion.starts[1:].searchsorted(turned, side=side)
+    u = (turned - motion.starts[phase]) / motion.angles[phase]
+    return Places(phase, u, np.asarray(phi, dtype=np.float64), motion(phi, side))
+
+
+def places_told(motion: Motion, where: ArrayLike, u: ArrayLike | None, side: Side) -> Places:
+    """Places as they are told in one of two ways: at cam angles where ``u`` is None, or at fractions of phases."""
+    return places_at(motion, where, side) if u is None else places_in(motion, where, u, side)
 
 
 def at_places(motion: Motion, *parts: tuple[NDArray[np.intp], Floats, Values]) -> Places:

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
 from graphcam.mechanism.envelope import Envelope, Indices
@@ -156,7 +156,7 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
     if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward):
         smaller = f"take a roller well below {envelope.least_radius:g} mm"
         remedy = smaller if envelope.kinematics.takes_roller else "enlarge the prime radius"
-        raise DesignError("undercut", "made of loops that cannot be told apart", "of separate loops", remedy)
+        raise DesignError("undercut", Unquoted("made of loops that cannot be told apart"), "of separate loops", remedy)
     return lost
 
 

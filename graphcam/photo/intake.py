@@ -102,7 +102,7 @@ def _opened(path: Path) -> BinaryIO:
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise PhotographError(say("it is not a file"), say("give the picture itself"))
+            raise PhotographError(say("it is not a file"), say("send the picture itself"))
         if status.st_size == 0:
             raise PhotographError(say("the file is empty"), say("send it again"))
         if status.st_size > MOST_BYTES:
@@ -141,8 +141,8 @@ def _unopened(name: str, error: OSError) -> Unopened:
 
 def _why(error: OSError) -> tuple[Words, Words]:
     known: dict[int | None, tuple[Words, Words]] = {
-        errno.ENOENT: (say("there is no such file"), say("check its name")),
+        errno.ENOENT: (say("there is no such file"), say("check the name")),
         errno.EACCES: (say("it may not be read"), say("change its permissions")),
-        errno.ELOOP: (say("it is a link that leads back to itself"), say("give the picture itself")),
+        errno.ELOOP: (say("it is a link that leads back to itself"), say("send the picture itself")),
     }
     return known.get(error.errno, (say("it cannot be read"), say("send it again")))

@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 
 Points = NDArray[np.complex128]
 Edges = tuple[float, float, float, float]
@@ -98,7 +98,7 @@ class PrintedPage:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             found, wanted = f"not readable ({error})", f"one of format {FORMAT}"
-            raise TaskError(path, "the page", found, wanted, "make the course again") from None
+            raise TaskError(path, "the page", Unquoted(found), wanted, "make the course again") from None
 
 
 def _read(said: dict[str, Any]) -> PrintedPage:

@@ -105,7 +105,7 @@ def _enough(mine: int, seen: int, expected: int) -> None:
             say("take the whole sheet from above, in good light, not mirrored"),
         )
     if not mine:
-        raise PhotographError(say("the marks along the edges are those of another page"), say("check which page it is"))
+        raise PhotographError(say("the marks along the edges belong to another page"), say("check which page it is"))
     if mine < LEAST_TAGS:
         raise PhotographError(
             say("only {seen} of {expected} marks along the edges are seen", seen=mine, expected=expected),
@@ -129,7 +129,7 @@ def _blur(tags: Tags, page: PrintedPage) -> float | None:
     if blur > MOST_BLURRED:
         raise PhotographError(
             say("the picture is blurred: edges are {width:.1f} mm wide", width=blur),
-            say("hold still and give more light, or let the camera focus"),
+            say("hold still, use more light, or let the camera focus"),
         )
     return blur
 

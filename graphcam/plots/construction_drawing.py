@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from graphcam.drafting.ink import Construction, Step
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.plots.figures import axes_on
 from graphcam.plots.step_board import StepBoard, board_of
 from graphcam.sheets.matplotlib_renderer import INCH, draw_on
@@ -37,7 +37,9 @@ def plot(
             board = StepBoard((), tuple(step for construction in drawn.values() for step in construction.steps()))
     count = len(board.steps)
     if not board.views:
-        raise DesignError("drawing", "empty", "marks in a view", "see the captions of the steps, and the readings")
+        raise DesignError(
+            "drawing", Unquoted("empty"), "marks in a view", "see the captions of the steps, and the readings"
+        )
     if step is not None and step not in range(count):
         limit = f"an index of the steps, 0 to {count - 1}, or None for all of them"
         raise DesignError("step", step, limit, "axes to draw on are given as axes=...")

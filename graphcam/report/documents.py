@@ -10,7 +10,7 @@ from graphcam.sheets.runs import TooLargeError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import check_given_sizes
+from graphcam.solving.task_board import HOPELESS, check_given_sizes
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
@@ -48,8 +48,16 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
 
 
 def contents_of(solution: AnySolution) -> Contents:
-    """What stands on the sheets."""
-    return arcs_contents(solution) if isinstance(solution, ArcsSolution) else motion_contents(solution)
+    """What stands on the sheets.
+
+    Raises
+    ------
+    DesignError : the ordinate or the poles that the task gives make diagrams far larger than a page
+    """
+    if isinstance(solution, ArcsSolution):
+        return arcs_contents(solution)
+    check_given_sizes(solution.task, HOPELESS)
+    return motion_contents(solution)
 
 
 def note_of(solution: AnySolution) -> str:

@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphcam.errors import DesignError, LetteringWarning, nearest
+from graphcam.errors import DesignError, LetteringWarning, Unquoted, nearest
 from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of
 from graphcam.report.note import comparison_file
@@ -66,7 +66,7 @@ def _check_names(
     if upto is not None:
         if working_drawing:
             unfinished = "left out where the sheet is drawn up to a step", "it would give the answers away"
-            raise DesignError("working_drawing", "asked for", *unfinished)
+            raise DesignError("working_drawing", Unquoted("asked for"), *unfinished)
         contents_of(solution).last_step(upto)
     # A text is a collection of letters, none of which is meant.
     if isinstance(files, str):

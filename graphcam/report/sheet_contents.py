@@ -12,7 +12,7 @@ import numpy as np
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.mechanism.cam import Cam
 from graphcam.report.conditions_table import on_sheet
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
@@ -154,7 +154,7 @@ def _check_drawable(cam: Cam) -> None:
     travel = abs(high - low)
     if cam.prime_radius > MOST_LIFTS * travel:
         limit = f"at most {MOST_LIFTS} times the lift of {travel:g} mm, to be drawn at one scale with it"
-        raise DesignError("prime radius", f"{cam.prime_radius:g} mm", limit, "check the units of both")
+        raise DesignError("prime radius", Unquoted(f"{cam.prime_radius:g} mm"), limit, "check the units of both")
 
 
 def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:

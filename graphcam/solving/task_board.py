@@ -10,7 +10,7 @@ from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating, pos
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Oscillating
 from graphcam.given.roller_rule import roller_rule
@@ -119,8 +119,14 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
     return DiagramRoom(heights.degrees_per_mm, high, high / surplus, min(high, low) / surplus, pole)
 
 
-def check_given_sizes(task: Task) -> None:
+HOPELESS = 10.0
+"""Diagrams that exceed a page so many times are not laid out: their strokes alone would fill the memory."""
+
+
+def check_given_sizes(task: Task, times: float = 1.0) -> None:
     """That the ordinate and the poles that a task gives leave diagrams that fit a page of its format.
+
+    times : how many times the room of the page they may take
 
     Raises
     ------
@@ -131,21 +137,21 @@ def check_given_sizes(task: Task) -> None:
     >>> task = gc.builtin_task()
     >>> check_given_sizes(replace(task, drawing=replace(task.drawing, ordinate=2000.0)))
     Traceback (most recent call last):
-    graphcam.errors.DesignError: drawing.ordinate is '2000 mm', but must be at most 149 mm on A1 landscape; take ...
+    graphcam.errors.DesignError: drawing.ordinate is 2000 mm, but must be at most 149 mm on A1 landscape; take ...
     """
     drawing, board = task.drawing, board_of(task)
     on, larger = f"on {format_of(drawing).said}", "take a larger format, or leave it out"
     heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):
-        if pole > most.pole:
-            raise DesignError(
-                f"drawing.poles[{k}]", f"{pole:g} mm", f"at most {math.floor(most.pole):g} mm {on}", larger
-            )
+        if pole > times * most.pole:
+            limit = f"at most {math.floor(most.pole):g} mm {on}"
+            raise DesignError(f"drawing.poles[{k}]", Unquoted(f"{pole:g} mm"), limit, larger)
     largest = heights.largest_ordinate(most, board.poles)
-    if (given := drawing.ordinate) is not None and given > largest:
-        limit = f"at most {math.floor(10 * largest) / 10:g} mm {on}"
-        raise DesignError("drawing.ordinate", f"{given:g} mm", limit, larger)
+    if (given := drawing.ordinate) is not None and given > times * largest:
+        limit = f"at most {math.floor(10 * largest) / 10 or largest:.3g} mm {on}"
+        larger = larger.replace("a larger", "larger poles or a larger") if drawing.poles else larger
+        raise DesignError("drawing.ordinate", Unquoted(f"{given:g} mm"), limit, larger)
 
 
 AROUND_ARM = complex(40.0, 62.0)

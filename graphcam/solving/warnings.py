@@ -10,11 +10,16 @@ from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam, largest_roller
 from graphcam.mechanism.undercut import Undercut
+from graphcam.tasks.task import Task
 from graphcam.words import Caption, say, sequence
 
 LAST_DIGIT = 0.005
 """mm or degrees: what differs by less does not differ in print."""
 ENLARGE = say("Enlarge the prime radius.")
+METRES = 0.2
+"""A lift below so many mm looks like metres."""
+RADIANS = 1.0
+"""A lift below so many degrees looks like radians."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +32,7 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "contact stress", "rounding"]
+    of: Literal["profile", "pressure angle", "prime radius", "contact stress", "rounding", "unit"]
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 
@@ -108,6 +113,23 @@ def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     if given is not None and given < least - LAST_DIGIT:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
         yield Caution(said.where(given=given, least=least), "prime radius")
+
+
+def unit_slips(task: Task) -> Iterator[Caution]:
+    """The sentences on values that look as if they were given in another unit, though they make a cam."""
+    swings = task.follower.swings and task.follower.column == "s_deg"
+    lift = task.motion().lift / task.follower.lift_unit
+    if swings and lift < RADIANS:
+        said = say("The lift of {lift:g}° looks like radians: if so, give {meant:.3g}, in degrees.")
+        yield Caution(said.where(lift=lift, meant=math.degrees(lift)), "unit")
+    elif not swings and lift < METRES:
+        said = say("The lift of {lift:g} mm looks like metres: if so, give {meant:g}, in mm.")
+        yield Caution(said.where(lift=lift, meant=1000 * lift), "unit")
+    if slip := task.limits().slip():
+        said = say(
+            "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."
+        )
+        yield Caution(said.where(angle=slip[1], meant=math.degrees(slip[1])), "unit")
 
 
 def less_round(chain: Chain) -> list[Caution]:

@@ -9,7 +9,7 @@ from itertools import chain
 
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Dimension, Label
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn, Placement, expand
 from graphcam.sheets.fonts import points_size
@@ -133,7 +133,7 @@ def _room(drawn: Iterable[Drawn]) -> Box:
     room = (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
     if (largest := max(room.width, room.height)) > TALLEST:
         remedy = "take sizes of which none is so much greater than the others"
-        raise DesignError("drawing", f"{largest:.3g} mm", f"at most {TALLEST:g} mm wide and high", remedy)
+        raise DesignError("drawing", Unquoted(f"{largest:.3g} mm"), f"at most {TALLEST:g} mm wide and high", remedy)
     return room
 
 

@@ -55,7 +55,7 @@ FIELDS: Mapping[str, str] = {
     "width": "material.width",
     "divisions": "drawing.divisions",
     "ordinate": "drawing.ordinate",
-    "greatest displacement on paper": "drawing.ordinate",
+    "maximum displacement on paper": "drawing.ordinate",
     "poles[0]": "drawing.poles[0]",
     "poles[1]": "drawing.poles[1]",
     "rounding": "drawing.rounding",

@@ -11,7 +11,7 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.motion import Motion, Rise
 from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
@@ -67,7 +67,7 @@ def check_heights(board: Board) -> None:
         largest = board.ordinate * TALLEST / highest
         limit = f"at most {largest:.3g} mm, so that no diagram is higher than {TALLEST:g} mm"
         remedy = "take a smaller one or leave it out, or lengthen the shortest phase"
-        raise DesignError("drawing.ordinate", f"{board.ordinate:.3g} mm", limit, remedy)
+        raise DesignError("drawing.ordinate", Unquoted(f"{board.ordinate:.3g} mm"), limit, remedy)
 
 
 def held_board(board: Board, task: Task, hold: Hold) -> Board:

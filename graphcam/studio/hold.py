@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.sheets.box import Box
 from graphcam.sheets.held_labels import LabelPlace
 
@@ -113,7 +113,7 @@ def hold_of(data: Mapping[str, Any]) -> Hold:
     try:
         return _hold(data)
     except (TypeError, ValueError, KeyError, AttributeError):
-        raise DesignError("hold", "unknown data", "what an earlier answer left, or left out") from None
+        raise DesignError("hold", Unquoted("unknown data"), "what an earlier answer left, or left out") from None
 
 
 def _hold(data: Mapping[str, Any]) -> Hold:

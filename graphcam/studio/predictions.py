@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
@@ -86,7 +86,7 @@ def _place(guess: list[Any]) -> complex:
         raise DesignError("guess", len(guess), "two numbers, x and y [mm of the view]")
     x, y = (number({"guess": each}, "guess", math.nan, -FARTHEST, FARTHEST) for each in guess)
     if math.isnan(x + y):
-        raise DesignError("guess", "missing", "two numbers, x and y [mm of the view]")
+        raise DesignError("guess", Unquoted("missing"), "two numbers, x and y [mm of the view]")
     return complex(x, -y)
 
 
@@ -141,5 +141,7 @@ def solution_of(task: dict[str, Any], spoken: str) -> Solution:
     """
     found = task_in(task, spoken)
     if not isinstance(found, Task):
-        raise DesignError("task", "a cam of arcs", "one with phases of motion", "take another task to foretell")
+        raise DesignError(
+            "task", Unquoted("a cam of arcs"), "one with phases of motion", "take another task to foretell"
+        )
     return solve_motion(found)

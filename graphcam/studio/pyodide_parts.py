@@ -14,7 +14,7 @@ import tarfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from graphcam.errors import TaskError
+from graphcam.errors import MissingFileError, TaskError, Unquoted
 from graphcam.studio.wasm_archives import numpy_archive
 
 LOADER, GLUE, BINARY = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
@@ -73,7 +73,8 @@ def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
             elif _matters(path.name):
                 yield path.name, path.read_bytes()
     except (OSError, tarfile.TarError, EOFError) as error:
-        raise TaskError(str(folder), "a file there", str(error), "one that can be read", f"run {PACKING}") from None
+        broken = Unquoted(f"not readable ({error})")
+        raise TaskError(str(folder), "a file there", broken, "whole", f"run there: {PACKING}") from None
 
 
 def _packed(package: Path) -> Iterator[tuple[str, bytes]]:
@@ -109,11 +110,14 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
     tag = "".join(python.split(".")[:2])
     fitting = [name for name in names if _A_NUMPY.fullmatch(name) and re.search(rf"-(cp|py){tag}(?!\d)", name)]
     if not fitting:
-        raise _missing(folder, f"a NumPy for Python {python} in WebAssembly (numpy-*.whl or numpy-*.tar.gz)")
+        raise MissingFileError(
+            "numpy-*.whl or numpy-*.tar.gz", f"run there: {PACKING}", where=f"for Python {python} in {folder}"
+        )
     if len(fitting) > 1:
-        raise TaskError(str(folder), "NumPy", ", ".join(fitting), "one of them", "remove the others")
+        several = Unquoted(", ".join(fitting))
+        raise TaskError(str(folder), "NumPy", several, "one of them alone", "remove the others")
     return fitting[0]
 
 
 def _missing(folder: Path, name: str) -> TaskError:
-    return TaskError(str(folder), name, "not there", "there", f"run there: {PACKING}")
+    return MissingFileError(name, f"run there: {PACKING}", where=f"in {folder}")

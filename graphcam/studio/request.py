@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphcam.drafting.pencil import Pencil
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.language import language
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -105,7 +105,7 @@ def task_data(data: Data) -> dict[str, Any]:
     DesignError : there is none
     """
     if not isinstance(task := data.get("task"), dict) or not task:
-        raise DesignError("task", "missing" if task is None else type(task).__name__, "a table with a task")
+        raise DesignError("task", Unquoted("missing" if task is None else type(task).__name__), "a table with a task")
     return task
 
 
@@ -171,7 +171,7 @@ def _asked_view(view: Any) -> AskedView:
     have = some(view, "have", dict, {})
     name = some(view, "name", str, None)
     if name is None:
-        raise DesignError("views.name", "missing", "given")
+        raise DesignError("views.name", Unquoted("missing"), "given")
     return AskedView(name, number(view, "px_per_mm", 2.0, 0.0, FINEST), {str(key): str(have[key]) for key in have})
 
 

@@ -123,7 +123,7 @@ def _compute_missing(
             if record is None:
                 continue
             if isinstance(record, str):
-                raise OutputError(place.url, record, "mend that and start again: what is whole stays")
+                raise OutputError(place.url, record, "correct that and start again: finished parts are kept")
             front = record.pop("front", None)
             if front and "front" in manifest:
                 fronts = [known for known in (manifest["front"], front) if known]
@@ -193,7 +193,7 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
     wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))
     if MANIFEST not in sizes:
         if others := sorted(name for name in sizes if not name.startswith(".")):
-            raise OutputError(place.url, f"it holds something else, {others[0]}", "choose an empty folder")
+            raise OutputError(place.url, f"it holds other files, such as {others[0]}", "choose an empty folder")
         return wanted | {"designs": len(space), "whole": False, "front": None, "parts": parts_of(len(space))}
     try:
         found = json.loads(place.read(MANIFEST))

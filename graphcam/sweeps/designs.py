@@ -7,7 +7,7 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.follower import FOLLOWERS, Follower
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
@@ -75,7 +75,7 @@ class Designs:
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
             found, remedy = " and ".join(map(str, sorted(sizes))), "give one number for all cams, or one for each"
-            raise DesignError("number of designs", found, "the same in every array", remedy)
+            raise DesignError("number of designs", Unquoted(found), "the same in every array", remedy)
         self._check_follower()
 
     def _check_follower(self) -> None:
@@ -83,9 +83,9 @@ class Designs:
         for name in _OF_FOLLOWERS:
             given = bool(np.any(getattr(self, name)))
             if given and name not in own:
-                raise DesignError(name, "given", f"left out for {a} {self.follower} follower")
+                raise DesignError(name, Unquoted("given"), f"left out for {a} {self.follower} follower")
             if not given and name in own and name in ("arm", "distance"):
-                raise DesignError(name, "left out", "a length in mm, or one for each cam")
+                raise DesignError(name, Unquoted("left out"), "a length in mm, or one for each cam")
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
@@ -167,5 +167,7 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
 
 def _one_axis(name: str, array: NDArray[Any]) -> NDArray[Any]:
     if array.ndim > 1:
-        raise DesignError(name, f"an array of shape {array.shape}", "a number, or one for each cam", "ravel() it")
+        raise DesignError(
+            name, Unquoted(f"an array of shape {array.shape}"), "a number, or one for each cam", "ravel() it"
+        )
     return array

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
@@ -113,7 +113,7 @@ class Space:
             if name not in QUANTITIES:
                 raise DesignError("quantities", name, "quantities of a sweep", nearest(name, QUANTITIES))
         if not self.quantities:
-            raise DesignError("quantities", "an empty list", "at least one", "leave it out for all of them")
+            raise DesignError("quantities", Unquoted("an empty list"), "at least one", "leave it out for all of them")
         if len(self) > MOST:
             raise DesignError("number of designs", len(self), f"at most {MOST}", "give fewer values")
         self.designs(0, 1)
@@ -185,7 +185,7 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
         return _range(name, value)
     values: list[Any] = value if isinstance(value, list) else [value]
     if not values:
-        raise DesignError(name, "an empty list", _ALLOWED)
+        raise DesignError(name, Unquoted("an empty list"), _ALLOWED)
     if not all(isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < math.inf for x in values):
         raise DesignError(name, value, _ALLOWED)
     unit = "(mm; degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
@@ -198,10 +198,10 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
 def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
     for key in value:
         if key not in _RANGE:
-            raise DesignError(f"{name}.{key}", "an unknown key", "one that is known", nearest(key, _RANGE))
+            raise DesignError(f"{name}.{key}", Unquoted("an unknown key"), "one that is known", nearest(key, _RANGE))
     for key in _RANGE:
         if key not in value:
-            raise DesignError(f"{name}.{key}", "missing", "given", "a range has start, stop and count")
+            raise DesignError(f"{name}.{key}", Unquoted("missing"), "given", "a range has start, stop and count")
     count = value["count"]
     if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= MOST_VALUES:
         raise DesignError(f"{name}.count", count, f"a whole number from 1 to {MOST_VALUES}")
@@ -220,7 +220,7 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
     """
     values: list[Any] = value if isinstance(value, list) else [value]
     if not values:
-        raise DesignError(name, "an empty list", "a name or a list of names")
+        raise DesignError(name, Unquoted("an empty list"), "a name or a list of names")
     for word in values:
         if word not in known:
             raise DesignError(name, word, "a name or a list of names in quotes", nearest(str(word), known))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
@@ -103,9 +103,10 @@ def sweep(
         if name not in (known := (*QUANTITIES, *FORCES, *BANDS)):
             raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))
         if name in FORCES and load is None:
-            raise DesignError("load", "left out", f"given where {name} is asked for", "give a SpringLoad or an ArmLoad")
+            given = f"given where {name} is asked for"
+            raise DesignError("load", Unquoted("left out"), given, "give a SpringLoad or an ArmLoad")
         if name in BANDS and errors is None:
-            raise DesignError("errors", "left out", f"given where {name} is asked for", "give MakingErrors")
+            raise DesignError("errors", Unquoted("left out"), f"given where {name} is asked for", "give MakingErrors")
     if chunk < 1:
         raise DesignError("chunk", chunk, "at least 1 design")
     swept = None if load is None else SweptLoad(load, friction)

@@ -5,7 +5,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
@@ -31,14 +31,16 @@ class SweptLoad:
     def __post_init__(self) -> None:
         check_friction(self.friction)
         if isinstance(self.load.load, LoadCurve):
-            raise DesignError("load", "a table over the turn", "a number in a sweep", "the cams have other phases")
+            raise DesignError(
+                "load", Unquoted("a table over the turn"), "a number in a sweep", "the cams have other phases"
+            )
 
     def check(self, follower: str) -> None:
         """That the load fits a kind of follower."""
         arm = follower == "oscillating"
         if arm != isinstance(self.load, ArmLoad):
             fitting = "an ArmLoad, for the followers swing" if arm else "a SpringLoad, for the followers slide"
-            raise DesignError("load", f"of the kind {type(self.load).__name__}", fitting)
+            raise DesignError("load", Unquoted(f"of the kind {type(self.load).__name__}"), fitting)
 
     def beside(self, kin: Kinematics) -> FollowerLoad:
         """The load beside each of many cams."""

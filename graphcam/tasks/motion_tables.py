@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Annotated, ClassVar, Literal
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
-from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.ranges import bounded, positive
@@ -103,7 +103,7 @@ class MotionTable:
         ways = {"phases": self.phases, "table": self.table and self.table.file, "parts": self.parts}
         given = [name for name, value in ways.items() if value is not None]
         if not given:
-            raise DesignError("phases", "missing", "given")
+            raise DesignError("phases", Unquoted("missing"), "given")
         if len(given) > 1:
             limit = f"left out where there {'is a table' if given[0] == 'table' else 'are phases'}"
             raise DesignError(given[1], ways[given[1]], limit, "give one of the two")
@@ -113,10 +113,8 @@ class MotionTable:
         bounded("tolerance", self.tolerance, "(mm; degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
-            off = f"{abs(360 - turn):.10g} deg"
-            remedy = f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
             if abs(turn - 360) > ANGLE_CLOSURE:
-                raise DesignError("sum of the phase angles", turn, "360 degrees", remedy)
+                raise DesignError("sum of the phase angles", turn, "360 degrees", _remedy(turn))
         self()
 
     def __call__(self) -> Motion:
@@ -126,6 +124,14 @@ class MotionTable:
         if self.parts is not None:
             return _by_conditions(self.parts, self.lift_unit)
         return _motion(tuple(self.phases or ()), self.lift_unit)
+
+
+def _remedy(turn: float) -> str:
+    """What to do about angles [degrees] that do not sum to a turn."""
+    if abs(turn - FULL_TURN) < NEARLY * FULL_TURN:
+        return "about 2 pi: give the angles in degrees, not in radians"
+    off = f"{abs(360 - turn):.10g} deg"
+    return f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
 
 
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.ranges import positive
 from graphcam.tasks.sheet_tables import one_of
 
@@ -38,7 +38,7 @@ class PartTable:
 
     >>> PartTable(bore=20, hub_diameter=36)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    graphcam.errors.DesignError: hub_length is 'missing', but must be given where there is hub_diameter; ...
+    graphcam.errors.DesignError: hub_length is missing, but must be given where there is hub_diameter; ...
     """
 
     bore: float | None = None
@@ -86,7 +86,9 @@ class PartTable:
         diameter, length = self.hub_diameter, self.hub_length
         if (diameter is None) != (length is None):
             missing, there = ("hub_diameter", "hub_length") if diameter is None else ("hub_length", "hub_diameter")
-            raise DesignError(missing, "missing", f"given where there is {there}", "leave out both for a cam without")
+            raise DesignError(
+                missing, Unquoted("missing"), f"given where there is {there}", "leave out both for a cam without"
+            )
         for name, outer, inner in (("hub_diameter", diameter, "bore"), ("hub_length", length, "width")):
             limit = getattr(self, inner)
             if outer is not None and limit is not None and outer <= limit:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
 from graphcam.given.ranges import bounded, positive
@@ -288,13 +288,15 @@ class Task:
             self.tolerances.check(self.follower.kind, self.follower.made_sizes)
         if self.material is not None and self.spring is None:
             reason = "without a force there is no contact stress"
-            raise DesignError("spring", "missing", "given where there is a material", reason)
+            raise DesignError("spring", Unquoted("missing"), "given where there is a material", reason)
 
     def _check_spring(self) -> None:
         if self.spring is None:
             return
         if self.speed_rpm is None:
-            raise DesignError("speed_rpm", "missing", "given where there is a spring", "inertia grows with the speed")
+            raise DesignError(
+                "speed_rpm", Unquoted("missing"), "given where there is a spring", "inertia grows with the speed"
+            )
         if self.follower.swings and not self.spring.swings:
             remedy = "give spring.inertia in kg mm^2, about the pivot"
             raise DesignError("spring.mass", getattr(self.spring, "mass", None), "left out for an arm", remedy)

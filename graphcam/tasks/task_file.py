@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import re
 import tomllib
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -11,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, TaskError, nearest
+from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, nearest, unreadable
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -29,11 +28,11 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.tolerances_table import TolerancesTable
+from graphcam.tasks.toml_faults import toml_fault
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
 EXAMPLE = "'graphcam init FILE' writes a commented example"
-_DECIMAL_COMMA = re.compile(rb"=\s*[-+]?(\d+),(\d+)")
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
 _CLASSES: Classes = {
@@ -87,13 +86,6 @@ _LONGEST = 60
 """Characters of a value that a message shows."""
 
 
-class Unquoted(str):
-    """Words about a value, shown without the quotes of a value."""
-
-    __slots__ = ()
-    __repr__ = str.__str__
-
-
 def load_task(path: str | Path) -> Task | ArcsTask:
     """The task in a TOML file; with a table ``[arcs]`` it is a cam of three circular arcs.
 
@@ -114,13 +106,8 @@ def read_content(path: str | Path) -> bytes:
     """
     try:
         return Path(path).read_bytes()
-    except FileNotFoundError:
-        raise _not_a_file(path, "not there", "check the name; " + EXAMPLE) from None
-    except IsADirectoryError:
-        raise _not_a_file(path, "a folder", "name the task file in it") from None
     except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise _not_a_file(path, f"not readable ({why})", "check the name and the permissions") from None
+        raise unreadable(path, "the task file", "a TOML file", error, f"check the name; {EXAMPLE}") from None
 
 
 @contextmanager
@@ -130,6 +117,8 @@ def other_file(kind: str, example: str) -> Generator[None]:
         yield
     except TaskError as error:
         remedy = example if error.remedy.endswith(EXAMPLE) else error.remedy
+        if isinstance(error, MissingFileError):
+            raise MissingFileError(error.path, f"check the name; {example}") from None
         field, remedy = (text.replace("task file", kind) for text in (error.field, remedy))
         raise TaskError(error.path, field, error.value, error.expected, remedy) from None
 
@@ -143,7 +132,7 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     """
     task = _task(path, data, data)
     if not isinstance(task, Task):
-        raise TaskError(path, "arcs", "a table", "left out", "this takes a task with phases of motion")
+        raise TaskError(path, "arcs", Unquoted("a table"), "left out", "this takes a task with phases of motion")
     return task
 
 
@@ -208,10 +197,6 @@ def _built_in_folder() -> Path:
     return Path(str(resources.files("graphcam").joinpath("data", "tasks")))
 
 
-def _not_a_file(path: str | Path, what: str, remedy: str) -> TaskError:
-    return TaskError(str(path), "the task file", Unquoted(what), "a TOML file", remedy)
-
-
 def _parse(path: str, content: bytes, folder: Path) -> Task | ArcsTask:
     data = parse_toml(path, content)
     return _task(path, data, _with_table(path, data, folder))
@@ -225,17 +210,16 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
     TaskError : it is not TOML, or empty
     """
     try:
-        data = tomllib.loads(content.decode("utf-8-sig"))
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
         raise TaskError(path, f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
+    try:
+        data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        line = re.search(r"at line (\d+)", str(error))
-        comma = line and _DECIMAL_COMMA.search(content.splitlines()[int(line[1]) - 1])
-        remedy = f"numbers have a decimal point, {comma[1].decode()}.{comma[2].decode()}" if comma else EXAMPLE
-        raise TaskError(path, "the text", Unquoted(f"not TOML ({error})"), "a TOML file", remedy) from None
+        raise toml_fault(path, text, error, EXAMPLE) from None
     if not data:
-        raise _not_a_file(path, "empty", EXAMPLE)
+        raise TaskError(path, "the task file", Unquoted("empty"), "a TOML file", EXAMPLE)
     return data
 
 
@@ -247,7 +231,10 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
     name, tolerance = motion["table"], motion.get("tolerance")
     if not isinstance(name, str):
         raise TaskError(path, "motion.table", _shown(name), "text in quotes", "name the CSV file of the table")
-    table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
+    try:
+        table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
+    except MissingFileError:
+        raise MissingFileError(name, "check motion.table", where=f"beside {path}") from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
 
 

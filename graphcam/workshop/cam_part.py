@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import Words, say
 from graphcam.workshop.keyways import STANDARDS, THICKEST_SHAFT, THINNEST_SHAFT, KeySection, key_section
@@ -183,4 +183,4 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
             limit = f"small enough to leave a wall of {LEAST_WALL:g} of the bore inside {inside} of {outer:.4g} mm"
             fitting = [d for d in standard_diameters() if _top(part.table, d) + LEAST_WALL * d <= outer]
             smaller = f"take a smaller bore, {max(fitting):g} mm or less," if fitting else "take a smaller bore"
-            raise DesignError("part.bore", found, limit, f"{smaller} or a larger {larger}")
+            raise DesignError("part.bore", Unquoted(found), limit, f"{smaller} or a larger {larger}")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import takewhile
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken, title_box
@@ -139,7 +139,7 @@ def laid_out(contents: PartContents) -> tuple[PartLayout, Placed | None]:
     if first is None:
         found = f"{contents.part.length:g} mm wide"
         limit = "narrow enough to be drawn beside its profile"
-        raise DesignError("part", found, limit, "give a smaller part.width or part.hub_length")
+        raise DesignError("part", Unquoted(found), limit, "give a smaller part.width or part.hub_length")
     return first, None
 
 

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.roots import roots
@@ -53,7 +53,9 @@ class PolarCurve:
         back = np.flatnonzero(np.diff(angles) < -TURNS_BACK)
         if back.size:
             at = f"met more than once by the ray at {math.degrees(angles[back[0]]) % 360:.1f} degrees"
-            raise DesignError("profile", at, "met once by every ray from the cam centre", "enlarge the prime radius")
+            raise DesignError(
+                "profile", Unquoted(at), "met once by every ray from the cam centre", "enlarge the prime radius"
+            )
 
     @cached_property
     def _sampled(self) -> tuple[Floats, Complexes, NDArray[np.intp]]:

@@ -311,7 +311,7 @@ def test_where_any_radius_will_do_there_is_none_to_adopt():
     assert chain["minimum_radius"].value("prime_radius") == 0
     assert chain["minimum_radius"].value("need") < 0
     for rounding in (None, 1.0):
-        with pytest.raises(DesignError, match=r"minimum prime radius is '0 mm'.* give cam.prime_radius"):
+        with pytest.raises(DesignError, match=r"minimum prime radius is 0 mm.* give cam.prime_radius"):
             _ = Chain(flat_board(motion, 0.0, rounding=rounding)).prime_radius
     assert Chain(flat_board(motion, 0.0, prime_radius=20.0))["curvature"].value("rho") > 20
 

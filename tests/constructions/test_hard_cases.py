@@ -26,7 +26,7 @@ def all_finite(chain: Chain, *names: str) -> bool:
 @pytest.mark.parametrize("law", [law for law in LAWS if law != "rectangular"])
 def test_a_phase_of_one_part_has_nothing_at_its_middle(law):
     """A symmetrical law crosses zero there: the drawing stays flat, and no lift can fix its scale."""
-    with pytest.raises(DesignError, match=r"greatest displacement on paper .* divide into more parts"):
+    with pytest.raises(DesignError, match=r"maximum displacement on paper .* divide into more parts"):
         _ = Chain(coursework(law, divisions=1))["integration"]
 
 
@@ -132,7 +132,7 @@ def test_a_diagram_too_narrow_for_the_hand_is_an_error_and_a_miss_in_the_samples
     assert 0 < spoilt.sum() < 200
     assert np.all(scale[~spoilt] > 0)
     assert np.isnan(hands["integration"].readings["s"].value).any(axis=1).tolist() == spoilt.tolist()
-    with pytest.raises(DesignError, match="greatest displacement on paper"):  # one drawing has no other sample to show
+    with pytest.raises(DesignError, match="maximum displacement on paper"):  # one drawing has no other sample to show
         _ = Chain(narrow, Pencil(line=0.2, seed=DOWNWARDS))["integration"]
     assert not np.isnan(Chain(board, Pencil(line=0.2, samples=200))["integration"].readings["s"].value).any()
 

@@ -321,7 +321,7 @@ def test_a_rule_for_attempts_that_is_none_is_told(text: str):
     ("options", "message"),
     [
         (["--deadline", "2026-12-01"], "--deadline is '2026-12-01', but must be a date and a time such as"),
-        (["--late", "0.1/day"], "--late: the deadline is 'not given'"),
+        (["--late", "0.1/day"], "--late: the deadline is not given"),
         (["--deadline", "2026-12-01T23:59", "--late", "much"], "--late is 'much'"),
     ],
 )

@@ -240,12 +240,17 @@ def test_students_may_be_called_students_and_teacher_and_hand_in_a_file_for_the_
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"folder": "nowhere"}, r"nowhere: the folder is 'not there'"),
-        ({"folder": "secret"}, r"secret: the folder is 'a file'"),
-        ({"secret_file": "other"}, r"other: the secret is 'another one'"),
+        ({"folder": "nowhere"}, r"there is no folder \S*nowhere; check the name"),
+        ({"folder": "secret"}, r"secret: the folder is a file, but must be one with a folder for every student"),
+        (
+            {"secret_file": "lost"},
+            r"there is no file \S*lost; name the file with the secret that the course was made with",
+        ),
+        ({"secret_file": "."}, r": the secret is a folder, but must be a file .*; name the file in it"),
+        ({"secret_file": "other"}, r"other: the secret is another one"),
         ({"exercise": "integration"}, r"--exercise.*'integration'.*'acceleration-and-scales'"),
         ({"feedback": "secret"}, r"secret.*is a file"),
-        ({"gradebook": "gradebook"}, r"--gradebook: the grade book is 'gradebook \("),
+        ({"gradebook": "gradebook"}, r"--gradebook: the grade book is gradebook \("),
         ({"gradebook": "sqlite:////nowhere/to/be/found.db"}, r"--gradebook: .*unable to open"),
     ],
 )

@@ -260,7 +260,7 @@ def test_a_course_is_made_whole(tmp_path):
     assert json.loads((out / "teacher" / "course.json").read_text())["exercise"] == "integration"
     again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert again.exit_code == 2
-    assert "there already" in again.output
+    assert "it already exists" in again.output
 
 
 @pytest.mark.slow

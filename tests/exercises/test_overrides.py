@@ -82,8 +82,8 @@ def test_a_table_that_is_named_counts_instead_and_may_be_that_of_a_spreadsheet(c
         (f"{HEAD}Anna,{FIRST}", r"line 2: marks is ''"),
         (f"{HEAD}Anna,{FIRST},0,\nAnna,{FIRST},1,", r"line 3: answer is .* give each answer of a student once"),
         ("Anna,total,1,\n", r"the first line is 'anna,total,1,', but must be with student,answer,marks,comment"),
-        (b"\xff", "not UTF-8"),
-        (None, "the overrides is"),
+        (b"\xff", "the table of overrides is not in UTF-8"),
+        (None, "there is no file .*mine.csv; check the name"),
     ],
 )
 def test_a_wrong_line_is_told_before_anything_is_graded(course: Path, text: str | bytes | None, message: str):

@@ -81,7 +81,7 @@ def test_a_mistake_is_named_in_every_variant_that_is_issued(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "why"), [("there.json", "there already"), ("nowhere/new.json", "folder is not there")]
+    ("name", "why"), [("there.json", "it already exists"), ("nowhere/new.json", "its folder does not exist")]
 )
 def test_a_wrong_place_for_the_figures_is_told_before_anything_is_simulated(tmp_path, monkeypatch, name, why):
     (tmp_path / "there.json").write_text("kept", encoding="utf-8")

@@ -364,19 +364,19 @@ close = 90 + 1e-9
 many = [at(2 * k, s=float(k), v=0.0, a=0.0, j=0.0) for k in range(9)]
 
 PARTS = {
-    "no condition": (lambda: P(1.5707963267948966), "s is 'missing at 90 degrees', but must be given with v, a or j"),
+    "no condition": (lambda: P(1.5707963267948966), "s is missing at 90 degrees, but must be given with v, a or j"),
     "not a number": (lambda: P(0, s=math.nan), "s is nan, but must be a finite number"),
     "no angle": (lambda: P(math.inf, s=0), "angle is inf, but must be a finite number"),
     "one point": (lambda: Poly([at(0, s=0)]), "points is 1, but must be 2 to 100 points"),
     "too many points": (lambda: Spline([at(k, s=0) for k in range(101)]), "points is 101, but must be 2 to 100"),
     "out of order": (
         lambda: Poly([at(0, s=0), at(90, s=1), at(60, s=2)]),
-        r"points\[2\].angle is '60 degrees', but must be greater than 90 degrees.*sort the points",
+        r"points\[2\].angle is 60 degrees, but must be greater than 90 degrees.*sort the points",
     ),
-    "given twice": (lambda: Poly([at(0, s=0), at(0, s=1)]), r"points\[1\].angle is '0 degrees'.*give each one once"),
+    "given twice": (lambda: Poly([at(0, s=0), at(0, s=1)]), r"points\[1\].angle is 0 degrees.*give each one once"),
     "too many conditions": (
         lambda: Poly(many),
-        "points is '36 conditions', but must be at most 32, for a degree of 31",
+        "points is 36 conditions, but must be at most 32, for a degree of 31",
     ),
     "degree too low": (
         lambda: Poly([at(0, s=0, v=0), at(90, s=1, v=0)], 2),
@@ -385,11 +385,11 @@ PARTS = {
     "degree too high": (lambda: Poly([at(0, s=0, v=0), at(90, s=1, v=0)], 5), "degree is 5, but must be 3.*too few"),
     "nothing says how high": (
         lambda: Poly([at(0, v=0), at(45, v=3), at(90, v=0)]),
-        "points is 'without any s'.*say how high the motion is",
+        "points is without any s.*say how high the motion is",
     ),
     "conditions that depend on each other": (  # s' of the middle follows from the ends for every parabola
         lambda: Poly([at(0, s=0), at(45, v=3), at(90, s=1)]),
-        "points is '3 conditions that depend on each other'.*leave it open or contradict each other",
+        "points is 3 conditions that depend on each other.*leave it open or contradict each other",
     ),
     "a wild polynomial": (
         lambda: Poly([at(10 * k, s=1 / (1 + 25 * (k / 9 - 1) ** 2)) for k in range(19)]),
@@ -406,7 +406,7 @@ PARTS = {
     "degree of a spline": (lambda: Spline(spline_points(), 1), "degree is 1, but must be 2 to 9"),
     "too few for a spline": (
         lambda: Spline([at(0, s=0), at(90, s=1)], 3),
-        "points is '2 conditions', but must be 4 or more for a degree of 3",
+        "points is 2 conditions, but must be 4 or more for a degree of 3",
     ),
     "number of knots": (
         lambda: Spline(spline_points(), 5, [1.0]),
@@ -414,11 +414,11 @@ PARTS = {
     ),
     "knots out of order": (
         lambda: Spline(spline_points(), 5, np.radians([40, 60, 50, 90, 110, 135]).tolist()),
-        r"knots\[2\] is '50 degrees', but must be greater than 60 degrees",
+        r"knots\[2\] is 50 degrees, but must be greater than 60 degrees",
     ),
     "knots beyond the part": (
         lambda: Spline(spline_points(), 5, np.radians([40, 60, 70, 90, 110, 190]).tolist()),
-        r"knots\[5\] is '180 degrees'|inside the part",
+        r"knots\[5\] is 180 degrees|inside the part",
     ),
     "knots without points": (
         lambda: Spline(spline_points(), 5, np.radians([171, 172, 173, 174, 175, 176]).tolist()),
@@ -426,39 +426,39 @@ PARTS = {
     ),
 }
 TURNS = {
-    "no parts": (list, "parts is 'empty', but must be one part or more"),
-    "at rest": (lambda: [Poly([at(0, s=5, v=0), at(90, s=5, v=0)])], "motion is 'at rest at 5 over the whole turn'"),
+    "no parts": (list, "parts is empty, but must be one part or more"),
+    "at rest": (lambda: [Poly([at(0, s=5, v=0), at(90, s=5, v=0)])], "motion is at rest at 5 over the whole turn"),
     "parts out of order": (
         lambda: [BACK, RISE],
-        r"parts\[1\].points\[0\].angle is '0 degrees', but must be 270 degrees",
+        r"parts\[1\].points\[0\].angle is 0 degrees, but must be 270 degrees",
     ),
     "parts that overlap": (
         lambda: [RISE, Poly([at(80, s=30, **REST), at(270, s=0, **REST)])],
-        r"parts\[1\].points\[0\].angle is '80 degrees', but must be 90 degrees or more",
+        r"parts\[1\].points\[0\].angle is 80 degrees, but must be 90 degrees or more",
     ),
     "s of a joint": (
         lambda: [RISE, Poly([at(90, s=31, **REST), at(270, s=0, **REST)])],
-        r"parts\[1\] \(s where it begins\) is '31', but must be 30, as the part before ends; give one s at 90 degrees",
+        r"parts\[1\] \(s where it begins\) is 31, but must be 30, as the part before ends; give one s at 90 degrees",
     ),
     "v of a joint": (
         lambda: [Poly([at(0, s=0, v=0), at(90, s=30, v=4)]), Poly([at(90, s=30, v=3), at(270, s=0, v=0)])],
-        r"parts\[1\] \(v where it begins\) is '3', but must be 4.*give v, the same in both, at 90 degrees",
+        r"parts\[1\] \(v where it begins\) is 3, but must be 4.*give v, the same in both, at 90 degrees",
     ),
     "s over a gap": (
         lambda: [RISE, Poly([at(180, s=29, **REST), at(270, s=0, **REST)])],
-        r"parts\[1\] \(s before it\) is '30 and 29', but must be equal: the follower rests from 90 degrees to 180",
+        r"parts\[1\] \(s before it\) is 30 and 29, but must be equal: the follower rests from 90 degrees to 180",
     ),
     "v at a gap": (
         lambda: [RISE, Poly([at(180, s=30, v=1), at(270, s=0, v=0)])],
-        r"parts\[1\] \(v before it\) is '0 and 1', but must be 0: the follower rests",
+        r"parts\[1\] \(v before it\) is 0 and 1, but must be 0: the follower rests",
     ),
     "s of the turn": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(270, s=1, **REST)])],
-        r"parts \(s at their end\) is '1', but must be 0, as the first part begins",
+        r"parts \(s at their end\) is 1, but must be 0, as the first part begins",
     ),
     "v of the turn": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(360, s=0, v=-2)])],
-        r"parts \(v at their end\) is '-2, and 0 where they begin', but must be the same at both",
+        r"parts \(v at their end\) is -2, and 0 where they begin, but must be the same at both",
     ),
     "v at the last gap": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(350, s=0, v=-2)])],
@@ -466,16 +466,16 @@ TURNS = {
     ),
     "more than a turn": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(370, s=0, **REST)])],
-        r"parts \(turn\) is '370 degrees', but must be 360 degrees or less",
+        r"parts \(turn\) is 370 degrees, but must be 360 degrees or less",
     ),
     "a beginning beyond the turn": (
         lambda: [Poly([at(400, s=0, v=0), at(500, s=3, v=0), at(600, s=0, v=0)])],
-        r"parts\[0\].points\[0\].angle is '400 degrees', but must be from 0 to less than 360 degrees",
+        r"parts\[0\].points\[0\].angle is 400 degrees, but must be from 0 to less than 360 degrees",
     ),
 }
 LAWS = {
-    "no parts": (lambda: gc.boundary_law([]), "parts is 'empty'"),
-    "points and parts": (lambda: gc.boundary_law([RISE, at(0, s=0)]), "parts is 'points and parts'"),
+    "no parts": (lambda: gc.boundary_law([]), "parts is empty"),
+    "points and parts": (lambda: gc.boundary_law([RISE, at(0, s=0)]), "parts is points and parts"),
     "no rest": (
         lambda: gc.boundary_law([P(0, s=0, v=1), P(1, s=1, v=0)]),
         r"f'\(0\) of the law .* is 1.0, but must be 0",
@@ -487,14 +487,14 @@ LAWS = {
     ),
     "parts that do not join": (
         lambda: gc.boundary_law([RISE, Poly([at(90, s=31, v=0), at(120, s=40, v=0)])]),
-        r"parts\[1\] \(s where it begins\) is '31'",
+        r"parts\[1\] \(s where it begins\) is 31",
     ),
     "a negative blend": (
         lambda: gc.constant_velocity_law(-0.1),
         r"blends\[0\] is -0.1, but must be from 1e-06 to less",
     ),
     "a whole blend": (lambda: gc.constant_velocity_law(0.2, 1.0), r"blends\[1\] is 1.0"),
-    "no way between": (lambda: gc.constant_velocity_law(0.5, 0.5), "blends is '0.5 and 0.5', but must be less than 1"),
+    "no way between": (lambda: gc.constant_velocity_law(0.5, 0.5), "blends is 0.5 and 0.5, but must be less than 1"),
     "smoothness": (lambda: gc.constant_velocity_law(0.2, 0.2, 4), r"smooth is 4, but must be 1 \(velocity\), 2"),
 }
 

@@ -234,14 +234,14 @@ S = table(LAWS["3-4-5"])
     ("phi", "s", "row", "words"),
     [
         (DEGREES[::60], S[::60], 5, "number of rows is 6, but must be 8 to 10000"),
-        (np.append(DEGREES[:9], math.nan), S[:10], 9, "row is 'nan, "),
+        (np.append(DEGREES[:9], math.nan), S[:10], 9, "row is nan, "),
         (DEGREES[:9], np.append(S[:8], math.inf), 8, "finite numbers"),
         (DEGREES, np.where(DEGREES[7] == DEGREES, -1e300, S), 7, "numbers up to 1e+100"),
         (np.insert(DEGREES, 5, DEGREES[4]), np.insert(S, 5, S[4]), 5, "greater than the one before, 4 degrees; give"),
         (np.roll(DEGREES, 3), S, 3, "sort the rows"),
-        (DEGREES[:300], S[:300], 299, "299 degrees', but must be 360 degrees, or a step less"),
+        (DEGREES[:300], S[:300], 299, "299 degrees, but must be 360 degrees, or a step less"),
         (DEGREES * 1.01, S, 359, "360 degrees"),
-        ([*DEGREES, FULL_TURN], [*S, 0.5], 360, "0.5', but must be 0 as in the first"),
+        ([*DEGREES, FULL_TURN], [*S, 0.5], 360, "0.5, but must be 0 as in the first"),
     ],
 )
 def test_a_row_that_cannot_be_is_named(phi, s, row, words):
@@ -258,7 +258,7 @@ def test_a_row_that_cannot_be_is_named(phi, s, row, words):
         (DEGREES, S, math.nan, "tolerance is nan"),
         (DEGREES, S * 1e-150, 1e-152, "1e-100 at least"),
         (DEGREES, S[:-1], 0.01, "one number for each cam angle"),
-        (DEGREES, 0 * S, 0.01, "lift is '0', but must be more than 0.02"),
+        (DEGREES, 0 * S, 0.01, "lift is 0, but must be more than 0.02"),
         (DEGREES, np.random.default_rng(1).standard_normal(360), 0.01, "greater than the noise that turns the table"),
     ],
 )

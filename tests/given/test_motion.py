@@ -171,15 +171,28 @@ def test_tiny_phases_keep_their_values():
         (lambda: Dwell(-1.0), "angle is -1.0"),
         (lambda: Dwell(math.nan), "angle is nan"),
         (lambda: Rise(3.0, 1.0, "cosin"), "did you mean 'cosine'"),
-        (lambda: Motion([]), "motion is 'without a rise'"),
-        (lambda: Motion([Dwell(FULL_TURN)]), "motion is 'without a rise'"),
-        (lambda: Motion([Rise(1e-10, FULL_TURN)]), "motion is 'without a return'"),  # whose lift alone would close
+        (lambda: Motion([]), "motion is without a rise, but must be one with a rise and a return; add a rise"),
+        (lambda: Motion([Dwell(FULL_TURN)]), "motion is without a rise"),
+        (lambda: Motion([Rise(1e-10, FULL_TURN)]), "motion is without a return"),  # whose lift alone would close
         (
             lambda: Motion([Rise(3, 1.0), Return(3, 1.0)]),
-            "sum of the phase angles is '114.591559 degrees'.*360 degrees",
+            r"sum of the phase angles is 2 rad \(114.591559 degrees\), .* 2 pi rad .*; lengthen a dwell by 245.4",
         ),
-        (lambda: Motion([Rise(3, 3.0), Return(2, FULL_TURN - 3)]), "sum of rises less returns is '1 mm'.*0 mm"),
+        (lambda: Motion([Rise(3, 3.0), Return(2, FULL_TURN - 3)]), "sum of rises less returns is 1 mm.*0 mm"),
         (lambda: Motion([Rise(3, 3.0), Return(3, FULL_TURN - 3)])(0.0, side="up"), "side is 'up'"),
+        (
+            lambda: Motion([Rise(30, 120), Dwell(60), Return(30, 180)]),
+            r"angle is 120 rad, .* at most a full turn, 2 pi rad; write math.radians\(120\) if it is in degrees",
+        ),
+        (lambda: Dwell(60), r"angle is 60 rad.*write math.radians\(60\)"),
+        (
+            lambda: Rise(math.pi / 2, 30),
+            r"angle is 30 rad.*math.radians\(30\).*, or Rise\(lift=30, angle=1.5708\) if the two are swapped",
+        ),
+        (
+            lambda: Motion([Rise(math.pi / 2, 5), Dwell(math.pi / 2), Return(math.pi, 5)]),
+            r"sum .* is 11.5708 rad .*; the lifts make a turn: name the arguments, Rise\(lift=5, angle=1.5708\)",
+        ),
     ],
 )
 def test_motions_that_cannot_be_are_refused_with_reason(make, message):

@@ -369,7 +369,7 @@ WRONG = {
     r"f' at u = .* of the law 'x' is -.*, but must be 0 or more; .* several phases": lambda: gc.Law(
         "x", lambda u: tuple(2 * a - b for a, b in zip(swings(u), smooth(u), strict=True))
     ),
-    r"f'' of the law 'x' is 'not finite'": lambda: gc.Law("x", lambda u: (*smooth(u)[:2], np.full_like(u, np.inf), 0)),
+    r"f'' of the law 'x' is not finite": lambda: gc.Law("x", lambda u: (*smooth(u)[:2], np.full_like(u, np.inf), 0)),
     r"formula of the law 'x' is .* returns f, f', f'', f'''": lambda: gc.Law("x", lambda u: smooth(u)[:3]),
     r"formula of the law 'x' is .* use numpy": lambda: gc.Law("x", lambda u: (math.sin(u), 0, 0, 0)),
     r"number of formulas of the law 'x' is 1, but must be 2": lambda: gc.Law("x", smooth, [0.5]),
@@ -378,7 +378,7 @@ WRONG = {
     ),
     r"given max f' of the law 'x' is 2.4, but must be 2.4609375": lambda: gc.Law("x", smooth, peaks=(2.4, 9.4)),
     r"tangent for k = 0.05 of the law 'x'": lambda: gc.Law("x", smooth, tangents=(lambda k: (0.3, 1.0), None)),
-    r"shapes of the samples of the law 'x' is '\(3,\) and \(2,\)'": lambda: gc.sampled_law("x", [0, 0.5, 1], [0, 1]),
+    r"shapes of the samples of the law 'x' is \(3,\) and \(2,\)": lambda: gc.sampled_law("x", [0, 0.5, 1], [0, 1]),
     r"samples u of the law 'x' is .*, but must be growing from 0 to 1; divide by the last": lambda: gc.sampled_law(
         "x", [0, 0.5, 0.5, 1], [0, 0.3, 0.5, 1]
     ),
@@ -398,7 +398,7 @@ def test_what_is_no_law_is_refused(message):
 @pytest.mark.parametrize(
     ("choices", "message"),
     [
-        ({"formulas": lambda u: (u, u)}, r"one that returns 2 values', but must be one that takes an array of u"),
+        ({"formulas": lambda u: (u, u)}, r"one that returns 2 values, but must be one that takes an array of u"),
         ({"peaks": (1.5,)}, r"peaks of the law 'mine' is \(1.5,\), but must be two numbers"),
         ({"ratio": -1.0}, "ratio of the law 'mine' is -1.0, but must be greater than 0"),
     ],

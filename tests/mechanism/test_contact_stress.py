@@ -136,6 +136,9 @@ def test_no_place_is_stressed_more_than_the_greatest(kind, seed, friction):
     assert max(at.peak_pressure.max() for at in sides) == pytest.approx(most.value, rel=1e-5)
     at = stress.at(phases, np.linspace(0.1, 0.9, 7))
     forces = stress.forces.at(phases, np.linspace(0.1, 0.9, 7))
+    by_angle = stress.at(at.phi)
+    np.testing.assert_allclose(by_angle.peak_pressure, at.peak_pressure, rtol=1e-8)
+    np.testing.assert_allclose(cam.at(at.phi).profile, cam.profile(at.phi), rtol=1e-9)
     for force, radius, peak in zip(forces.normal.flat, at.profile_radius.flat, at.peak_pressure.flat, strict=True):
         one = gc.hertz_line_contact(float(force), 8, float(radius), cam.roller_radius or math.inf)
         assert peak == pytest.approx(one.peak_pressure, rel=1e-9)

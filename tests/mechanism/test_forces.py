@@ -56,6 +56,27 @@ def test_the_follower_is_in_equilibrium(seed):
             assert found.friction[i] == pytest.approx(GUIDE.friction * (abs(near) + abs(far)), rel=1e-10, abs=1e-9)
 
 
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_forces_are_told_at_cam_angles_as_at_fractions_of_phases(side):
+    """At any angle, one turn on or back; where phases meet, the named side is that of the one phase or the other."""
+    forces = gc.CamForces(steady_cam(3), load(3), GUIDE)
+    motion = forces.cam.motion
+    inside = np.array([[0.1], [0.5], [0.9]])
+    ends = np.full((1, len(motion.phases)), 1.0 if side == "left" else 0.0)
+    phases, u = np.arange(len(motion.phases)), np.concatenate([inside + np.zeros_like(ends), ends])
+    told = forces.at(phases, u, side)
+    for turns in (0.0, 2 * math.pi, -2 * math.pi):
+        found = forces.at(told.phi[:-1] + turns, side=side)
+        for name in ("load", "normal", "side", "near", "far", "friction", "torque", "efficiency", "transmission"):
+            value, expected = getattr(found, name), getattr(told, name)[:-1]
+            np.testing.assert_allclose(value, expected, rtol=1e-9, atol=1e-9, err_msg=name)
+    # Where phases begin and end the angles themselves are met.
+    found = forces.at(np.append(motion.starts[1:], 2 * math.pi) if side == "left" else motion.starts, side=side)
+    np.testing.assert_allclose(found.normal, told.normal[-1], rtol=1e-9)
+    np.testing.assert_array_equal(np.isnan(found.efficiency), np.isnan(told.efficiency[-1]))
+    assert np.isnan(forces.at(math.nan).normal)
+
+
 @pytest.mark.parametrize("guide", [gc.Guide(0.0, 0.0, 1.0), GUIDE])
 @pytest.mark.parametrize("seed", range(10))
 def test_dense_sampling_never_exceeds_the_greatest_normal_force(seed, guide):

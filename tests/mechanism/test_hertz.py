@@ -51,9 +51,9 @@ def test_planes_and_nearly_fitting_hollows_keep_their_digits():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"radius1": -15.0}, "radii is '-15 and 15 mm', but must be such that they touch in one line"),
+        ({"radius1": -15.0}, "pair of radii is -15 and 15 mm, but must be such that they touch along one line"),
         ({"radius1": -10.0}, "a hollow must be wider than what lies in it"),
-        ({"radius1": math.inf, "radius2": math.inf}, "touch in one line"),
+        ({"radius1": math.inf, "radius2": math.inf}, "touch along one line"),
         ({"radius1": 0.0}, "radius1 is 0.0"),
         ({"radius2": math.nan}, "radius2 is nan"),
         ({"force": -1.0}, "force is -1.0"),
@@ -130,7 +130,7 @@ def test_no_stress_without_contact_and_none_on_an_undercut_profile():
     cam = steady_cam(1)
     slack = gc.ContactStress(gc.CamForces(cam, gc.SpringLoad(0.0, 0.0, 0.0, preload=-5)), gc.RollerContact(10))
     assert slack.at(0, 0.5).peak_pressure == 0
-    with pytest.raises(gc.DesignError, match="contact force is 'nowhere positive'"):
+    with pytest.raises(gc.DesignError, match="contact force is nowhere positive"):
         slack.greatest()
     motion = gc.Motion([gc.Rise(30, 60 * DEG), gc.Dwell(30 * DEG), gc.Return(30, 60 * DEG), gc.Dwell(210 * DEG)])
     undercut = gc.Cam(motion, gc.Translating(5, 20), 30)

@@ -178,11 +178,11 @@ SWING = Motion([Rise(30 * DEG, 2.0), Return(30 * DEG, FULL_TURN - 2)])
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Cam(SWING, Oscillating(100), 50.0), "centre distance is 'left open', but must be given for a cam"),
+        (lambda: Cam(SWING, Oscillating(100), 50.0), "centre distance is left open, but must be given for a cam"),
         (lambda: Cam(SWING, Oscillating(100, 160), 60.0), "prime radius is 60.0, but must be between 60 and 260 mm"),
         (lambda: Cam(SWING, Oscillating(160, 100), 50.0), "prime radius is 50.0, but must be between 60 and 260 mm"),
         (lambda: Cam(SWING, Oscillating(100, 120), 220.0), "prime radius is 220.0, but must be between 20 and 220 mm"),
-        (lambda: Cam(SWING, Oscillating(100, 120), 215.0), "lift is '30 degrees', but must be less than the 24"),
+        (lambda: Cam(SWING, Oscillating(100, 120), 215.0), "lift is 30 degrees, but must be less than the 24"),
         (lambda: Cam(SWING, Oscillating(0.0, 120), 50.0), "arm is 0.0"),
         (lambda: Cam(SWING, Oscillating(100, -120), 50.0), "centre distance is -120"),
         (lambda: Cam(SWING, Oscillating(100, math.inf), 50.0), "centre distance is inf"),

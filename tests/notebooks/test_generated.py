@@ -155,7 +155,7 @@ def test_without_options_nothing_is_executed(tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["nowhere.toml"], "nowhere.toml: the task file is not there"),
+        (["nowhere.toml"], "there is no file nowhere.toml; check the name"),
         (["--out", "/dev/null/x"], "the output '/dev/null/x' cannot be written"),
         (["--language", "xx"], "language is 'xx', but must be"),
     ],

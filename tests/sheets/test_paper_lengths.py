@@ -183,12 +183,22 @@ def test_a_given_size_that_fits_no_page_is_named_when_the_sheet_is_drawn(given: 
     task = builtin_task()
     solution = gc.solve(replace(task, drawing=replace(task.drawing.on("A3"), **given)))
     assert solution.comparison.quantities["roller_radius"].drawn > 0
-    with pytest.raises(gc.DesignError, match=r"take a larger format, or leave it out") as raised:
+    with pytest.raises(gc.DesignError, match=r"a larger format, or leave it out") as raised:
         solution.plot()
     assert raised.value.quantity == field
     largest = float(re.search(r"at most ([\d.]+) mm on A3 landscape", raised.value.limit)[1])
     fitting = {"ordinate": largest} if "ordinate" in given else {"poles": (20.0, largest)}
     check(gc.solve(replace(task, drawing=replace(task.drawing.on("A3"), **fitting))))
+
+
+def test_sizes_that_are_beyond_all_measure_are_named_before_anything_is_drawn(tmp_path) -> None:
+    """A pole of a hundredth of a millimetre makes a diagram of 50 km, whose strokes alone would fill the memory."""
+    task = builtin_task()
+    solution = gc.solve(replace(task, drawing=replace(task.drawing, poles=(0.01, 0.01))))
+    with pytest.raises(gc.DesignError, match=r"take larger poles or a larger format, or leave it out") as raised:
+        solution.write(tmp_path / "out")
+    assert raised.value.quantity == "drawing.ordinate"
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_poles_that_are_given_are_kept_and_the_ordinate_suits_them() -> None:

@@ -10,7 +10,7 @@ from graphcam.report.documents import sheet_of
 from graphcam.report.note import note
 from graphcam.sheets.model import Text
 from graphcam.solving.solve import solve
-from graphcam.tasks.task_file import builtin_task, load_task
+from graphcam.tasks.task_file import builtin_task, builtin_text, load_task
 
 # The case "undercut" of tests/data/cases.toml.
 UNDERCUT = """
@@ -45,6 +45,27 @@ def solved(tmp_path):
 
 def test_the_builtin_cam_is_sound():
     assert solve(builtin_task()).warnings == []
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "said"),
+    [
+        ("coursework", "lift = 30", "lift = 0.03", "The lift of 0.03 mm looks like metres: if so, give 30, in mm."),
+        ("arm", "lift = 15", "lift = 0.2618", "The lift of 0.2618° looks like radians: if so, give 15, in degrees."),
+        (
+            "coursework", "angle_rise = 30", "angle_rise = 0.7\n[cam]\nprime_radius = 60",
+            "The permitted pressure angle of 0.7° looks like radians: if so, give 40.1, in degrees.",
+        ),
+        ("coursework", "lift = 30", "lift = 0.3", ""),
+    ],
+)  # fmt: skip
+def test_values_that_look_like_another_unit_are_drawn_and_warned_of(name, old, new, said, tmp_path):
+    path = tmp_path / "cam.toml"
+    assert old in builtin_text(name)
+    path.write_text(builtin_text(name).replace(old, new), encoding="utf-8")
+    solution = solve(load_task(path))
+    assert [str(warning) for warning in solution.warnings if "looks like" in str(warning)] == ([said] if said else [])
+    assert solution.chain.prime_radius > 0
 
 
 def test_undercut_limits_and_prime_radius_are_warned_of_in_this_order(solved):

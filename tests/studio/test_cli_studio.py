@@ -96,15 +96,15 @@ def test_arcs_and_another_language_are_opened(opened, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["gone.toml"], "gone.toml: the task file is not there"),
+        (["gone.toml"], "there is no file gone.toml; check the name"),
         (["wrong.toml"], "wrong.toml: follower.kind is 'x', but must be one of"),
         (["--language", "xx"], "language is 'xx', but must be one of en, ru"),
-        (["--html", "s.html"], "--pyodide is 'missing', but must be given with --html"),
-        (["--site", "s"], "--pyodide is 'missing', but must be given with --site"),
+        (["--html", "s.html"], "--pyodide is missing, but must be given with --html"),
+        (["--site", "s"], "--pyodide is missing, but must be given with --site"),
         (["--site", "s", "--html", "s.html", "--pyodide", "p"], "--site is 's', but must be left out with --html"),
         (["--pyodide", "p"], "--pyodide is 'p', but must be left out without --html and --site"),
-        (["--html", "s.html", "--pyodide", "gone"], "gone"),
-        (["--site", "s", "--pyodide", "gone"], "gone"),
+        (["--html", "s.html", "--pyodide", "gone"], "there is no file pyodide.js in gone; run there: npm"),
+        (["--site", "s", "--pyodide", "gone"], "there is no file pyodide.js in gone; run there: npm"),
         (["--html", "", "--pyodide", "p"], None),
     ],
 )

@@ -32,7 +32,7 @@ NOT_REACHED = {
     "length": "a guide stands in Python only",
     "built-in task": "the page has the tasks themselves",
     "force": "Hertzian stress is worked out in Python only",
-    "radii": "Hertzian stress is worked out in Python only",
+    "pair of radii": "Hertzian stress is worked out in Python only",
     "poisson": "the contact by finite elements stands in Python only",
     "parts": "the contact by finite elements stands in Python only",
     "contact force": "Hertzian stress is worked out in Python only",
@@ -224,7 +224,7 @@ WRONG = [
     (
         "coursework",
         {"follower.offset": None, "limits.pressure_angle_return": 0.5, "limits.pressure_angle_rise": 0.4},
-        "cam.prime_radius",
+        "limits.pressure_angle_rise",
     ),
     ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None}, "follower.distance"),
     ("arm", {**dict.fromkeys(LIFTS, 95.0), "follower.distance": None, "cam.prime_radius": None}, "cam.prime_radius"),

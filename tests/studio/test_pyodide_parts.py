@@ -100,25 +100,27 @@ def test_what_is_not_known_needs_a_sum_of_the_users_own(folder):
 
 
 def test_what_is_missing_is_named_with_the_command_that_brings_it(folder):
-    with pytest.raises(TaskError, match=r"a NumPy for Python 3\.12\.7 .* is 'not there'.*npm pack pyodide@"):
+    with pytest.raises(
+        TaskError, match=r"there is no file numpy-\S* or \S* for Python 3\.12\.7 in .*npm pack pyodide@"
+    ):
         parts.pyodide_parts(folder)
     (folder / "numpy-2.2.0-cp313-cp313-pyodide_2025_0_wasm32.whl").write_bytes(b"")
-    with pytest.raises(TaskError, match="a NumPy for Python"):
+    with pytest.raises(TaskError, match="there is no file numpy-"):
         parts.pyodide_parts(folder)
     for name in NUMPIES:
         (folder / name).write_bytes(NUMPIES[name])
     with pytest.raises(TaskError, match=r"NumPy is .*remove the others"):
         parts.pyodide_parts(folder)
     (folder / parts.GLUE).unlink()
-    with pytest.raises(TaskError, match=rf"{parts.GLUE} is 'not there'"):
+    with pytest.raises(TaskError, match=rf"there is no file {parts.GLUE} in "):
         parts.pyodide_parts(folder)
-    with pytest.raises(TaskError, match=r"elsewhere: pyodide\.js is 'not there'"):
+    with pytest.raises(TaskError, match=r"there is no file pyodide\.js in .*elsewhere; run there: npm"):
         parts.pyodide_parts(folder / "elsewhere")
 
 
 def test_a_package_that_is_cut_off_is_told(folder):
     (folder / "pyodide.tgz").write_bytes(NUMPIES[CONDA][:50])
-    with pytest.raises(TaskError, match="one that can be read"):
+    with pytest.raises(TaskError, match="not readable"):
         parts.pyodide_parts(folder)
 
 

@@ -236,7 +236,7 @@ def test_a_folder_of_another_version_is_refused(space, tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("notes.txt", "mine", "it holds something else, notes.txt"),
+        ("notes.txt", "mine", "it holds other files, such as notes.txt"),
         (MANIFEST, "{", "is no JSON"),
         (MANIFEST, "[]", "form"),
     ],

@@ -356,14 +356,14 @@ def test_the_working_set_of_a_full_chunk_is_four_mebibytes():
     [
         ({"rise_law": "cicloidal"}, "did you mean 'cycloidal'"),
         ({"rotation": ["ccw", "up"]}, "rotation is 'up'"),
-        ({"offset": [1, 2, 3]}, "number of designs is '2 and 3'"),
+        ({"offset": [1, 2, 3]}, "number of designs is 2 and 3"),
         ({"offset": [[1, 2]]}, "an array of shape"),
         ({"offset": "five"}, "offset is 'five'"),
         ({"follower": "flat"}, "follower is 'flat'"),
         ({"follower": "flat-faced", "offset": 5}, "left out for a flat-faced follower"),
-        ({"arm": 100}, "arm is 'given', but must be left out for a translating follower"),
+        ({"arm": 100}, "arm is given, but must be left out for a translating follower"),
         ({"follower": "oscillating", "arm": 100, "distance": 120, "offset": 5}, "left out for an oscillating follower"),
-        ({"follower": "oscillating", "arm": 100}, "distance is 'left out'"),
+        ({"follower": "oscillating", "arm": 100}, "distance is left out"),
     ],
 )
 def test_designs_that_do_not_fit_say_why(change, message):

@@ -119,6 +119,32 @@ def test_a_table_may_carry_a_byte_order_mark_blanks_and_windows_line_ends(tmp_pa
     assert read_table(tmp_path / "measured.csv", "x").rows[2] == (2.0, 0.002)
 
 
+@pytest.mark.parametrize(
+    "spoken",
+    [
+        WHOLE.replace(",", ";").replace(".", ","),
+        WHOLE.replace(",", ";"),
+        WHOLE.replace(",", "\t").replace(".", ","),
+        '"' + WHOLE.replace(",", '";"').replace(".", ",").replace("\n", '"\n"').removesuffix('"'),
+    ],
+    ids=["semicolons and decimal commas", "semicolons and decimal points", "tabs", "quotes around every cell"],
+)
+def test_a_table_is_read_as_spreadsheets_of_other_countries_write_it(spoken, tmp_path):
+    place(tmp_path, WHOLE)
+    plain = read_table(tmp_path / "measured.csv", "x")
+    assert read_table(place(tmp_path, spoken).with_name("measured.csv"), "x") == plain
+    assert plain.rows[2] == (2.0, 0.002)
+
+
+def test_a_table_that_is_missing_is_named_beside_its_task(tmp_path, monkeypatch):
+    place(tmp_path, None, TASK.replace("measured.csv", "motion.csv"))
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["solve", "cam.toml"])
+    assert (result.exit_code, result.stdout) == (WRONG_INPUT, "")
+    assert result.stderr == "graphcam: there is no file motion.csv beside cam.toml; check motion.table\n"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
+
+
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 
@@ -131,13 +157,12 @@ def line(number: int, text: str) -> str:
 
 # The table's text; where the error is, and the words of its message.
 FAULTS = {
-    "no file": (None, "the table", "No such file motion.table"),
     "empty": ("", "line 1", "'' 'phi_deg,s_mm' 'phi_deg,a'"),
     "no header": (WHOLE.split("\n", 1)[1], "line 1", "'0,0.000' phi_deg,s_mm"),
     "another header": (csv("angle,lift"), "line 1", "'angle,lift' phi_deg,s_mm"),
     "three columns": (csv("phi_deg,s_mm,v"), "line 1", "phi_deg,s_mm"),
     "a third number": (line(7, "5,0.037,1"), "line 7", "'5,0.037,1' two finite numbers"),
-    "one number": (line(7, "5"), "line 7", "'5' comma"),
+    "one number": (line(7, "5"), "line 7", "'5' point semicolons"),
     "a word": (line(9, "7,seven"), "line 9", "'7,seven' two finite numbers"),
     "a decimal comma": (line(9, "7,0,1"), "line 9", "decimals point"),
     "nan": (line(12, "10,nan"), "line 12", "'10,nan' finite"),
@@ -145,14 +170,18 @@ FAULTS = {
     "an empty line": (line(20, ""), "line 20", "'' two finite numbers"),
     "too few": ("\n".join(WHOLE.splitlines()[:8]), "line 8: number of rows", "7 8 to 10000"),
     "only a header": ("phi_deg,s_mm\n", "line 2: number of rows", "0 8"),
-    "not growing": (line(31, "27,7"), "line 31: cam angle", "'27 degrees' 28 degrees sort"),
-    "repeated": (line(31, "28,7"), "line 31: cam angle", "'28 degrees' once"),
-    "half a turn": ("\n".join(WHOLE.splitlines()[:182]), "line 182: turn that the rows cover", "'180 degrees' 360"),
-    "more than a turn": (WHOLE + "360.5,0\n", "line 362: turn that the rows cover", "'360.5 degrees'"),
-    "not closed": (WHOLE + "360,0.5\n", "line 362: last row", "'0.5' 0 as in the first"),
+    "not growing": (line(31, "27,7"), "line 31: cam angle", "27 degrees 28 degrees sort"),
+    "repeated": (line(31, "28,7"), "line 31: cam angle", "28 degrees once"),
+    "half a turn": ("\n".join(WHOLE.splitlines()[:182]), "line 182: turn that the rows cover", "180 degrees 360"),
+    "angles in radians": (
+        "phi_deg,s_mm\n" + "".join(f"{math.radians(phi):.6f},0\n" for phi in DEGREES),
+        "line 361: turn that the rows cover", "6.26 2 pi in degrees, not in radians",
+    ),
+    "more than a turn": (WHOLE + "360.5,0\n", "line 362: turn that the rows cover", "360.5 degrees"),
+    "not closed": (WHOLE + "360,0.5\n", "line 362: last row", "0.5 0 as in the first"),
     "not UTF-8": (WHOLE.encode() + b"\xff\xfe", "line 362", "UTF-8"),
     "a picture": (b"\x89PNG\r\n\x1a\n\x00\x00", "line 1", "UTF-8"),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("fault", FAULTS)
@@ -221,5 +250,5 @@ def test_a_table_in_python():
     rows = tuple(zip(DEGREES.tolist(), EXACT(np.radians(DEGREES))[0].tolist(), strict=True))
     table = CurveTable("rows", "s_mm", rows)
     assert MotionTable(table=table)().lift == pytest.approx(30, abs=0.01)
-    with pytest.raises(DesignError, match="phases is 'missing'"):
+    with pytest.raises(DesignError, match="phases is missing"):
         MotionTable()

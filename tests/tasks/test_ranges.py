@@ -124,7 +124,7 @@ def test_a_lift_that_vanishes_beside_the_cam_is_not_drawn(tmp_path):
     path.write_text(text, encoding="utf-8")
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
     assert result.exit_code == 2
-    assert "prime radius is '50 mm', but must be at most 1000 times the lift of 0.01 mm" in result.stderr
+    assert "prime radius is 50 mm, but must be at most 1000 times the lift of 0.01 mm" in result.stderr
     assert [item.name for item in tmp_path.iterdir()] == ["cam.toml"]
 
 
@@ -138,5 +138,5 @@ def test_a_profile_that_would_take_more_knots_than_the_memory_holds_is_refused()
     motion = gc.Motion(
         [gc.Rise(1e9, 1.4, "rectangular"), gc.Return(1e9, 1.05, "rectangular"), gc.Dwell(math.tau - 2.45)]
     )
-    with pytest.raises(gc.DesignError, match=r"deviation is '0\.0005 mm', but must be larger for this profile"):
+    with pytest.raises(gc.DesignError, match=r"deviation is 0\.0005 mm, but must be larger for this profile"):
         gc.profile_spline(gc.Cam(motion, gc.Translating(offset=-10, roller_radius=17), 50), trimmed=True)

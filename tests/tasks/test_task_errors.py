@@ -20,6 +20,15 @@ DWELL = '{ kind = "dwell", angle = 175 }'
 MOTION = WHOLE[WHOLE.index("[motion]") : WHOLE.index("[follower]")]
 FOLLOWER = WHOLE[WHOLE.index("[follower]") : WHOLE.index("[limits]")]
 
+RADIANS = """phases = [
+  { kind = "rise", angle = 1.3963, lift = 30, law = "rectangular" },
+  { kind = "dwell", angle = 0.7854 },
+  { kind = "return", angle = 1.0472, lift = 30, law = "rectangular" },
+  { kind = "dwell", angle = 3.0543 },
+]
+
+"""
+
 
 def rise(**changes: str) -> tuple[str, str]:
     """The coursework's first phase with other values; an empty one leaves the key out."""
@@ -72,7 +81,7 @@ FAULTS = {
         (FOLLOWER, '[follower]\nkind = "oscillating"\narm = 125\ndistance = 150\noffset = 10\n'), "follower.offset",
         "10 left out oscillating translating",
     ),
-    "a decimal comma": (rise(lift="30,5"), "the text", "TOML decimal point 30.5"),
+    "a decimal comma": (rise(lift="30,5"), "line 10: the number", "30,5 decimal point 30.5"),
     "a negative distance": (
         (FOLLOWER, '[follower]\nkind = "oscillating"\narm = 125\ndistance = -150\n'), "follower.distance", "-150 0 mm",
     ),
@@ -111,7 +120,26 @@ FAULTS = {
     "an unknown frame": (('"gost"', '"din"'), "drawing.frame", "'din' 'gost' 'iso'"),
     "an unknown language": (('language = "en"', 'language = "xx"'), "drawing.language", "'xx' en, "),
     "a rounding of zero": (("[drawing]", "[drawing]\nrounding = 0"), "drawing.rounding", "0 greater than 0 mm"),
-    "not TOML": (("[limits]", "[limits"), "the text", "TOML line"),
+     "text without quotes": (rise(law="rectangular"), "line 10: the text", 'rectangular quotes "rectangular"'),
+    "a law of digits without quotes": (rise(law="3-4-5"), "line 10: the text", '3-4-5 quotes "3-4-5"'),
+    "a number with its unit": (rise(lift="30 mm"), "line 10: the number", "30 mm unit write 30"),
+    "a switch as Python writes it": (("[limits]", "[limits]\nrest = True"), "line 23: the switch", "True write true"),
+    "a typographic minus": (("-10 ", "−10 "), "line 18, column 10: the character", "'−' minus sign '-' editor"),
+    "a dash for a minus": (("-10 ", "–10 "), "line 18, column 10: the character", "'–' en dash '-' editor"),
+    "typographic quotes": (('"cw"', "“cw”"), "line 2, column 12: the character", "'“' left double quotation '\"'"),
+    "angle quotes": (('"cw"', "«cw»"), "line 2, column 12: the character", "'«' left-pointing double angle '\"'"),
+    "a wide equals sign": (("rotation =", "rotation ＝"), "line 2, column 10: the character", "'＝' fullwidth '='"),
+    "a space that does not break": (
+        ('= "cw"', '=\u00a0"cw"'), "line 2, column 11: the character", "invisible no-break space plain anew",
+    ),
+    "an invisible character": (
+        ('= "cw"', '= \u200b"cw"'), "line 2, column 12: the character", "invisible zero width left out delete",
+    ),
+    "angles in radians": (
+        (WHOLE[WHOLE.index("phases = ["): WHOLE.index("[follower]")], RADIANS), "motion.phases (sum of the angles)",
+        "6.2832 360 degrees 2 pi radians",
+    ),
+    "not TOML": (("[limits]", "[limits"), "line 22", "'[limits' TOML graphcam init"),
 }  # fmt: skip
 
 NO_TEXT = {
@@ -174,9 +202,8 @@ def error_of(path: Path) -> str:
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("nowhere.toml", "not there graphcam init"),
         (".", "folder name"),
-        ("cam.toml/cam.toml", "not readable permissions"),
+        ("cam.toml/cam.toml", "not readable name"),
         ("x" * 5000, "not readable"),
     ],
 )
@@ -187,6 +214,30 @@ def test_a_path_that_is_no_file(name, words, tmp_path, monkeypatch):
     assert result.exit_code == WRONG_INPUT
     check(result.stderr.strip(), "the task file", words)
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
+
+
+def test_a_task_file_that_is_missing_is_named_with_what_makes_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["solve", "nowhere.toml"])
+    assert (result.exit_code, result.stdout) == (WRONG_INPUT, "")
+    example = "'graphcam init FILE' writes a commented example"
+    assert result.stderr == f"graphcam: there is no file nowhere.toml; check the name; {example}\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_limit_that_was_meant_in_radians_is_asked_about(tmp_path):
+    path = tmp_path / "cam.toml"
+    path.write_text(builtin_text("coursework").replace("angle_rise = 30", "angle_rise = 0.52"), encoding="utf-8")
+    result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
+    assert result.exit_code == WRONG_INPUT
+    assert "permitted pressure angle on the rise is 0.52 degrees" in result.stderr
+    assert result.stderr.endswith("; 30 degrees? 0.52 was given\n")
+
+
+def test_what_a_word_processor_puts_into_texts_and_comments_is_no_fault(tmp_path):
+    path = tmp_path / "cam.toml"
+    path.write_text(WHOLE.replace('"Cam mechanism"', '"Кулачок «А» – № 1"  # “so” it\u00a0is'), encoding="utf-8")
+    assert load_task(path).title.name == "Кулачок «А» – № 1"
 
 
 def test_a_path_that_no_system_knows():

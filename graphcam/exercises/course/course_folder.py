@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
 from graphcam.language import ENGLISH
 
@@ -119,7 +119,7 @@ class AnswerKeys:
         if self.course().get("secret", _digest(secret)) != _digest(secret):
             remedy = "name the file that 'graphcam exercise make' or 'export' was given"
             expected = "the one that the course was made with"
-            raise TaskError(str(path), "the secret", "another one", expected, remedy)
+            raise TaskError(str(path), "the secret", Unquoted("another one"), expected, remedy)
 
     def secret_file(self, given: Path | None) -> Path:
         """The file of the course's secret: the one that is given, or else the one in this folder.
@@ -195,9 +195,10 @@ def read_secret(path: str | Path) -> bytes:
     """
     try:
         secret = Path(path).read_bytes().strip()
-    except OSError as error:
-        why, expected = error.strerror or "not readable", "a file that only you can read"
-        raise TaskError(str(path), "the secret", why, expected, "check the name") from None
+    except (OSError, ValueError) as error:
+        remedy = "name the file with the secret that the course was made with"
+        raise unreadable(path, "the secret", "a file that only you can read", error, remedy) from None
     if not secret:
-        raise TaskError(str(path), "the secret", "empty", "a long random text", "write one into the file and keep it")
+        remedy = "write one into the file and keep it"
+        raise TaskError(str(path), "the secret", Unquoted("empty"), "a long random text", remedy)
     return secret

@@ -61,7 +61,7 @@ def read_times(path: Path, known: Recognition) -> dict[tuple[str, str], datetime
     ------
     TaskError : the file cannot be read, or a line of it names a student, a time or an attempt that cannot be
     """
-    lines = student_lines(path, "the times of handing in", ("student", "submitted"), known)
+    lines = student_lines(path, "the table of times", ("student", "submitted"), known)
     remedy = "give each attempt of a student once, with its number in a column 'attempt'"
     filled = [line for line in once(lines, ("attempt",), remedy) if line["submitted"]]
     return {(line.student, _number(line)): time_in(line, "submitted") for line in filled}

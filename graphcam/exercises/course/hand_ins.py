@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
+from graphcam.errors import unreadable
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.export_names import ExportName, export_name
 from graphcam.exercises.course.recognition import Recognition
@@ -88,8 +88,7 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
         with os.scandir(folder) as entries:
             listed = [(entry.name, entry.is_file(follow_symlinks=False)) for entry in entries]
     except OSError as error:
-        why = error.strerror or "not there"
-        raise TaskError(str(folder), "the folder", why, "one with a folder a student") from None
+        raise unreadable(folder, "the folder", "one with a folder for every student", error) from None
     return sorted(
         name
         for name, plain in listed

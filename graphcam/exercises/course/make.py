@@ -93,7 +93,7 @@ def make(
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
-            raise OutputError(out / part, "it is there already", "name a new folder, or remove that one first")
+            raise OutputError(out / part, "it already exists", "choose another folder, or remove that one first")
     with whole_folder(out) as draft, executor_of(workers, cluster) as executor:
         answer_keys: list[AnswerKey] = []
         variants = course_variants(exercise, (student.id for student in students), secret, executor)

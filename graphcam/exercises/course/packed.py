@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.reading.submission_files import LIMITS
 
@@ -40,7 +40,9 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
             with zipfile.ZipFile(place) as archive:
                 refused = _unpack(archive, place, Path(scratch))
         except (OSError, zipfile.BadZipFile) as error:
-            raise TaskError(str(place), "the zip", str(error), "one that can be read", "fetch it again") from None
+            raise TaskError(
+                str(place), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "download it again"
+            ) from None
         yield Path(scratch), refused
 
 
@@ -67,7 +69,13 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
         except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
         if left < 0:
-            raise TaskError(str(place), "the size", "more", f"{MOST_BYTES} bytes unpacked", "look into it by hand")
+            raise TaskError(
+                str(place),
+                "the size",
+                Unquoted("larger"),
+                f"at most {MOST_BYTES} bytes unpacked",
+                "look into it by hand",
+            )
     return refused
 
 

@@ -31,7 +31,7 @@ def read_requests(path: Path, answers: Collection[str], known: Recognition) -> l
     """
     found: list[RegradeRequest] = []
     columns = ("student", "answer", "question")
-    for line in student_lines(path, "the regrade requests", columns, known, "who handed in"):
+    for line in student_lines(path, "the table of requests", columns, known, "who handed in"):
         if line["answer"] not in answers:
             raise line.wrong("answer", f"one of {', '.join(answers)}", "check the name")
         if not line["question"]:

@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.spreadsheet import read_table
 
 LONGEST = 180
@@ -86,7 +86,7 @@ def read_roster(path: str | Path) -> list[Student]:
     rows = [row for _, row in read_table(path, "the roster")]
     students = _students(rows)
     if not students:
-        raise TaskError(str(path), "the roster", "empty", "a line a student", "give a column 'id'")
+        raise TaskError(str(path), "the roster", Unquoted("empty"), "one line for each student", "give a column 'id'")
     seen: dict[str, str] = {}
     for student in students:
         if not student.id.strip():
@@ -99,7 +99,7 @@ def read_roster(path: str | Path) -> list[Student]:
         seen[folder] = student.id
         # It stands in the title block.
         if not (said := student.name or student.id).isprintable():
-            raise TaskError(str(path), "the name", repr(said), "printable text on one line")
+            raise TaskError(str(path), "the name", said, "printable text on one line", "retype it")
     return students
 
 

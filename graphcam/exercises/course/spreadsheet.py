@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted, unreadable
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
@@ -75,13 +75,14 @@ def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
     """
     try:
         text = Path(path).read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise TaskError(str(path), what, error.strerror or "not readable", "a CSV file") from None
     except UnicodeDecodeError:
-        raise TaskError(str(path), what, "not UTF-8", "a CSV file in UTF-8", "save it as UTF-8") from None
+        raise TaskError(str(path), what, Unquoted("not in UTF-8"), "a CSV file in UTF-8", "save it as UTF-8") from None
+    except (OSError, ValueError) as error:
+        raise unreadable(path, what, "a CSV file", error) from None
     first = text.partition("\n")[0]
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
     try:
         return [(reader.line_num, row) for row in reader if any(value.strip() for value in row)]
     except csv.Error as error:
-        raise TaskError(str(path), what, str(error), "a CSV file") from None
+        remedy = "save it again from the spreadsheet"
+        raise TaskError(str(path), what, Unquoted(f"not readable ({error})"), "a CSV file", remedy) from None

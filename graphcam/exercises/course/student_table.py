@@ -37,7 +37,7 @@ def student_lines(
 ) -> Iterator[StudentLine]:
     """The lines of a CSV file about students, whom it names by id, e-mail address or name.
 
-    what : the table, as a message names it: "the extensions"
+    what : the table, as a message names it: "the table of extensions"
     columns : headings that must be there, in any order and among others; the first is the student's
     known, who : the students that it may name, and in words which they are
     absent : the remedy where a line names none of them

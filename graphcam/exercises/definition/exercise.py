@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.units import UNITS
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.marked_formats import PAPERS
 from graphcam.exercises.definition.marks_policy import MarksPolicy
@@ -43,9 +43,13 @@ class Parameter:
     def __post_init__(self) -> None:
         grid = (self.start, self.stop, self.step)
         if (self.choices is None) == (None in grid):
-            raise DesignError("parameter", "neither or both", "start, stop and step, or choices")
+            raise DesignError(
+                "parameter",
+                Unquoted("given in neither or in both ways"),
+                "given by start, stop and step, or by choices",
+            )
         if self.choices is not None and not self.choices:
-            raise DesignError("choices", "empty", "a list of one or more")
+            raise DesignError("choices", Unquoted("empty"), "a list of one or more")
         if self.choices is None:
             positive("step", self.step, "")
             if self.stop is not None and self.start is not None and self.stop < self.start:
@@ -192,7 +196,7 @@ class Exercise:
     def __post_init__(self) -> None:
         one_of("language", self.language, languages())
         if not self.answers:
-            raise DesignError("answers", "empty", "a list of one or more")
+            raise DesignError("answers", Unquoted("empty"), "a list of one or more")
         for paper in self.papers:
             one_of("papers", paper, PAPERS)
         names = [asked.name for asked in self.answers]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, TaskError, nearest
+from graphcam.errors import DesignError, TaskError, Unquoted, nearest
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import ask, board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
@@ -18,7 +18,7 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task_file import Classes, Unquoted, checked, other_file, parse_toml, read_content
+from graphcam.tasks.task_file import Classes, checked, other_file, parse_toml, read_content
 
 HOW_TO = "see exercises/README.md"
 NO_KEYS = {"name", "language", "paper"}
@@ -93,7 +93,7 @@ def exercise_path(name: str) -> Path:
         return Path(name)
     if name not in library():
         known = "one that 'graphcam exercise list' names"
-        raise TaskError(name, "the exercise", Unquoted("not there"), known, nearest(name, library()))
+        raise TaskError(name, "the exercise", Unquoted("unknown"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 

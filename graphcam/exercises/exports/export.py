@@ -51,7 +51,7 @@ def export(
     if not 0 < len(students) <= MOST:
         raise DesignError("number of variants", len(students), f"from 1 to {MOST}")
     if folder.exists():
-        raise OutputError(folder, "it is there already", "name a new folder, or remove that one first")
+        raise OutputError(folder, "it already exists", "choose another folder, or remove that one first")
     one_of("language", language, languages())
     exercise = find_exercise(name, language, hand)
     emails = student_by_email(students)

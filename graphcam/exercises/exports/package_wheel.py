@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from importlib import metadata, resources
 from pathlib import Path, PurePosixPath
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.definition.exercise_file import exercise_path, library
 from graphcam.exercises.exports.repeatable_zip import write_zip
 
@@ -32,7 +32,7 @@ def write_wheel(folder: Path) -> Path:
         distribution = metadata.distribution(PACKAGE)
     except metadata.PackageNotFoundError:
         remedy = "install it with pip, a checkout with 'pip install -e .'"
-        raise TaskError(PACKAGE, "the package", "not installed", "installed", remedy) from None
+        raise TaskError(PACKAGE, "the package", Unquoted("not installed"), "installed", remedy) from None
     about = f"{PACKAGE}-{distribution.version}.dist-info"
     held = dict(_package()) | dict(_about(distribution, about))
     record = [f"{name},sha256={_digest(data)},{len(data)}" for name, data in held.items()]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from io import BytesIO
 from typing import NamedTuple
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.handouts import worksheet
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
@@ -50,7 +50,7 @@ def check_numbers(exercise: Exercise) -> None:
     """
     if all(asked.kind != "number" for asked in exercise.answers):
         remedy = "export with --format moodle, which asks for drawings"
-        raise TaskError(f"exercise {exercise.name}", "answers", "all drawn", "one or more numbers", remedy)
+        raise TaskError(f"exercise {exercise.name}", "answers", Unquoted("all drawn"), "one or more numbers", remedy)
 
 
 def asked_text(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> str:

@@ -19,7 +19,7 @@ from typing import Any
 import graphcam
 from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
-from graphcam.errors import TaskError, installed
+from graphcam.errors import MissingFileError, TaskError, Unquoted, installed
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
 from graphcam.exercises.course.hidden_names import hidden_names
@@ -205,7 +205,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     folder, kept = AnswerKeys.of(course.folder)
     if not course.folder.is_dir() and not kept.course():
         remedy = "put it beside the folder 'teacher' of its course, or unpack it"
-        raise TaskError(str(course.folder), "the zip", "elsewhere", "beside the answer keys", remedy)
+        raise TaskError(str(course.folder), "the zip", Unquoted("elsewhere"), "beside the answer keys", remedy)
     exercise = _exercise(course, kept)
     if course.level is Level.L1 and not course.trusted:
         raise LevelError(course.level, UNTRUSTED)
@@ -299,8 +299,10 @@ def _line(text: str) -> str:
 def _check_places(course: Course) -> None:
     """What must not first come out when all is graded."""
     if not course.folder.is_dir() and not zipfile.is_zipfile(course.folder):
-        why = "a file" if course.folder.exists() else "not there"
-        raise TaskError(str(course.folder), "the folder", why, "one with a folder for every student", "check the name")
+        if not course.folder.exists():
+            raise MissingFileError(str(course.folder), kind="folder")
+        wanted = "one with a folder for every student, or a zip file"
+        raise TaskError(str(course.folder), "the folder", Unquoted("a file"), wanted, "check the name")
     if course.out.is_dir():
         raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
     if course.feedback is not None and course.feedback.exists() and not course.feedback.is_dir():
@@ -311,7 +313,9 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     """The exercise that the course is noted to be about, or else the one that is named."""
     noted = kept.exercise()
     if not noted and not course.exercise:
-        raise TaskError(str(course.folder), "the exercise", "not noted there", "known", "name it with --exercise")
+        raise TaskError(
+            str(course.folder), "the exercise", Unquoted("not noted there"), "known", "name it with --exercise"
+        )
     exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand(), kept.paper())
     if noted and exercise.name != Path(noted).stem:
         made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"

@@ -112,5 +112,5 @@ def read_extensions(path: Path, known: Recognition) -> dict[str, datetime]:
     ------
     TaskError : the file cannot be read, or a line of it names a student or a deadline that cannot be
     """
-    lines = student_lines(path, "the extensions", ("student", "deadline"), known)
+    lines = student_lines(path, "the table of extensions", ("student", "deadline"), known)
     return {line.student: time_in(line, "deadline") for line in once(lines, (), "give each student once")}

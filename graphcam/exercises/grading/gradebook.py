@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.overrides import TOTAL
 
@@ -37,7 +37,9 @@ def check_gradebook(database: str) -> None:
     except SQLAlchemyError as error:
         why = f"{database} ({getattr(error, 'orig', None) or 'no address of a database'})"
         remedy = "sqlite:///gradebook.db is the file gradebook.db in this folder"
-        raise TaskError("--gradebook", "the grade book", why, "a database that can be opened", remedy) from None
+        raise TaskError(
+            "--gradebook", "the grade book", Unquoted(why), "a database that can be opened", remedy
+        ) from None
 
 
 def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]], entered: Path) -> list[str]:

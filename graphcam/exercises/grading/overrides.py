@@ -40,7 +40,7 @@ def read_overrides(path: Path, exercise: Exercise, known: Recognition) -> list[O
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    lines = student_lines(path, "the overrides", COLUMNS, known, "who handed in", ABSENT)
+    lines = student_lines(path, "the table of overrides", COLUMNS, known, "who handed in", ABSENT)
     return [_override(line, possible) for line in once(lines, ("answer",), "give each answer of a student once")]
 
 

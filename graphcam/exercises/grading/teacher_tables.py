@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.hand_in_times import SUBMITTED_TIMES, HandInTime, hand_in_times, read_times
 from graphcam.exercises.course.hand_ins import HandIn, course_students
@@ -56,7 +56,7 @@ def late_rules(course: HandedInCourse, deadline: datetime | None, penalty: LateP
     """
     if deadline is None:
         if penalty != NO_PENALTY:
-            raise TaskError("--late", "the deadline", "not given", "given", "name it with --deadline")
+            raise TaskError("--late", "the deadline", Unquoted("not given"), "given", "name it with --deadline")
         return None
     path = course.table(EXTENSIONS)
     return LateRules(Deadlines(deadline, read_extensions(path, course.students()) if path else {}), penalty)

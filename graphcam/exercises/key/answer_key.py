@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.definition.exercise import Value
 from graphcam.exercises.key.expectation import Expected, from_stored, stored
 from graphcam.exercises.key.follow_through import Dependence
@@ -154,9 +154,9 @@ class AnswerKey:
         try:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            found, wanted = f"not readable ({error})", f"a certificate of format {FORMAT}"
+            found, wanted = f"not readable ({error})", f"an answer key of format {FORMAT}"
             remedy = "make it again with 'graphcam exercise make'"
-            raise TaskError(path, "the certificate", found, wanted, remedy) from None
+            raise TaskError(path, "the answer key", Unquoted(found), wanted, remedy) from None
 
 
 def _read(said: dict[str, Any]) -> AnswerKey:

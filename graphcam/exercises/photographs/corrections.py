@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.photographs.read_photo import pairs
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
@@ -123,9 +123,11 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
         text = read_regular(path, LARGEST).decode("utf-8")
         said = json.loads(text)
     except UnreadableError as error:
-        raise TaskError(str(path), "the file", str(error), "a file of corrections", "check the name") from None
+        raise TaskError(
+            str(path), "the file", Unquoted(f"not readable ({error})"), "a file of corrections", "check the name"
+        ) from None
     except (ValueError, RecursionError):
-        raise TaskError(str(path), "the file", "no JSON", "a file of corrections", BY_REVIEW) from None
+        raise TaskError(str(path), "the file", Unquoted("not JSON"), "a file of corrections", BY_REVIEW) from None
     reader = _Reader(str(path), exercise)
     table = reader.table("the file", said, {"format", "exercise", "students"})
     reader.one_of("format", table["format"], (FORMAT,))
@@ -146,8 +148,10 @@ class _Reader:
 
     def wrong(self, where: str, value: object, allowed: str) -> TaskError:
         """The error about a value."""
-        shown = value if isinstance(value, str | int | float | None) else f"a {type(value).__name__}"
-        return TaskError(self.path, where, str(shown)[:60], allowed, BY_REVIEW)
+        if isinstance(value, str):
+            return TaskError(self.path, where, value[:60], allowed, BY_REVIEW)
+        shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
+        return TaskError(self.path, where, Unquoted(shown), allowed, BY_REVIEW)
 
     def table(self, where: str, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""
@@ -235,7 +239,7 @@ def stretch_of(
         part = said / length if said is not None and length > 0 else 1.0
         if not (math.isfinite(part) and STRETCH[0] <= part <= STRETCH[1]):
             allowed = f"from {STRETCH[0] * length:.1f} to {STRETCH[1] * length:.1f} mm"
-            raise TaskError(where, f"the scale bar {way}", f"{said:g} mm", allowed, "measure it again")
+            raise TaskError(where, f"the scale bar {way}", Unquoted(f"{said:g} mm"), allowed, "measure it again")
         found.append(part)
     return found[0], found[1]
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 
 import graphcam
-from graphcam.errors import TaskError, installed
+from graphcam.errors import MissingFileError, TaskError, Unquoted, installed
 from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
@@ -127,11 +127,11 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
     """
     noted = kept.course()
     if not noted:
-        wanted = f"a folder with {TEACHER}/{COURSE}"
-        raise TaskError(str(order.course), "the course", "not there", wanted, "name what 'exercise make' wrote")
+        missing, remedy = Unquoted(f"without {TEACHER}/{COURSE}"), "name the folder that 'exercise make' wrote"
+        raise TaskError(str(order.course), "the course", missing, "a folder of a course", remedy)
     if not (kept.folder / PRINTED).is_dir():
         wanted, remedy = "made to be photographed", "make the course with --paper A3"
-        raise TaskError(str(order.course), "the worksheets", "without marks", wanted, remedy)
+        raise TaskError(str(order.course), "the worksheets", Unquoted("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
     exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     students = [student.id for student in kept.students()]
@@ -148,7 +148,7 @@ def _check_places(order: ReadingOrder, out: Path) -> None:
         raise OutputError(order.review, "it is a folder", "name a file, review.html")
     for path in order.photographs:
         if not path.exists() and not path.is_symlink():
-            raise TaskError(str(path), "the photograph", "not there", "a file or a folder of them", "check the name")
+            raise MissingFileError(str(path), "check the name", kind="photograph")
 
 
 def _basis(exercise: Exercise, kept: AnswerKeys) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, Unquoted
 from graphcam.photo.printed import Edges, Points
 
 FORMAT = 2
@@ -121,7 +121,9 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
             raise ValueError(f"format {said['format']}")
         return [_photo(each) for each in said["photos"]], str(said["basis"])
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TaskError(path, "the reading", f"not readable ({error})", f"one of format {FORMAT}", REMEDY) from None
+        raise TaskError(
+            path, "the reading", Unquoted(f"not readable ({error})"), f"one of format {FORMAT}", REMEDY
+        ) from None
 
 
 def _photo(said: dict[str, Any]) -> ReadPhoto:

@@ -74,11 +74,11 @@ PITCH = [*ANNA, "answers", "pitch"]
 @pytest.mark.parametrize(
     ("path", "value", "where"),
     [
-        (["format"], 2, "format is '2', but must be one of 1"),
-        (["format"], True, "format is 'True'"),
+        (["format"], 2, "format is 2, but must be one of 1"),
+        (["format"], True, "format is True"),
         (["exercise"], "whole-cam", "exercise is 'whole-cam', but must be one of inversion-translating"),
         (["more"], 1, "the file is 'format, exercise, students, more'"),
-        (["students"], [], "students is 'a list', but must be a table"),
+        (["students"], [], "students is a list, but must be a table"),
         (["students", "Zoe"], {}, "students is 'Zoe', but must be ids of this course"),
         ([*ANNA, "reviewed"], "yes", "students.Anna.reviewed"),
         ([*ANNA, "answers", "pitsch"], {}, "one of the answers s_8"),

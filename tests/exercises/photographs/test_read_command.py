@@ -223,11 +223,15 @@ def test_an_error_that_none_foresaw_is_told_like_any_other(course, scans, monkey
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"photo": "nothing.jpg"}, "the photograph is 'not there', but must be a file or a folder of them"),
-        ({"course": "elsewhere"}, "the course is 'not there', but must be a folder with teacher/course.json"),
-        ({"secret": "roster.csv"}, "the secret is 'another one'"),
+        ({"photo": "nothing.jpg"}, "nothing.jpg; check the name"),
+        (
+            {"course": "elsewhere"},
+            "the course is without teacher/course.json, but must be a folder of a course; name the folder",
+        ),
+        ({"secret": "roster.csv"}, "the secret is another one"),
         ({"out": "secret"}, "it is a file; name a folder for the readings"),
         ({"review": "."}, "it is a folder"),
+        ({"secret": "lost"}, "lost; name the file with the secret that the course was made with"),
         ({"corrections": "nothing.json"}, "check the name"),
     ],
 )

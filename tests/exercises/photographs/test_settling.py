@@ -172,7 +172,7 @@ def test_a_bar_that_no_printer_makes_is_asked_again_and_changes_nothing(course):
     before = {path: path.read_bytes() for path in course.place.rglob("*") if path.is_file()}
     file = course.place.parent / "corrections.json"
     file.write_text(to_json(course.exercise, {"Anna": StudentCorrections({}, {2: (225.0, None)})}))
-    with pytest.raises(TaskError, match=r"scale bar across is '225 mm', but must be from 242.5 to 257.5 mm; measure"):
+    with pytest.raises(TaskError, match=r"scale bar across is 225 mm, but must be from 242.5 to 257.5 mm; measure"):
         course.read(corrections=file)
     assert before == {path: path.read_bytes() for path in course.place.rglob("*") if path.is_file()}
     assert stretch_of((250.0, 180.0), (None, None), "") == (1.0, 1.0)

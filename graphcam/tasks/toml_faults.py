@@ -1,0 +1,132 @@
+"""What is wrong with a text that is not TOML, told by its line: what word processors and other habits put in.
+
+A parser only says where it stopped.  Here the line is looked at again for what people really write: a typographic
+minus or quotes, text without quotes, a number with a comma or a unit.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from graphcam.errors import TaskError, Unquoted
+
+_PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
+_STRING_OR_COMMENT = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
+_VALUE = re.compile(r"=\s*([^=,\[\]{}\s](?:[^=,\[\]{}]*[^=,\[\]{}\s])?)")
+"""What stands behind an equals sign up to the next comma or bracket, without spaces around it."""
+_COMMA = re.compile(r"=\s*[-+]?(\d+),(\d+)")
+_WITH_UNIT = re.compile(r"([-+]?\d[\d_]*(?:\.\d+)?)\s*([^\W\d_]+(?:/[^\W\d_]+)?|°|%)")
+_SWITCHES = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
+_QUOTES = "“”„‟«»‹›″‘’‚‛′`´"
+_DASHES = "−–—‐‑‒―"
+_PLAIN = {**dict.fromkeys(_QUOTES, '"'), **dict.fromkeys(_DASHES, "-"), "、": ",", "。": "."}
+"""Characters of typography by those of the keyboard; what Unicode itself holds to be the same is not listed."""
+_LONGEST = 60
+"""Characters of a line that a message shows."""
+
+
+def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskError:
+    """What to say of a text that a parser refused.
+
+    path : how the message calls the file
+    error : of the parser, which names the line
+    example : the remedy where nothing better is known
+
+    >>> import tomllib
+    >>> def fault(text: str) -> TaskError:
+    ...     try:
+    ...         tomllib.loads(text)
+    ...     except tomllib.TOMLDecodeError as error:
+    ...         return toml_fault("cam.toml", text, error, "see the example")
+    >>> print(fault("offset = −10"))
+    cam.toml: line 1, column 10: the character is '−' (minus sign), but must be a plain '-'; type it in a text editor
+    >>> print(fault("law = cosine"))
+    cam.toml: line 1: the text is cosine, but must be in quotes; write "cosine"
+    """
+    place = _PLACE.search(str(error))
+    why = _PLACE.sub("", str(error))
+    if place is None or (place[1] is None and not text.strip()):
+        return TaskError(path, "the text", Unquoted(f"not TOML ({why})"), "a TOML file", example)
+    lines = text.splitlines() or [""]
+    number = min(int(place[1]), len(lines)) if place[1] else len(lines)
+    line = lines[number - 1]
+    told = _typography(line) or _comma(line) or _value(line)
+    if told is not None:
+        what, found, wanted, remedy = told
+        return TaskError(path, f"line {number}{what}", Unquoted(found), wanted, remedy)
+    shown = line.strip()
+    shown = shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
+    return TaskError(path, f"line {number}", shown, f"TOML ({why[:1].lower()}{why[1:]})", example)
+
+
+Told = tuple[str, str, str, str]
+"""What in a line, its value, what it must be, and the remedy."""
+
+
+def _typography(line: str) -> Told | None:
+    """A character outside of texts and comments that is not the one of the keyboard."""
+    outside = _STRING_OR_COMMENT.sub(lambda found: " " * len(found[0]), line)
+    for column, letter in enumerate(outside, 1):
+        plain = _plain(letter)
+        if plain is None:
+            continue
+        name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
+        if not plain.strip():
+            wanted, remedy = ("a plain space", "type it anew") if plain else ("left out", "delete it")
+            return f", column {column}: the character", f"invisible ({name})", wanted, remedy
+        return (
+            f", column {column}: the character",
+            f"'{letter}' ({name})",
+            f"a plain {plain!r}",
+            "type it in a text editor",
+        )
+    return None
+
+
+def _plain(letter: str) -> str | None:
+    """The plain character that is meant by one of typography; None for a plain one, and for letters."""
+    if letter.isascii():
+        return None
+    if letter in _PLAIN:
+        return _PLAIN[letter]
+    if unicodedata.category(letter) in ("Cf", "Cc"):
+        return ""
+    same = unicodedata.normalize("NFKC", letter)
+    if same.isspace() or letter.isspace():
+        return " "
+    return same if same.isascii() and len(same) == 1 else None
+
+
+def _comma(line: str) -> Told | None:
+    """A number with a decimal comma."""
+    if comma := _COMMA.search(line):
+        remedy = f"write {comma[1]}.{comma[2]}"
+        return ": the number", f"{comma[1]},{comma[2]}", "written with a decimal point", remedy
+    return None
+
+
+def _value(line: str) -> Told | None:
+    """A text without quotes, or a number with its unit."""
+    for found in _VALUE.finditer(_STRING_OR_COMMENT.sub("''", line)):
+        word = found[1]
+        if word.startswith("''") or _is_value(word):
+            continue
+        if word in _SWITCHES:
+            return ": the switch", word, "true or false", f"write {_SWITCHES[word]}"
+        if number := _WITH_UNIT.fullmatch(word):
+            return ": the number", word, "written without its unit", f"write {number[1]}"
+        if "'" not in word and '"' not in word:
+            return ": the text", word, "in quotes", f'write "{word}"'
+    return None
+
+
+def _is_value(word: str) -> bool:
+    """Whether a word is a number, a date or a switch as TOML writes them."""
+    if word in ("true", "false") or re.fullmatch(r"\d{4}-\d\d-\d\d.*|\d\d:\d\d.*", word):
+        return True
+    try:
+        float(word)
+    except ValueError:
+        return re.fullmatch(r"0[xob][0-9a-fA-F_]+", word) is not None
+    return True

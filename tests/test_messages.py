@@ -1,0 +1,171 @@
+"""What every message keeps to: words about a value stand without quotes, and no error of the system is a value."""
+
+from __future__ import annotations
+
+import ast
+import pickle
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import typer
+
+import graphcam
+from graphcam.cli.shared import WRONG_INPUT, one_message
+from graphcam.errors import DesignError, MissingFileError, Unquoted, unreadable
+
+VALUE_OF = {"DesignError": 1, "TaskError": 2, "RowError": 2}
+"""Which argument of an error is the value."""
+FILES = sorted(Path(graphcam.__file__).parent.rglob("*.py"))
+SPACE = """
+[motion]
+lift = 30
+rise_angle = [80, 90]
+return_angle = 90
+[cam]
+prime_radius = { start = 40, stop = 60, count = 2000 }
+"""
+
+
+def values(text: str) -> Iterator[tuple[int, ast.expr]]:
+    """The value of every error that is made in a module, with its line."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in VALUE_OF:
+            place = VALUE_OF[node.func.id]
+            if len(node.args) > place:
+                yield node.lineno, node.args[place]
+
+
+def faults(text: str) -> list[int]:
+    """The lines of errors whose value is the program's own words in quotes, or an error of the system."""
+    return [
+        line
+        for line, value in values(text)
+        if isinstance(value, ast.JoinedStr)
+        or (isinstance(value, ast.Constant) and isinstance(value.value, str))
+        or (not isinstance(value, ast.Call) and "strerror" in ast.unparse(value))
+    ]
+
+
+def test_words_about_a_value_stand_without_quotes():
+    found = {path.name: faults(path.read_text(encoding="utf-8")) for path in FILES if path.name != "errors.py"}
+    assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_the_check_of_quotes_can_fail():
+    assert faults('DesignError("lift", f"{x:g} mm", "less")') == [1]
+    assert faults('\nTaskError(path, "the table", error.strerror or "lost", "a file")') == [2]
+    assert faults('DesignError("lift", Unquoted("missing"), "given")') == []
+
+
+def test_what_somebody_wrote_stands_in_quotes_and_what_is_told_of_it_does_not():
+    assert str(DesignError("law", "sine", "known")) == "law is 'sine', but must be known"
+    assert (
+        str(DesignError("law", Unquoted("missing"), "given", "give it")) == "law is missing, but must be given; give it"
+    )
+
+
+@pytest.mark.parametrize(
+    ("error", "message"),
+    [
+        (FileNotFoundError(2, "No such file or directory"), "there is no file a.csv; check the name"),
+        (
+            PermissionError(13, "Permission denied"),
+            "a.csv: the roster is not readable (Permission denied), but must be a CSV file; check its permissions",
+        ),
+        (
+            OSError(36, "File name too long"),
+            "a.csv: the roster is not readable (File name too long), but must be a CSV file; check the name",
+        ),
+        (
+            ValueError("embedded null byte"),
+            "a.csv: the roster is not readable (embedded null byte), but must be a CSV file; check the name",
+        ),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_told_in_one_shape(error, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert str(unreadable("a.csv", "the roster", "a CSV file", error)) == message
+
+
+@pytest.mark.parametrize("system", [IsADirectoryError(21, "Is a directory"), PermissionError(13, "Permission denied")])
+def test_a_folder_in_place_of_a_file_is_told_as_one(system, tmp_path):
+    """Windows calls it a matter of permissions."""
+    told = str(unreadable(tmp_path, "the roster", "a CSV file", system))
+    assert told == f"{tmp_path}: the roster is a folder, but must be a CSV file; name the file in it"
+
+
+def test_a_missing_file_is_told_alike_by_another_process():
+    error = MissingFileError("motion.csv", "check motion.table", where="beside cam.toml")
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
+    assert str(error) == "there is no file motion.csv beside cam.toml; check motion.table"
+
+
+def test_an_error_of_the_system_that_nobody_told_is_one_line_without_its_number(capsys):
+    with pytest.raises(typer.Exit) as ended, one_message():
+        raise FileNotFoundError(2, "No such file or directory", "lost.json")
+    assert ended.value.exit_code == WRONG_INPUT
+    assert capsys.readouterr().err == "graphcam: lost.json: No such file or directory\n"
+
+
+FULL = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_FSIZE, (2048, resource.RLIM_INFINITY))
+from graphcam.__main__ import main
+main()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of files are those of POSIX")
+@pytest.mark.parametrize(
+    "words", [["notebook", "--out", "out"], ["sweep", "space.toml", "--out", "out.csv"]], ids=["notebook", "sweep"]
+)
+def test_a_disk_that_is_full_is_one_line_and_leaves_nothing(words, tmp_path):
+    """As a limit on the size of files fills it: the first write beyond it fails."""
+    (tmp_path / "space.toml").write_text(SPACE, encoding="utf-8")
+    ran = subprocess.run(
+        [sys.executable, "-c", FULL, *words], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == WRONG_INPUT
+    told = [line for line in ran.stderr.splitlines() if not line.endswith("...")]
+    remedy = "choose a folder on another disk, or raise the limit on the size of files"
+    assert told == [f"graphcam: the output '{words[-1]}' cannot be written (File too large); {remedy}"]
+    assert [path.name for path in tmp_path.iterdir()] == ["space.toml"]
+
+
+INTERRUPTED = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+module = sys.argv.pop(1)
+from graphcam.__main__ import main
+main()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends Ctrl-C in another way")
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [
+        ("graphcam.sweeps.sweep_file", ["sweep", "space.toml", "--out", "out.csv"]),
+        ("graphcam.exercises.marking.simulate", ["exercise", "simulate", "pressure-angle"]),
+        ("graphcam.notebooks.notebook_folder", ["notebook", "--out", "out"]),
+    ],
+    ids=["sweep", "simulate", "notebook"],
+)
+def test_ctrl_c_is_one_line_and_status_130_of_every_command(module, words, tmp_path):
+    (tmp_path / "space.toml").write_text(SPACE, encoding="utf-8")
+    ran = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, module, *words], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 130
+    assert [line for line in ran.stderr.splitlines() if not line.endswith("...")] == ["graphcam: interrupted"]
+    assert [path.name for path in tmp_path.iterdir()] == ["space.toml"]
