@@ -56,7 +56,7 @@ def _follows(solution: Solution, table: dict[str, Any]) -> bool:
 
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
-    """The follower, sizes of the cam that are found anew, its spring, and no limits and tolerances that it does not have."""
+    """The follower, sizes of the cam found anew, its spring, no tolerances, and no limits that it does not have."""
     if follower == plain(solution.task.follower):
         return {"follower": follower}
     angles = dict.fromkeys(("limits.pressure_angle_rise", "limits.pressure_angle_return"))
