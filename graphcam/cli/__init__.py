@@ -8,6 +8,7 @@ from typer import Option
 import graphcam
 from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
+from graphcam.cli.size import size
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
 
@@ -45,6 +46,6 @@ def options(
     """
 
 
-for command in (solve, studio, notebook, bench, sweep, init):
+for command in (solve, size, studio, notebook, bench, sweep, init):
     app.command()(command)
 app.add_typer(exercise)

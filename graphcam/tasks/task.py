@@ -23,6 +23,7 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
+from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 
 MOST_DIVISIONS = 1000
@@ -228,6 +229,7 @@ class Task:
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
     material : what the contact stress depends on beside the spring's force; None is no stress
+    sizing : ranges in which ``graphcam size`` seeks the best cam; what is solved is the cam of the other tables
     part : what the workshop must know; None is a part that follows from the cam
 
     Raises
@@ -251,6 +253,7 @@ class Task:
     limits: LimitsTable = field(default_factory=LimitsTable)
     spring: Annotated[SpringTable | ArmSpringTable, ByKeys()] | None = None
     material: MaterialTable | None = None
+    sizing: SizingTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
 
@@ -273,6 +276,29 @@ class Task:
         if self.material is not None and self.spring is None:
             reason = "without a force there is no contact stress"
             raise DesignError("spring", "missing", "given where there is a material", reason)
+        self._check_sizing()
+
+    def _check_sizing(self) -> None:
+        """That ranges come with what is limited in them, and that every size has a range or a value."""
+        if self.sizing is None:
+            return
+        if not isinstance(self.follower, TranslatingTable):
+            left_out = f"left out for a follower of kind {self.follower.kind}"
+            remedy = "sizes are sought for a translating follower with a roller"
+            raise DesignError("sizing", "given", left_out, remedy)
+        if self.material is None or self.material.permitted_stress is None:
+            remedy = "give the stress [MPa] that cam and roller last under, and a [spring]"
+            raise DesignError("material.permitted_stress", "missing", "given where there is a [sizing]", remedy)
+        for name in ("offset", "roller_radius"):
+            if getattr(self.sizing, name) is None and getattr(self.follower, name) is None:
+                remedy = f"or give follower.{name}"
+                raise DesignError(f"sizing.{name}", "missing", "given as a range in mm", remedy)
+        if self.sizing.roller_radius is None and not self.follower.roller_radius:
+            remedy = "a knife edge has no stress that could be kept"
+            raise DesignError("follower.roller_radius", 0.0, "greater than 0 mm where there is a [sizing]", remedy)
+        if not self.limits.rest:
+            remedy = "a range of offsets needs the limit at the low rest"
+            raise DesignError("limits.rest", False, "true where there is a [sizing]", remedy)
 
     def _check_spring(self) -> None:
         if self.spring is None:
