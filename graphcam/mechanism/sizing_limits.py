@@ -34,7 +34,9 @@ RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
     "stress",
 )
 SPREAD = 24
-"""Places on every smooth piece with which the search begins."""
+"""Places on every smooth piece with which the search begins ..."""
+EVERY, FEWEST = 300, 3
+"""... but about so many in all, and so many on every piece, where there are many pieces: the search adds what it needs."""
 NO_UNDERCUT = Candidate("rho", "rho")
 """What every cam must keep: the roller is no larger than the radius of curvature."""
 
@@ -101,7 +103,8 @@ class TurnPlaces:
     def spread(cls, motion: Motion, load: FollowerLoad, finer: int = 1) -> TurnPlaces:
         """Places all over the turn, ``finer`` times as many as usual, both ends of every piece among them."""
         phase, u0, u1 = smooth_pieces(motion)
-        share = (1 - np.cos(np.linspace(0, np.pi, finer * SPREAD))) / 2
+        count = finer * max(FEWEST, min(SPREAD, EVERY // phase.size))
+        share = (1 - np.cos(np.linspace(0, np.pi, count))) / 2
         u = u0[:, None] + (u1 - u0)[:, None] * share
         inside, last = motion.at(phase[:, None], u), motion.at(phase, u1, "left")
         for value, end in zip(inside, last, strict=True):

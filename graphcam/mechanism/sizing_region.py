@@ -10,11 +10,11 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.sizing_limits import TurnPlaces
 from graphcam.mechanism.sizing_problem import SizingProblem
 
-HALVINGS = 30
+HALVINGS = 20
 """The borders are found by halving the range of the radius so often."""
 ROLLERS = 25
 """Rollers that are tried on every cam."""
-FINER = 4
+FINER = 3
 """So many times as many places as the search begins with."""
 ALL = "all limits"
 Across = Literal["offset", "roller radius", "face width"]

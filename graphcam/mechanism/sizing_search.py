@@ -31,6 +31,8 @@ SAME = 1e-13
 """Sizes that differ by less than this part are the same."""
 POLISH = 1e-5
 """The last move of the prime radius is smaller than this part of it."""
+NARROWEST = 1e-9
+"""Narrower than this part of the widest face none is sought."""
 STARTS = 3
 """From the best so many cams of a coarse grid the search starts."""
 GRID = 13, 9, 7
@@ -134,7 +136,7 @@ def _solve(
 
     widest = problem.face_width[1]
     *ranges, _ = problem.ranges.values()
-    low, high = np.array([*ranges, (0.0 if goal == "width" else widest, widest)], dtype=np.float64).T
+    low, high = np.array([*ranges, (NARROWEST * widest if goal == "width" else widest, widest)], dtype=np.float64).T
     free = high > low
     count, room = int(np.count_nonzero(free)), goal == "room"
 

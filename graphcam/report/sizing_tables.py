@@ -46,8 +46,7 @@ def front_table(front: Sequence[SizedCam]) -> Table:
     """The cams of a front: sizes, stress with the widest face, and the least width for the permitted stress."""
     measure = front[0].problem.measure
     header = (
-        sequence([SIZES[measure], say("mm")]),
-        *(sequence([SIZES[name], say("mm")]) for name in ("offset", "roller radius")),
+        *(say("{size}, mm", size=SIZES[name]) for name in (measure, "offset", "roller radius")),
         say("stress, MPa"),
         say("least width, mm"),
     )
