@@ -26,7 +26,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.sizing_limits import Sizes, SizingLimits
 from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProblem
 from graphcam.mechanism.sizing_refusal import refuse
-from graphcam.mechanism.sizing_search import best, exchange, polished
+from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -168,10 +168,10 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     widest = problem.face_width[1]
     smallest = replace(best_cam(problem, "size").sizes, width=widest)
     calmest = best_cam(problem, "stress")
-    front, low = [sized(problem, smallest)], problem.radius[0]
+    front, low, watched = [sized(problem, smallest)], problem.radius[0], Watched(problem)
     for radius in np.linspace(front[0].radius, calmest.radius, count)[1:-1].tolist():
         within = replace(problem, radius=(low, radius))
-        found = best(within, "width", front[-1].sizes)
+        found = best(within, "width", watched, front[-1].sizes)
         # The last cam of the front keeps these limits too.
         front.append(sized(problem, replace(found or front[-1].sizes, width=widest)))
     return _undominated([*front, calmest])
@@ -190,7 +190,7 @@ def _narrowest(problem: SizingProblem, smallest: Sizes) -> Sizes:
     """The least face width at a radius, by the choice of offset and roller."""
     radius = problem.values(smallest)[0]
     widest = problem.face_width[1]
-    fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest)
+    fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest, Watched(problem))
     candidates = [smallest]
     if problem.keeps(found := replace(fixed, width=widest)):
         candidates.append(polished(problem, found))

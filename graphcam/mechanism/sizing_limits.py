@@ -36,7 +36,7 @@ RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
 SPREAD = 24
 """Places on every smooth piece with which the search begins ..."""
 EVERY, FEWEST = 300, 3
-"""... but about so many in all, and so many on every piece, where there are many pieces: the search adds what it needs."""
+"""... but where there are many pieces about so many in all, and so many on each: the search adds what it needs."""
 NO_UNDERCUT = Candidate("rho", "rho")
 """What every cam must keep: the roller is no larger than the radius of curvature."""
 

@@ -89,11 +89,6 @@ class SizingProblem:
         """The prime radius less what is measured [mm]."""
         return roller if self.measure == "base radius" else 0.0
 
-    @property
-    def places(self) -> TurnPlaces:
-        """Places of the turn with which a search begins."""
-        return TurnPlaces.spread(self.motion, self.load)
-
     def stress(self, sizes: Sizes) -> ContactStress:
         """The contact stress of the exact cam."""
         cam = Cam(self.motion, Translating(sizes.offset, sizes.roller), sizes.radius, self.rotation)

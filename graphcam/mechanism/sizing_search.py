@@ -39,19 +39,29 @@ GRID = 13, 9, 7
 """Cams of the coarse grid, by radius, offset and roller radius."""
 
 
-def best(problem: SizingProblem, goal: Goal, first: Sizes | None = None) -> Sizes | None:
+class Watched:
+    """The places of the turn at which limits are constraints; every search adds those that it has found to matter."""
+
+    def __init__(self, problem: SizingProblem) -> None:
+        self.places = TurnPlaces.spread(problem.motion, problem.load)
+
+
+def best(
+    problem: SizingProblem, goal: Goal, watched: Watched | None = None, first: Sizes | None = None
+) -> Sizes | None:
     """The best cam in the ranges that keeps all limits; None where no cam was found that does.
 
-    first : a cam from which the search starts too
+    watched : by searches for the same motion and load before;  first : a cam from which the search starts too
     """
+    watched = watched or Watched(problem)
     low, high = problem.radius
     # A radius that is given is not sought: what keeps the limits best is as good as any.
     sought: Goal = "room" if goal == "radius" and low == high else goal
-    starts = [*([first] if first else []), *_starts(problem, goal)]
-    found = [exchange(problem, sought, start) for start in starts]
+    starts = [first, *_starts(problem, goal)[:1]] if first else _starts(problem, goal)
+    found = [exchange(problem, sought, start, watched) for start in starts]
     kept = [sizes for sizes in found if problem.keeps(_widest(problem, sizes))]
     if not kept and sought != "room":
-        near = exchange(problem, sought, nearest(problem))
+        near = exchange(problem, sought, nearest(problem), watched)
         kept = [near] if problem.keeps(_widest(problem, near)) else []
     if not kept:
         return None
@@ -63,16 +73,19 @@ def best(problem: SizingProblem, goal: Goal, first: Sizes | None = None) -> Size
 def nearest(problem: SizingProblem, names: Collection[str] = LIMITS) -> Sizes:
     """The cam of the ranges, with the widest face, that has most left of the limits of these names, or exceeds them
     least."""
-    found = [exchange(problem, "room", start, names) for start in _starts(problem, "room", names)]
+    watched = Watched(problem)
+    found = [exchange(problem, "room", start, watched, names) for start in _starts(problem, "room", names)]
     return max(found, key=lambda sizes: _least(problem, sizes, names))
 
 
-def exchange(problem: SizingProblem, goal: Goal, start: Sizes, names: Collection[str] = LIMITS) -> Sizes:
+def exchange(
+    problem: SizingProblem, goal: Goal, start: Sizes, watched: Watched, names: Collection[str] = LIMITS
+) -> Sizes:
     """Solve with constraints at places, and add those where the exact extremes exceed a limit, until none does."""
-    sizes, places = start, problem.places
+    sizes = start
     for _ in range(ROUNDS):
         before = sizes
-        sizes, room = _solve(problem, goal, places, sizes, names)
+        sizes, room = _solve(problem, goal, watched.places, sizes, names)
         worst = TurnPlaces.worst(problem.stress(sizes))
         left = problem.margins(worst, sizes)
         chosen = np.any([left[name] < room - KEPT for name in names], axis=0)
@@ -80,7 +93,7 @@ def exchange(problem: SizingProblem, goal: Goal, start: Sizes, names: Collection
         steps = (abs(x - y) for x, y in zip(problem.values(before), problem.values(sizes), strict=True))
         if not chosen.any() or all(step <= SAME * before.radius for step in steps):
             break
-        places = places.joined(worst.where(chosen))
+        watched.places = watched.places.joined(worst.where(chosen))
     return sizes
 
 
@@ -119,7 +132,7 @@ def _starts(problem: SizingProblem, goal: Goal, names: Collection[str] = LIMITS)
     ranges = list(problem.ranges.values())[:3]
     axes = [np.linspace(low, high, n if high > low else 1) for (low, high), n in zip(ranges, GRID, strict=True)]
     radius, offset, roller = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
-    places, widest = problem.places, problem.face_width[1]
+    places, widest = TurnPlaces.spread(problem.motion, problem.load), problem.face_width[1]
     grid = problem.sizes(radius[:, None], offset[:, None], roller[:, None], widest)
     left = problem.margins(places, grid)
     worst = np.min([left[name].min(axis=-1) for name in names], axis=0)

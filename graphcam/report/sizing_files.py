@@ -39,7 +39,7 @@ def write(
         report("laying out the chart")
         files = write_sheet(chart(sizing, language), draft, STEM, SHEETS, "plain", report)
         (draft / FRONT).write_text(_csv(sizing), encoding="utf-8", newline="")
-        files |= {"csv": FRONT, **_write_task(sizing, draft)}
+        files |= {"csv": FRONT, **write_task(sizing, draft)}
         files["json"] = RESULTS
         digests = {path.name: digest(path) for path in sorted(draft.iterdir())}
         document = {**sizing.to_dict(), "files": files, "written": digests}
@@ -69,7 +69,7 @@ def chart(sizing: Sizing, language: str | None = None) -> Drawing:
     )
 
 
-def _write_task(sizing: Sizing, folder: Path) -> dict[str, str]:
+def write_task(sizing: Sizing, folder: Path) -> dict[str, str]:
     """The sized task, and the table of a measured motion beside it."""
     written: dict[str, str] = {}
     for name, text in task_files(sizing.sized_task).items():

@@ -52,7 +52,7 @@ def _follows(solution: Solution, table: dict[str, Any]) -> bool:
 
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
-    """The follower, sizes of the cam that are found anew, and no limits, spring, material or ranges that it does not have."""
+    """The follower, sizes of the cam that are found anew, and no limits, spring, material or ranges that it lacks."""
     if follower == plain(solution.task.follower):
         return {"follower": follower}
     angles = dict.fromkeys(("limits.pressure_angle_rise", "limits.pressure_angle_return"))

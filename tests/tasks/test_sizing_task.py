@@ -136,15 +136,16 @@ def test_the_roller_s_share_of_the_prime_radius_is_kept(tmp_path):
     assert "roller's share of the prime radius" in found.binding
 
 
+@pytest.mark.slow
 def test_a_measured_motion_is_sized_with_its_table(tmp_path):
-    measured = gc.builtin_task("measured")
-    spring = gc.builtin_task("sizing").spring
-    task = replace(measured, speed_rpm=60.0, spring=spring, material=gc.builtin_task("sizing").material)
-    task = replace(task, sizing=SizingTable(prime_radius=(20, 150), roller_radius=10.0))
-    sizing = gc.size_task(task)
-    written = sizing.write(tmp_path)
-    assert written["table"] == "measured.csv"
+    from graphcam.report.sizing_files import write_task
+
+    measured, other = gc.builtin_task("measured"), gc.builtin_task("sizing")
+    task = replace(measured, speed_rpm=60.0, spring=other.spring, material=other.material)
+    sizing = gc.size_task(replace(task, sizing=SizingTable(prime_radius=(26, 29), roller_radius=10.0)))
+    assert write_task(sizing, tmp_path) == {"task": "sized.toml", "table": "measured.csv"}
     assert gc.load_task(tmp_path / "sized.toml").motion.table.rows == measured.motion.table.rows
+    assert "pressure angle on the rise" in sizing.best.binding
 
 
 def test_the_command_tells_the_cam_its_active_limits_and_the_files(tmp_path, monkeypatch):
