@@ -25,7 +25,7 @@ from graphcam.showing import from_above, in_lines
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import SpringTable
-from graphcam.tasks.task import CamTable, Task, TranslatingTable
+from graphcam.tasks.task import CamTable, Task
 
 FINER = 4
 """Where no round sizes keep the limits they are rounded to tenths, hundredths, ... so often."""
@@ -65,14 +65,13 @@ class Sizing:
     @property
     def sized_task(self) -> Task:
         """The task with the adopted sizes in place of the ranges."""
-        follower, material = self.task.follower, self.task.material
-        assert isinstance(follower, TranslatingTable)
+        material, sizes = self.task.material, self.adopted.sizes
         assert material is not None
-        sizes = self.adopted.sizes
+        of_follower = dict(zip(self.task.follower.sought, (sizes.offset, sizes.roller), strict=True))
         return replace(
             self.task,
             cam=CamTable(sizes.radius),
-            follower=replace(follower, offset=sizes.offset, roller_radius=sizes.roller),
+            follower=replace(self.task.follower, **of_follower),
             material=replace(material, width=sizes.width),
             sizing=None,
         )
@@ -209,7 +208,6 @@ def _smallest(problem: SizingProblem, radius: float, offset: float, roller: floa
 def _problem(task: Task, table: SizingTable) -> SizingProblem:
     """What a task asks for."""
     follower, material, spring, speed = task.follower, task.material, task.spring, task.speed_rpm
-    assert isinstance(follower, TranslatingTable)
     assert isinstance(spring, SpringTable)
     assert material is not None
     assert material.permitted_stress is not None
@@ -224,7 +222,7 @@ def _problem(task: Task, table: SizingTable) -> SizingProblem:
         spring.friction,
     )
     measure: Measure = "base radius" if table.prime_radius is None else "prime radius"
-    offset, roller = follower.offset or 0.0, follower.roller_radius or 0.0
+    offset, roller = (getattr(follower, name) or 0.0 for name in follower.sought)
     motion, radius = task.motion(), given[measure.replace(" ", "_")]
     return SizingProblem(
         motion,

@@ -41,6 +41,8 @@ class _FollowerTable:
     """The limits that it does not have, and why."""
     swings: ClassVar[bool] = False
     """Whether a spring turns it about a pivot."""
+    sought: ClassVar[tuple[str, ...]] = ()
+    """The sizes for which ranges may be given; a follower without any is not sized."""
 
     @property
     def lift_unit(self) -> float:
@@ -72,6 +74,7 @@ class TranslatingTable(_FollowerTable):
     roller_radius: float | None = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
+    sought = "offset", "roller_radius"
 
     def __post_init__(self) -> None:
         self()
@@ -282,14 +285,14 @@ class Task:
         """That ranges come with what is limited in them, and that every size has a range or a value."""
         if self.sizing is None:
             return
-        if not isinstance(self.follower, TranslatingTable):
+        if not self.follower.sought:
             left_out = f"left out for a follower of kind {self.follower.kind}"
             remedy = "sizes are sought for a translating follower with a roller"
             raise DesignError("sizing", "given", left_out, remedy)
         if self.material is None or self.material.permitted_stress is None:
             remedy = "give the stress [MPa] that cam and roller last under, and a [spring]"
             raise DesignError("material.permitted_stress", "missing", "given where there is a [sizing]", remedy)
-        for name in ("offset", "roller_radius"):
+        for name in self.follower.sought:
             if getattr(self.sizing, name) is None and getattr(self.follower, name) is None:
                 remedy = f"or give follower.{name}"
                 raise DesignError(f"sizing.{name}", "missing", "given as a range in mm", remedy)

@@ -215,7 +215,9 @@ def stress_of(found: gc.SizedCam, load: gc.SpringLoad) -> float:
     return gc.ContactStress(gc.CamForces(found.cam, load), contact).greatest().value
 
 
-@pytest.mark.parametrize("name", ["angle and stress", "spring", "jumps"])
+@pytest.mark.parametrize(
+    "name", ["angle and stress", *(pytest.param(x, marks=pytest.mark.slow) for x in ("spring", "jumps"))]
+)
 def test_the_least_stress_is_that_of_another_optimiser(name):
     """Differential evolution with penalties on the textbook's formulas at 241 places a phase: no less stress."""
     from scipy.optimize import differential_evolution
@@ -265,6 +267,7 @@ def test_no_cam_of_a_dense_random_sample_dominates_the_front(name, count):
     assert np.min(over[draw[0][kept] >= radii[0]]) < 1.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["angle and stress", "spring"])
 def test_every_cam_of_the_front_has_the_least_stress_of_its_radius(name):
     """An independent search at the radius alone: the best of a grid of offsets and rollers, refined about the best."""

@@ -62,6 +62,7 @@ def test_the_sized_task_is_drawn_and_keeps_what_was_asked(tmp_path):
     assert solution.stress.greatest.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_files_say_the_same(tmp_path):
     sizing = gc.size_task(gc.builtin_task("sizing"), "stress")
     sizing.write(tmp_path)
@@ -111,12 +112,13 @@ def test_where_no_round_sizes_are_in_the_ranges_finer_ones_are_taken(tmp_path):
 def test_a_size_without_a_range_is_the_task_s_and_an_open_preload_the_least(tmp_path):
     text = TEXT.replace("preload = 5000 ", "# preload ").replace("offset = 20 ", "# offset ")
     text = text.replace("base_radius = [60, 120]", "prime_radius = [40, 120]\noffset = [0, 20]\nroller_radius = 12")
+    text = text.replace("speed_rpm = 120", "speed_rpm = 200")
     sizing = sizing_of(text.replace("width = [10, 30]", ""), tmp_path)
     ranges = sizing.best.problem.ranges
     assert ranges == {"prime radius": (40, 120), "offset": (0, 20), "roller radius": (12, 12), "face width": (20, 20)}
     load = sizing.best.problem.load
     assert gc.Contact(sizing.best.problem.motion, load).least_force().value == pytest.approx(0, abs=1e-9)
-    assert load.preload > 100
+    assert load.preload > 50
 
 
 def test_friction_at_the_cam_counts(tmp_path):
@@ -161,6 +163,7 @@ def test_the_command_tells_the_cam_its_active_limits_and_the_files(tmp_path, mon
     assert set(last.removeprefix("sized: ").split(", ")) == FILES == {p.name for p in (tmp_path / "sized").iterdir()}
 
 
+@pytest.mark.slow
 def test_json_alone_writes_no_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = run("--json", "--objective", "stress")
@@ -234,9 +237,8 @@ def test_the_chart_speaks_russian(tmp_path):
 
     task = gc.builtin_task("sizing")
     task = replace(task, title=replace(task.title, name="Кулачок"))
-    for objective in ("size", "stress"):
-        drawing = chart(gc.size_task(task, objective), "ru")
-        texts = [e.text for page in drawing.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
-        assert "лучший" in texts
-        for text in texts:
-            assert english_words(text) == set(), text
+    drawing = chart(gc.size_task(task, "stress"), "ru")
+    texts = [e.text for page in drawing.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
+    assert {"лучший", "Кулачок с наименьшим контактным напряжением"} <= set(texts)
+    for text in texts:
+        assert english_words(text) == set(), text
