@@ -72,6 +72,7 @@ from .mechanism.three_points import circumradius as circumradius
 from .mechanism.undercut import Undercut as Undercut
 from .report.sizing_sheet import sizing_sheet as sizing_sheet
 from .solving.arcs_solution import ArcsSolution as ArcsSolution
+from .solving.sizing_design import Sizing as Sizing, size_task as size_task
 from .solving.solution import Solution as Solution
 from .solving.solve import solve as solve
 from .studio import studio as studio

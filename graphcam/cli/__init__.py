@@ -9,6 +9,7 @@ import graphcam
 from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
 from graphcam.cli.next_steps import show_next_steps
+from graphcam.cli.size import size
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
 
@@ -47,6 +48,6 @@ def options(
         show_next_steps()
 
 
-for command in (solve, studio, notebook, bench, sweep, init):
+for command in (solve, size, studio, notebook, bench, sweep, init):
     app.command()(command)
 app.add_typer(exercise)

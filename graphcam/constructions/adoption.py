@@ -29,6 +29,15 @@ def multiple(count: int, step: float) -> float:
     return count * step if step >= 1 else count / round(1 / step)
 
 
+def usual_rounding(radius: float) -> float:
+    """To multiples of what sizes are rounded where nothing is said: the largest power of ten below r0/10, at most 1 mm.
+
+    >>> usual_rounding(43.28), usual_rounding(4.3)
+    (1.0, 0.1)
+    """
+    return min(1.0, 10.0 ** math.floor(math.log10(radius / 10)))
+
+
 def steps_up(value: float, step: float) -> int:
     """How many steps reach a value: a multiple that was read is not raised.
 

@@ -17,6 +17,7 @@ from graphcam.constructions.adoption import (
     multiple,
     nearest_multiple,
     steps_up,
+    usual_rounding,
 )
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
@@ -212,8 +213,7 @@ class Chain(Drawings):
         """Sizes are adopted in multiples of this [mm]."""
         if self.board.rounding is not None:
             return self.board.rounding
-        size = self.board.prime_radius or self._proposal("prime_radius")
-        return min(1.0, 10.0 ** math.floor(math.log10(size / 10)))
+        return usual_rounding(self.board.prime_radius or self._proposal("prime_radius"))
 
     @cached_property
     def place(self) -> float:

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.laws import Floats
 
 Distribution = Literal["normal", "uniform"]
@@ -112,7 +112,9 @@ class MakingErrors:
         if self.distribution not in PARTS:
             raise DesignError("distribution", self.distribution, "one that is known", nearest(self.distribution, PARTS))
         if not self.reaches:
-            raise DesignError("waviness", "left out", "given where no size has a tolerance", "or give a size one")
+            raise DesignError(
+                "waviness", Unquoted("left out"), "given where no size has a tolerance", "or give a size one"
+            )
 
     @property
     def reaches(self) -> dict[str, float]:

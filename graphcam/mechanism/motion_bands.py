@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import SIZES, MakingErrors, deviations_within, wave_name
 from graphcam.mechanism.cam import Cam
@@ -201,7 +201,9 @@ class MotionBands(Shown):
             off = np.array(made(self.phi[here])) - nominal[:, None, here]
             if np.isnan(off).any():
                 remedy = "take smaller tolerances"
-                raise DesignError("tolerances", "too wide", "such that every follower reaches its cam", remedy)
+                raise DesignError(
+                    "tolerances", Unquoted("too wide"), "such that every follower reaches its cam", remedy
+                )
             found.deviation[:, here] = off.std(axis=1)
             found.low[:, here], found.high[:, here] = np.quantile(off, ends, axis=1)
         return found
@@ -333,7 +335,9 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
         raise DesignError("roller_diameter", errors.roller_diameter, "left out: a knife edge has no roller", remedy)
     least = cam.extremes().min_convex_radius[0]
     if not least > roller:
-        raise DesignError("profile", "undercut", "sound where its errors are asked for", "enlarge the prime radius")
+        raise DesignError(
+            "profile", Unquoted("undercut"), "sound where its errors are asked for", "enlarge the prime radius"
+        )
     waves = [a * n * n for a, n in zip(errors.waviness, errors.harmonics, strict=True)]
     values = cam.motion(band_places(cam))
     room = kin.speed(values, roller)

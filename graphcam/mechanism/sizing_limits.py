@@ -1,8 +1,8 @@
 """What a cam's size must keep, as margins at places of the turn: 0 at the limit, negative beyond it.
 
 Every margin is a smooth function of prime radius, offset, roller radius and face width at a fixed place, and a part of
-its limit: of the tangent of the pressure angle, of the roller's share of the radius of curvature, of the force that
-the permitted stress allows, pi w r (1 - kappa r) p^2/E'.
+its limit: of the tangent of the pressure angle, of the roller's share of the radius of curvature and of the prime
+radius, of the force that the permitted stress allows, pi w r (1 - kappa r) p^2/E'.
 """
 
 from __future__ import annotations
@@ -19,25 +19,41 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.roller_contact import RollerContact
+from graphcam.given.roller_rule import Candidate
 from graphcam.mechanism.hertz import ContactStress
+from graphcam.mechanism.jamming import check_friction
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, places_of, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
 
-LIMITS = ("pressure angle on the rise", "pressure angle on the return", "curvature", "stress")
+RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
+    "pressure angle on the rise",
+    "pressure angle on the return",
+    "curvature",
+    "roller's share of the prime radius",
+    "stress",
+)
 SPREAD = 24
-"""Places on every smooth piece with which the search begins."""
+"""Places on every smooth piece with which the search begins ..."""
+EVERY, FEWEST = 300, 3
+"""... but where there are many pieces about so many in all, and so many on each: the search adds what it needs."""
+NO_UNDERCUT = Candidate("rho", "rho")
+"""What every cam must keep: the roller is no larger than the radius of curvature."""
 
 
 @dataclass(frozen=True)
 class SizingLimits:
-    """Permitted stress [MPa] and pressure angles [rad], None for force closure; the roller's share of the curvature."""
+    """Permitted stress [MPa] and pressure angles [rad], None for force closure; what a roller may be, and friction.
+
+    rule : the terms of a roller rule, all of which the roller keeps;  friction : mu, between cam and follower
+    """
 
     stress: float
     rise: float
     return_: float | None
-    roller_share: float
+    rule: tuple[Candidate, ...]
     contact: RollerContact
+    friction: float = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.stress) and self.stress > 0):
@@ -46,9 +62,17 @@ class SizingLimits:
             if angle is not None and not 0 < angle < math.pi / 2:
                 quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
                 raise DesignError(quantity, Unquoted(f"{math.degrees(angle):g} degrees"), limit)
-        if not 0 < self.roller_share <= 1:
-            quantity = "roller's share of the radius of curvature"
-            raise DesignError(quantity, self.roller_share, "greater than 0, at most 1")
+        check_friction(self.friction)
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """The names of the limits that there are."""
+        without = {RETURN: self.return_ is None, SHARE: all(term.of == "rho" for term in self.rule)}
+        return tuple(name for name in LIMITS if not without.get(name))
+
+    def largest_roller(self, rho: float, prime_radius: float) -> float:
+        """The largest roller [mm] that the rule permits with a least convex radius of curvature and a prime radius."""
+        return min(term(rho, prime_radius) for term in (*self.rule, NO_UNDERCUT))
 
 
 @dataclass(frozen=True)
@@ -79,7 +103,8 @@ class TurnPlaces:
     def spread(cls, motion: Motion, load: FollowerLoad, finer: int = 1) -> TurnPlaces:
         """Places all over the turn, ``finer`` times as many as usual, both ends of every piece among them."""
         phase, u0, u1 = smooth_pieces(motion)
-        share = (1 - np.cos(np.linspace(0, np.pi, finer * SPREAD))) / 2
+        count = finer * max(FEWEST, min(SPREAD, EVERY // phase.size))
+        share = (1 - np.cos(np.linspace(0, np.pi, count))) / 2
         u = u0[:, None] + (u1 - u0)[:, None] * share
         inside, last = motion.at(phase[:, None], u), motion.at(phase, u1, "left")
         for value, end in zip(inside, last, strict=True):
@@ -115,28 +140,68 @@ class TurnPlaces:
         return TurnPlaces(self.direction[chosen], (s, v, a, j), self.load[chosen])
 
 
+@dataclass(frozen=True, eq=False)
+class Bearing:
+    """Cams of some sizes at places of the turn; every array (..., n).
+
+    steepness : |tan alpha|;  kappa : of the pitch curve [1/mm]
+    pressed : the force that a permitted stress must bear [N]: that along the motion over cos alpha
+    borne : what it bears of it, a millimetre of face [N/mm]; negative where the follower jams or undercuts
+    """
+
+    steepness: Floats
+    kappa: Floats
+    pressed: Floats
+    borne: Floats
+
+    @classmethod
+    def of(cls, limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) -> Bearing:
+        """The normal force is Q/(cos alpha - mu sin alpha): both sides of Hertz's formula times 1 - mu tan alpha."""
+        kin = TranslatingKinematics(sigma, sizes.radius, sizes.offset)
+        (along, across), _ = kin.pressure(places.values)
+        kappa, slope = kin.curvature(places.values), across / along
+        flatness = sizes.roller * (1 - kappa * sizes.roller)
+        moved = 1 - kin.leaning * limits.friction * slope
+        borne = math.pi * limits.stress**2 / limits.contact.modulus * flatness * moved
+        # Two negatives would make a strong contact of an undercut one that jams.
+        borne = np.where((flatness > 0) | (moved > 0), borne, -np.abs(borne))
+        return cls(np.abs(slope), kappa, places.load * np.sqrt(1 + slope**2), borne)
+
+    @property
+    def width(self) -> Floats:
+        """The width of the face [mm] at which the stress is the permitted one; infinite where no width bears it."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.borne > 0, np.maximum(self.pressed, 0) / self.borne, np.inf)
+
+
 def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) -> dict[str, Floats]:
     """What is left of every limit at the places, as a part of it; inf where a pressure angle is not limited.
 
     returns : by the names of :data:`LIMITS`, each (..., n)
     """
-    kin = TranslatingKinematics(sigma, sizes.radius, sizes.offset)
-    (along, across), _ = kin.pressure(places.values)
-    kappa, steepness = kin.curvature(places.values), np.abs(across) / along
+    at = Bearing.of(limits, places, sizes, sigma)
 
     def angle(permitted: float | None, direction: int) -> Floats:
         """What is left (..., n) of a permitted pressure angle [rad] where the motion has that direction."""
         if permitted is None:
-            return np.full_like(steepness, np.inf)
-        return np.where(places.direction == direction, 1 - steepness / math.tan(permitted), np.inf)
+            return np.full_like(at.steepness, np.inf)
+        return np.where(places.direction == direction, 1 - at.steepness / math.tan(permitted), np.inf)
 
-    share = kappa * sizes.roller
-    bearable = math.pi * sizes.width * limits.stress**2 / limits.contact.modulus * sizes.roller * (1 - share)
-    normal = places.load * np.sqrt(1 + steepness**2)
-    left = (
-        angle(limits.rise, 1),
-        angle(limits.return_, -1),
-        1 - share / limits.roller_share,
-        (bearable - normal) / places.load.max(),
-    )
-    return dict(zip(LIMITS, left, strict=True))
+    def roller(term: Candidate) -> Floats:
+        """What is left (..., n) of what a term of the rule permits."""
+        if term.of == "rho":
+            return 1 - (sizes.roller + term.margin) * at.kappa / term.factor
+        return np.broadcast_to(1 - sizes.roller / (term.factor * sizes.radius), at.kappa.shape)
+
+    def rule(of: str) -> Floats:
+        """What is left (..., n) of all terms of a kind."""
+        terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == of]
+        return np.minimum.reduce([roller(term) for term in terms]) if terms else np.full_like(at.kappa, np.inf)
+
+    return {
+        RISE: angle(limits.rise, 1),
+        RETURN: angle(limits.return_, -1),
+        CURVATURE: rule("rho"),
+        SHARE: rule("r0"),
+        STRESS: (sizes.width * at.borne - at.pressed) / places.load.max(),
+    }

@@ -1,66 +1,81 @@
-"""The region of cams that keep all limits, over the plane of offset and prime radius."""
+"""The region of cams that keep all limits, over the plane of the radius and another size."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.sizing import SizingProblem
-from graphcam.mechanism.sizing_limits import LIMITS, Sizes, TurnPlaces
+from graphcam.mechanism.sizing_limits import TurnPlaces
+from graphcam.mechanism.sizing_problem import SizingProblem
 
-HALVINGS = 30
-"""The borders are found by halving the range of the prime radius so often."""
+HALVINGS = 20
+"""The borders are found by halving the range of the radius so often."""
 ROLLERS = 25
 """Rollers that are tried on every cam."""
-FINER = 4
+FINER = 3
 """So many times as many places as the search begins with."""
 ALL = "all limits"
+Across = Literal["offset", "roller radius", "face width"]
+"""The size over which a region is drawn."""
 
 
 @dataclass(frozen=True, eq=False)
 class FeasibleRegion:
-    """The least prime radius at every offset, with the widest face and the best roller.
+    """The least radius over another size, with the best roller and the widest face where these are not that size.
 
     It is for a drawing: limits are looked at at places of the turn, and rollers are tried, which leaves about 0.01 mm.
 
-    offset : (n,) mm
-    by_limit : (n,) mm by the names of the limits, each for itself; NaN where no prime radius of the range keeps it
+    across : the other size;  values : of it (n,) [mm]
+    by_limit : (n,) mm by the names of the limits, each for itself; NaN where no radius of the range keeps it
     least : (n,) mm, where all limits are kept together
     """
 
-    offset: Floats
+    across: Across
+    values: Floats
     by_limit: dict[str, Floats]
     least: Floats
 
 
-def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
-    """The borders of the region at ``parts + 1`` offsets of the range.
+def across_of(problem: SizingProblem) -> Across:
+    """The first size that has a range; the offset where all others are given."""
+    names: list[Across] = ["offset", "roller radius", "face width"]
+    open_ = [name for name in names if problem.ranges[name][0] < problem.ranges[name][1]]
+    return open_[0] if open_ else "offset"
 
-    A larger prime radius is taken to be better for every limit, as it is wherever the load does not depend on it.
+
+def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
+    """The borders of the region at ``parts + 1`` values of the size of :func:`across_of`.
+
+    A larger radius is taken to be better for every limit, as it is wherever the load does not depend on it.
     """
-    places = TurnPlaces.spread(problem.motion, problem.load, FINER)
-    offset = np.linspace(*problem.offset, parts + 1)
-    rollers = np.linspace(*problem.roller_radius, ROLLERS)
+    places, across = TurnPlaces.spread(problem.motion, problem.load, FINER), across_of(problem)
+    values = np.linspace(*problem.ranges[across], parts + 1)
+    tried = values[:, None, None]
+    low, high = problem.roller_radius
+    rollers = np.linspace(low, high, ROLLERS if low < high else 1)[:, None]
+    offset = tried if across == "offset" else problem.offset[0]
+    roller = tried if across == "roller radius" else rollers
+    width = tried if across == "face width" else problem.face_width[1]
 
     def left(radius: Floats) -> dict[str, Floats]:
         """Of every limit with the best roller, and of all together."""
-        sizes = Sizes(radius[:, None, None], offset[:, None, None], rollers[:, None], problem.face_width[1])
+        sizes = problem.sizes(radius[:, None, None], offset, roller, width)
         worst = {name: margin.min(axis=-1) for name, margin in problem.margins(places, sizes).items()}
         together = np.minimum.reduce(np.broadcast_arrays(*worst.values()))
         return {name: margin.max(axis=-1) for name, margin in (*worst.items(), (ALL, together))}
 
-    limited = [name for name in LIMITS if problem.limits.return_ is not None or "return" not in name]
-    borders = {name: _border(problem, left, name, parts + 1) for name in limited}
-    return FeasibleRegion(offset, borders, _border(problem, left, ALL, parts + 1))
+    borders = {name: _border(problem, left, name, parts + 1) for name in problem.limits.kept}
+    return FeasibleRegion(across, values, borders, _border(problem, left, ALL, parts + 1))
 
 
 def _border(problem: SizingProblem, left: Callable[[Floats], dict[str, Floats]], name: str, count: int) -> Floats:
-    """The least prime radius of the range that keeps a limit, by halving; NaN where none does."""
-    low, high = (np.full(count, end, dtype=np.float64) for end in problem.prime_radius)
+    """The least radius of the range that keeps a limit, by halving; NaN where none does."""
+    low, high = (np.full(count, end, dtype=np.float64) for end in problem.radius)
     none, kept_at_once = left(high)[name] < 0, left(low)[name] >= 0
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         kept = left(middle)[name] >= 0
         low, high = np.where(kept, low, middle), np.where(kept, middle, high)
-    return np.where(none, np.nan, np.where(kept_at_once, problem.prime_radius[0], high))
+    return np.where(none, np.nan, np.where(kept_at_once, problem.radius[0], high))

@@ -104,14 +104,14 @@ def write(
     wanted = _wanted(files, finished=finished, working_drawing=working_drawing)
     written: dict[str, str | None] = dict.fromkeys(FILES)
     contents = contents_of(solution)
-    with whole_folder(directory, _written_before(Path(directory))) as folder:
+    with whole_folder(directory, written_before(Path(directory), SOLUTION)) as folder:
         sheets = [kind for kind in SHEETS if kind in wanted]
         drawing = None
         if sheets:
             report("laying out the sheet")
             drawing = drawing_of(contents, upto, per_construction=per_construction)
             _warn_of_boxes(drawing)
-            written |= _write_sheet(drawing, folder, "sheet" if finished else "worksheet", sheets, dxf, report)
+            written |= write_sheet(drawing, folder, "sheet" if finished else "worksheet", sheets, dxf, report)
         if "player" in wanted:
             report("writing the step player")
             whole = drawing_of(contents) if drawing is None or per_construction else drawing
@@ -161,10 +161,10 @@ def _write_list(
     (folder / SOLUTION).write_text(text + "\n", encoding="utf-8")
 
 
-def _written_before(folder: Path) -> dict[str, str]:
-    """The files that the run before wrote into a folder, with their digests; none where no run has said so."""
+def written_before(folder: Path, names: str) -> dict[str, str]:
+    """The files that the run before wrote into a folder, with their digests; none where no file of a name says so."""
     try:
-        document = json.loads((folder / SOLUTION).read_bytes())
+        document = json.loads((folder / names).read_bytes())
         return {str(name): str(known) for name, known in document["written"].items()}
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
         return {}
@@ -172,7 +172,7 @@ def _written_before(folder: Path) -> dict[str, str]:
 
 def written_files(folder: Path | str) -> list[str]:
     """All files that the last run wrote into a folder, ``solution.json`` too; none where there was no run."""
-    names = [*_written_before(Path(folder))]
+    names = [*written_before(Path(folder), SOLUTION)]
     return [*names, SOLUTION] if names else names
 
 
@@ -222,7 +222,7 @@ def _write_cutting(
     return write_cutting(part or PartContents(solution), folder, wanted)
 
 
-def _write_sheet(
+def write_sheet(
     drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[str], None]
 ) -> dict[str, str]:
     """The drawing in every format that is wanted, its files named after the stem."""
@@ -252,7 +252,7 @@ def _write_part(part: PartContents, folder: Path, report: Callable[[str], None])
     from graphcam.workshop.working_drawing import working_drawing_of
 
     report("laying out the working drawing")
-    written = _write_sheet(working_drawing_of(part), folder, "working-drawing", PART, "cad", report)
+    written = write_sheet(working_drawing_of(part), folder, "working-drawing", PART, "cad", report)
     return {f"working_drawing_{kind}": name for kind, name in written.items()}
 
 

@@ -1,156 +1,201 @@
-"""The sheet of a sized cam: the region of permitted cams over offset and prime radius, and the cam that was found."""
+"""The sheet of a sized cam: the region of permitted cams, the best cam, and the front of radius and stress."""
 
-import math
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Step, View, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Region, Role, Segments
-from graphcam.given.laws import Floats
+from graphcam.drafting.marks import Dots, Label, Line, Mark, Region, Role
 from graphcam.language import ENGLISH, language as language_of
 from graphcam.mechanism.sizing import SizedCam
-from graphcam.mechanism.sizing_region import FeasibleRegion, feasible_region
+from graphcam.mechanism.sizing_limits import STRESS
+from graphcam.mechanism.sizing_region import Across, FeasibleRegion, feasible_region
+from graphcam.report.sizing_axes import ChartAxes, Span, round_values
+from graphcam.report.sizing_tables import BINDING, FRONT, SIZES, SMALLEST, cam_table, front_table
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Caption, sequence
 
-REGION = View("sizing", say("Permitted cams, prime radius r₀ over offset e"), across="sizing e", up="sizing r0")
-TITLE = say("The smallest cam")
-SIZES = {"A1": 600 + 480j, "A2": 340 + 275j, "A3": 195 + 150j, "A4": 115 + 90j}
-"""Width and height of the region by format [mm of paper]; its axes have scales of their own."""
-TICKS = 6
-"""Parts of an axis with numbers, at most."""
+CHARTS = {"A1": 280 + 230j, "A2": 185 + 150j, "A3": 125 + 105j, "A4": 100 + 80j}
+"""Width and height of a chart by format [mm of paper]; its axes have scales of their own."""
 MARGIN = 0.05
 """An axis is at least this part of the greatest radius long, so that a range of one size has an axis too."""
-BINDING: Mapping[str, Caption] = {
-    str(words): words
-    for words in (
-        *(say("pressure angle on the rise"), say("pressure angle on the return"), say("curvature"), say("stress")),
-        *(say("minimum prime radius"), say("maximum prime radius"), say("minimum offset"), say("maximum offset")),
-        *(say("minimum roller radius"), say("maximum roller radius")),
-        *(say("minimum face width"), say("maximum face width")),
-    )
+ABOVE = say(
+    "Above its line a limit is kept, whatever the others: with the roller that suits it best and with the widest face, "
+    "where roller or face are not what the axis shows. Lines that hold the best cam back are drawn in the accent."
+)
+OVER = say(
+    "Over all lines the cams are permitted. The best one: {measure} {radius:.3f} mm, {across} {value:.3f} mm. Active "
+    "there: {active}."
+)
+EVERY = say(
+    "Every point is a cam with the widest face that none beats in both: a smaller one has more stress, and one of less "
+    "stress is larger. The stress falls as the root of the width grows, so a cam below the level line may have a "
+    "narrower face."
+)
+BEST = say("{stress:.0f} MPa, face {width:.1f} mm")
+AXES: dict[Across, Caption] = {
+    "offset": say("e, mm"),
+    "roller radius": say("roller radius, mm"),
+    "face width": say("face width, mm"),
 }
-"""What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
+RADII = {"prime radius": say("r₀, mm"), "base radius": say("base radius, mm")}
+OVER_WHAT: dict[Across, Caption] = {
+    "offset": say("Permitted cams, {radius} over the offset e"),
+    "roller radius": say("Permitted cams, {radius} over the roller radius"),
+    "face width": say("Permitted cams, {radius} over the face width"),
+}
 
 
-def sizing_sheet(sized: SizedCam, paper: str = "A3", frame: str = "iso", language: str = ENGLISH.name) -> Drawing:
+def sizing_sheet(
+    sized: SizedCam,
+    paper: str = "A3",
+    frame: str = "iso",
+    language: str = ENGLISH.name,
+    *,
+    front: Sequence[SizedCam] = (),
+    adopted: SizedCam | None = None,
+    title: Caption = SMALLEST,
+    block: TitleBlock | None = None,
+    orientation: str | None = None,
+) -> Drawing:
     """A sheet with the permitted region and the values of the cam, for the writers of :mod:`graphcam.sheets`.
 
-    paper : "A1" to "A4"; frame : "gost" or "iso"; language : "en" or "ru"
+    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"; language : "en" or "ru"
+    front : cams of :func:`~graphcam.mechanism.sizing.pareto_front`, drawn in a chart of their own
+    adopted : the cam of round sizes, told beside the best;  title : of the table;  block : the title block
 
     Raises
     ------
     DesignError : there is no such format, frame or language
     """
-    tell, size = language_of(language).text, SIZES[Format(paper, frame).name]
-    steps = [("sizing", step) for step in _steps(sized, feasible_region(sized.problem), size)]
-    return compose(steps, [_table(sized)], TitleBlock(name=tell(TITLE)), paper, frame, tell=tell)
+    tell, size = language_of(language).text, CHARTS[Format(paper, frame).name]
+    chart = _Chart.of(sized, feasible_region(sized.problem), size)
+    steps = [*chart.steps(title), *([_front_step(sized, front, size)] if len(front) > 1 else [])]
+    tables = [cam_table(sized, adopted, title), *([front_table(front)] if len(front) > 1 else [])]
+    named = [("sizing", step) for step in steps]
+    return compose(named, tables, block or TitleBlock(name=tell(title)), paper, frame, (), orientation, tell)
 
 
-ABOVE = say(
-    "Above its line each limit is satisfied: the pressure angle, the roller's share of the radius of curvature "
-    "with the smallest roller, and the stress with the widest face and the best roller."
-)
-OVER = say(
-    "Above all lines the cams are permitted. The minimum prime radius is r₀ = {r0:.3f} mm at e = {e:.3f} mm; "
-    "active there: {binding}."
-)
+@dataclass(frozen=True, eq=False)
+class _Chart:
+    """The region, on axes of the radius and another size."""
+
+    sized: SizedCam
+    region: FeasibleRegion
+    axes: ChartAxes
+
+    @classmethod
+    def of(cls, sized: SizedCam, region: FeasibleRegion, size: complex) -> "_Chart":
+        """On axes as long as the ranges."""
+        problem = sized.problem
+        across, radii = problem.ranges[region.across], problem.radius
+        spans = _long(across, radii[1]), _long(radii, radii[1])
+        return cls(sized, region, ChartAxes(size, *spans, (AXES[region.across], RADII[problem.measure])))
+
+    def steps(self, title: Caption) -> list[Step]:
+        """The limits, and the best cam among them."""
+        problem, across = self.sized.problem, self.region.across
+        radius = SIZES[problem.measure]
+        view = View(
+            "sizing", OVER_WHAT[across].where(radius=radius), across=f"sizing {across}", up=f"sizing {problem.measure}"
+        )
+        values = {
+            "measure": radius,
+            "radius": self.sized.radius,
+            "across": SIZES[across],
+            "value": self._value,
+            "active": sequence([BINDING[name] for name in self.sized.active]),
+        }
+        return [
+            Step(say("The limits"), ABOVE, view, (*self.axes.marks(), *self._limits())),
+            Step(title, OVER.where(**values), view, self._best()),
+        ]
+
+    @property
+    def _value(self) -> float:
+        """Of the best cam, of the size on the axis [mm]."""
+        return (
+            dict(zip(self.sized.problem.ranges, self.sized.problem.values(self.sized.sizes), strict=True))[
+                self.region.across
+            ]
+            + 0.0
+        )
+
+    def _limits(self) -> tuple[Mark, ...]:
+        """The line of every limit, with its name, and the ends of the ranges that bind."""
+        marks: list[Mark] = []
+        for name, radius in self.region.by_limit.items():
+            line = self.axes.place(self.region.values, radius)[~np.isnan(radius)]
+            # A limit that the least radius of the range keeps everywhere has no line in the chart.
+            if line.size > 1 and np.nanmax(radius) > self.axes.up[0]:
+                marks += [
+                    Line(line, Role.LIMIT if name in self.sized.active else Role.CURVE),
+                    Label(complex(line[line.size // 2]), BINDING[name], towards=UP),
+                ]
+        return (*marks, *self._ends())
+
+    def _ends(self) -> tuple[Mark, ...]:
+        (x0, x1), (y0, y1) = self.axes.across, self.axes.up
+        across, radius = self.region.across, self.sized.problem.measure
+        ends = {
+            f"minimum {across}": ((x0, y0), (x0, y1)),
+            f"maximum {across}": ((x1, y0), (x1, y1)),
+            f"minimum {radius}": ((x0, y0), (x1, y0)),
+            f"maximum {radius}": ((x0, y1), (x1, y1)),
+        }
+        lines = {name: self.axes.place(*np.array(corners, dtype=np.float64).T) for name, corners in ends.items()}
+        return tuple(Line(line, Role.LIMIT) for name, line in lines.items() if name in self.sized.active)
+
+    def _best(self) -> tuple[Mark, ...]:
+        region, place = self.region, self.axes.place
+        kept = ~np.isnan(region.least)
+        border, top = place(region.values[kept], region.least[kept]), place(region.values[kept], self.axes.up[1])
+        found = complex(place(self._value, self.sized.radius))
+        return (
+            *([Region(np.concatenate([border, top[::-1]]))] if border.size > 1 else []),
+            Dots(np.array([found]), Role.RESULT),
+            Label(found, say("{radius:.2f} mm", radius=self.sized.radius), towards=1 - 1j),
+        )
 
 
-def _steps(sized: SizedCam, region: FeasibleRegion, size: complex) -> list[Step]:
-    (e0, e1), (r0, r1) = sized.problem.offset, sized.problem.prime_radius
-    span, rise = max(e1 - e0, MARGIN * r1), max(r1 - r0, MARGIN * r1)
-
-    def place(e: Floats | float, radius: Floats | float) -> Points:
-        """Places on paper [mm] of an offset and a prime radius [mm]."""
-        across, up = (np.asarray(e) - e0) / span, (np.asarray(radius) - r0) / rise
-        return np.asarray(across * size.real + UP * up * size.imag)
-
-    kept = ~np.isnan(region.least)
-    border, top = place(region.offset[kept], region.least[kept]), place(region.offset[kept], r1)
-    lines = {name: place(region.offset, radius)[~np.isnan(radius)] for name, radius in region.by_limit.items()}
-    drawn = [(name, line) for name, line in lines.items() if line.size]
-    limits = (
-        *_axes(size, (e0, e0 + span), (r0, r0 + rise)),
-        *(Line(line, Role.CURVE) for _, line in drawn if line.size > 1),
-        *(Label(complex(line[line.size // 2]), BINDING[name], towards=UP) for name, line in drawn),
-    )
-    found, least = complex(place(sized.offset, sized.cam.prime_radius)), sized.cam.prime_radius
-    smallest = (
-        *([Region(np.concatenate([border, top[::-1]]))] if border.size > 1 else []),
-        Dots(np.array([found]), Role.RESULT),
-        Label(found, say("r₀ = {r0:.2f}", r0=least), towards=1 - 1j),
-    )
-    binding = sequence([BINDING[name] for name in sized.binding])
-    return [
-        Step(say("The limits"), ABOVE, REGION, limits),
-        Step(TITLE, replace(OVER, values={"r0": least, "e": sized.offset, "binding": binding}), REGION, smallest),
-    ]
-
-
-def _axes(size: complex, offsets: tuple[float, float], radii: tuple[float, float]) -> tuple[Mark, ...]:
-    across, up = size.real + 0j, size.imag * UP
-    beyond = 8.0
-    return (
-        Arrow(0j, across + beyond, Role.SCALE),
-        Arrow(0j, up + beyond * UP, Role.SCALE),
-        *_ticks(across, offsets, -UP),
-        *_ticks(up, radii, -1 + 0j),
-        Label(across + beyond, say("e, mm"), towards=1 - 1j),
-        Label(up + beyond * UP, say("r₀, mm"), towards=-1 + 0j),
-    )
-
-
-def _ticks(end: complex, span: tuple[float, float], outwards: complex) -> tuple[Mark, ...]:
-    """Short strokes with round numbers along an axis from the origin."""
-    from matplotlib.ticker import MaxNLocator
-
+def _long(span: Span, greatest: float) -> Span:
+    """A span with a length, even of one size."""
     low, high = span
-    round_ = np.asarray(MaxNLocator(TICKS, steps=[1, 2, 5, 10]).tick_values(low, high))
-    # With the slack of a rounding at either end.
-    values = round_[(round_ >= low - 1e-9 * (high - low)) & (round_ <= high + 1e-9 * (high - low))]
-    at = (values - low) / (high - low) * end
-    labels = (
-        Label(complex(x), say("{value:g}", value=float(value)), outwards, small=True)
-        for x, value in zip(at, values, strict=True)
+    return low, max(high, low + MARGIN * greatest)
+
+
+def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> Step:
+    """The stress of the cams of a front over their radius."""
+    problem = sized.problem
+    radii, stresses = np.array([(cam.radius, cam.stress) for cam in front]).T
+    low, high = stresses.min(), max(stresses.max(), sized.stress)
+    round_ = round_values(low, high + 1e-6)
+    step = round_[1] - round_[0] if round_.size > 1 else high - low
+    axes = ChartAxes(
+        size,
+        _long(problem.radius, problem.radius[1]),
+        (float(np.floor(low / step) * step), float(np.ceil(high / step - 1e-6) * step)),
+        (RADII[problem.measure], say("stress, MPa")),
     )
-    return (Segments(at, at + 1.5 * outwards, Role.SCALE), *labels)
-
-
-def _table(sized: SizedCam) -> Table:
-    """Sizes and limits with what is permitted; a star where that binds."""
-    problem, limits = sized.problem, sized.problem.limits
-    ranges = (
-        (say("prime radius"), sized.cam.prime_radius, problem.prime_radius),
-        (say("offset"), sized.offset, problem.offset),
-        (say("roller radius"), sized.cam.roller_radius, problem.roller_radius),
-        (say("face width"), sized.face_width, problem.face_width),
-    )
-    rows = [
-        (str(name), name, _length(value), say("{low:g} to {high:g}", low=low, high=high))
-        for name, value, (low, high) in ranges
+    marks: list[Mark] = [*axes.marks()]
+    if axes.up[0] <= problem.limits.stress <= axes.up[1]:
+        level = axes.place(np.array(axes.across), problem.limits.stress)
+        role = Role.LIMIT if STRESS in sized.active else Role.CURVE
+        marks += [Line(level, role), Label(complex(level[1]), say("permitted"), towards=-1 + 1j)]
+    points = axes.place(radii, stresses)
+    found = complex(axes.place(sized.radius, sized.stress))
+    marks += [
+        Line(points, Role.CURVE),
+        Dots(points),
+        Dots(np.array([found]), Role.RESULT),
+        Label(complex(points[points.size // 2]), say("face {width:g} mm", width=problem.face_width[1]), towards=1 + 1j),
+        Label(found, BEST.where(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
     ]
-    angle, permitted = math.degrees(sized.max_pressure_angle), math.degrees(max(limits.rise, limits.return_ or 0.0))
-    rho, least = sized.min_convex_radius, sized.cam.roller_radius / limits.roller_share
-    stress, allowed = say("{stress:.1f} MPa", stress=sized.stress), say("{stress:g}", stress=limits.stress)
-    rows += [
-        ("pressure angle", say("pressure angle"), say("{angle:.2f}°", angle=angle), say("{angle:g}°", angle=permitted)),
-        ("curvature", say("minimum radius of curvature"), _length(rho), say("{length:.3f}", length=least)),
-        ("stress", say("contact stress"), stress, allowed),
-    ]
-    starred = [
-        (name, value, sequence([limit, "*"], " ") if any(word in binding for binding in sized.binding) else limit)
-        for word, name, value, limit in rows
-    ]
-    return Table(TITLE, (say("size"), say("value"), say("permitted, * active limit")), tuple(starred))
-
-
-def _length(value: float) -> Caption:
-    return say("{length:.3f} mm", length=value)
+    title = say("Stress over {radius}", radius=SIZES[problem.measure])
+    view = View("front", title, across="front radius", up="front stress")
+    return Step(FRONT, EVERY, view, tuple(marks))

@@ -56,12 +56,13 @@ def _follows(solution: Solution, table: dict[str, Any]) -> bool:
 
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
-    """The follower, sizes of the cam found anew, its spring, no tolerances, and no limits that it does not have."""
+    """The follower, sizes of the cam found anew, its spring, and no limits, ranges or tolerances that it lacks."""
     if follower == plain(solution.task.follower):
         return {"follower": follower}
     angles = dict.fromkeys(("limits.pressure_angle_rise", "limits.pressure_angle_return"))
     other: dict[str, Any] = {"follower": follower, "cam.prime_radius": None, **angles}
-    return other | {"limits.min_curvature_radius": None, "tolerances": None, **_spring(solution, follower)}
+    fixed = {"limits.min_curvature_radius": None, "tolerances": None, "sizing": None}
+    return other | fixed | _spring(solution, follower)
 
 
 def _spring(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
+from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
 
@@ -41,6 +42,8 @@ class _FollowerTable:
     """The limits that it does not have, and why."""
     swings: ClassVar[bool] = False
     """Whether a spring turns it about a pivot."""
+    sought: ClassVar[tuple[str, ...]] = ()
+    """The sizes for which ranges may be given; a follower without any is not sized."""
     made_to: ClassVar[tuple[str, ...]] = ("roller_diameter", "offset")
     """The sizes that may have a tolerance."""
 
@@ -79,6 +82,7 @@ class TranslatingTable(_FollowerTable):
     roller_radius: float | None = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
+    sought = "offset", "roller_radius"
 
     def __post_init__(self) -> None:
         self()
@@ -241,6 +245,7 @@ class Task:
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
     material : what the contact stress depends on beside the spring's force; None is no stress
     tolerances : how far profile and sizes may be off as they are made; None tells nothing of it
+    sizing : ranges in which ``graphcam size`` seeks the best cam; what is solved is the cam of the other tables
     part : what the workshop must know; None is a part that follows from the cam
 
     Raises
@@ -265,6 +270,7 @@ class Task:
     spring: Annotated[SpringTable | ArmSpringTable, ByKeys()] | None = None
     material: MaterialTable | None = None
     tolerances: TolerancesTable | None = None
+    sizing: SizingTable | None = None
     drawing: DrawingTable = field(default_factory=DrawingTable)
     part: PartTable | None = None
 
@@ -289,6 +295,31 @@ class Task:
         if self.material is not None and self.spring is None:
             reason = "without a force there is no contact stress"
             raise DesignError("spring", Unquoted("missing"), "given where there is a material", reason)
+        self._check_sizing()
+
+    def _check_sizing(self) -> None:
+        """That ranges come with what is limited in them, and that every size has a range or a value."""
+        if self.sizing is None:
+            return
+        if not self.follower.sought:
+            left_out = f"left out for a follower of kind {self.follower.kind}"
+            remedy = "sizes are sought for a translating follower with a roller"
+            raise DesignError("sizing", Unquoted("given"), left_out, remedy)
+        if self.material is None or self.material.permitted_stress is None:
+            remedy = "give the stress [MPa] that cam and roller last under, and a [spring]"
+            raise DesignError(
+                "material.permitted_stress", Unquoted("missing"), "given where there is a [sizing]", remedy
+            )
+        for name in self.follower.sought:
+            if getattr(self.sizing, name) is None and getattr(self.follower, name) is None:
+                remedy = f"or give follower.{name}"
+                raise DesignError(f"sizing.{name}", Unquoted("missing"), "given as a range in mm", remedy)
+        if self.sizing.roller_radius is None and not self.follower.roller_radius:
+            remedy = "a knife edge has no stress that could be kept"
+            raise DesignError("follower.roller_radius", 0.0, "greater than 0 mm where there is a [sizing]", remedy)
+        if not self.limits.rest:
+            remedy = "a range of offsets needs the limit at the low rest"
+            raise DesignError("limits.rest", False, "true where there is a [sizing]", remedy)
 
     def _check_spring(self) -> None:
         if self.spring is None:

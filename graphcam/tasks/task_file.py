@@ -26,12 +26,15 @@ from graphcam.tasks.dataclass_reader import (
 )
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
+from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
+SIZING = "sizing"
+"""The name of the task with a table ``[sizing]`` that comes with graphcam."""
 EXAMPLE = "'graphcam init FILE' writes a commented example"
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
@@ -55,6 +58,7 @@ _CLASSES: Classes = {
     ("spring", "at"): spring_tables.ArmSpringPlace,
     ("material",): MaterialTable,
     ("tolerances",): TolerancesTable,
+    ("sizing",): SizingTable,
     ("drawing",): tables.DrawingTable,
     ("part",): PartTable,
 }
@@ -156,14 +160,15 @@ def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
 
 
 def builtin_task(name: str = "coursework") -> Task:
-    """A task that comes with graphcam, by its name in :data:`BUILT_IN`.
+    """A task that comes with graphcam, by its name in :data:`BUILT_IN`; "sizing" is one more, with ranges of sizes.
 
     >>> import graphcam as gc
     >>> gc.builtin_task().follower().offset
     -10.0
     """
-    if name not in BUILT_IN:
-        raise DesignError("built-in task", name, "one of " + ", ".join(BUILT_IN), nearest(name, BUILT_IN))
+    known = (*BUILT_IN, SIZING)
+    if name not in known:
+        raise DesignError("built-in task", name, "one of " + ", ".join(known), nearest(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -187,7 +192,7 @@ def builtin_text(name: str) -> str:
     >>> 'rotation = "cw"' in builtin_text("coursework")
     True
     """
-    known = (*BUILT_IN, "arcs")
+    known = (*BUILT_IN, SIZING, "arcs")
     if name not in known:
         raise DesignError("built-in task", name, "one of " + ", ".join(known), nearest(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")

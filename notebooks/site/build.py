@@ -37,6 +37,7 @@ GALLERY = {
     "flat": "A flat-faced follower.",
     "measured": "A motion given as a measured table.",
     "arcs": "A cam of three circular arcs.",
+    "sizing": "The smallest cam within ranges and limits, by graphcam size.",
 }
 """The built-in tasks, and what is seen on their sheets."""
 SHEET_DPI = 60
@@ -121,6 +122,7 @@ def write_studio(source: Path, out: Path, pyodide: Path) -> None:
 def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
     """The page of sheets, and their pictures."""
     from graphcam.report.documents import sheet_of
+    from graphcam.report.sizing_files import chart
     from graphcam.sheets.matplotlib_renderer import write_png
     from graphcam.solving.solve import solve
 
@@ -129,7 +131,9 @@ def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
         page += [f"## {caption.rstrip('.')}", f"Task: `graphcam/data/tasks/{name}.toml`"]
         if name in drawn:
             task = gc.builtin_arcs_task() if name == "arcs" else gc.builtin_task(name)
-            for number, sheet in enumerate(sheet_of(solve(task)).pages, 1):
+            # A task with ranges is sized, and its sheet is the chart.
+            drawing = chart(gc.size_task(task)) if name == "sizing" else sheet_of(solve(task))
+            for number, sheet in enumerate(drawing.pages, 1):
                 picture = folder / (f"{name}.png" if number == 1 else f"{name}-{number}.png")
                 write_png(sheet, picture, SHEET_DPI)
                 # Thin lines in a few colours: a palette says them in a third of the bytes.

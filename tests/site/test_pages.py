@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import io
 import math
 import os
@@ -17,6 +18,7 @@ from babel.messages.pofile import read_po, write_po
 from mpmath import mp, mpf
 from pages import BLOCK, HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_of
 
+import graphcam as gc
 from graphcam.given import laws
 from graphcam.mechanism.least_radius_translating import steepest_tangent
 from graphcam.sweeps.dataset import parts_of
@@ -366,6 +368,18 @@ def test_what_a_sweep_takes_follows_from_what_a_design_takes():
         for told, each in ((size, most), (size_feasible, few)):
             assert told == each
         assert {cell.split()[1] for cell in cells if " " in cell} == {"GB" if unit == 1 else "TB"}
+
+
+def test_the_sized_cam_of_the_page_is_held_back_by_both_limits_and_its_message_is_the_real_one(tmp_path):
+    page = "how-to/size-a-cam.md"
+    active, first, *_, last = followed(page, tmp_path).splitlines()
+    assert {"pressure angle on the rise", "stress"} < set(ast.literal_eval(active))
+    assert (first, last[:8]) == ("41.6 mm, 1500 MPa, or a face of 30.0 mm", "90.0 mm,")
+    narrow = files(page)["cam.toml"].replace("[30, 90]", "[30, 40.5]")
+    (tmp_path / "narrow.toml").write_text(narrow, encoding="utf-8")
+    with pytest.raises(gc.DesignError) as error:
+        gc.size_task(gc.load_task(tmp_path / "narrow.toml"))
+    assert " ".join(f"graphcam: {error.value}".split()) in " ".join(text_of(page).split())
 
 
 def test_the_stress_of_the_page_is_permitted_and_the_elements_agree(tmp_path):

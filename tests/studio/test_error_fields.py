@@ -37,7 +37,10 @@ NOT_REACHED = {
     "parts": "the contact by finite elements stands in Python only",
     "contact force": "Hertzian stress is worked out in Python only",
     "permitted stress": "sizing stands in Python and in exercises only",
-    "smallest cam": "sizing stands in Python and in exercises only",
+    **dict.fromkeys(
+        ("prime_radius and base_radius", "prime_radius", "base_radius", "objective", "sizing", "sizing.*"),
+        "ranges stand in files and in Python: the form keeps them",
+    ),
     "minimum contact force": "sizing stands in Python and in exercises only",
     "range of the *": "sizing stands in Python and in exercises only",
     "damping": "elastic followers stand in Python only",

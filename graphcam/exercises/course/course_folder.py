@@ -131,7 +131,7 @@ class AnswerKeys:
         path = self.folder / SECRET if given is None else given
         if given is None and not path.is_file():
             remedy = "name the file that the course was made with, by --secret-file, or put a copy of it there"
-            raise TaskError(str(path), "the course's secret", "missing", "in the teacher's folder", remedy)
+            raise TaskError(str(path), "the course's secret", Unquoted("missing"), "in the teacher's folder", remedy)
         return path
 
     def secret(self, given: Path | None) -> bytes:

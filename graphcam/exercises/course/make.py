@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import get_args
 
-from graphcam.errors import TaskError, installed
+from graphcam.errors import TaskError, Unquoted, installed
 from graphcam.exercises.course.course_folder import (
     PRINTED,
     ROSTER,
@@ -122,7 +122,7 @@ def _given_secret(path: str | Path) -> bytes:
     """The secret in a file that is named, which must be there: another course's variants may depend on it."""
     if not Path(path).exists():
         remedy = "check the name, or leave out --secret-file: a new secret is made then"
-        raise TaskError(str(path), "the course's secret", "missing", "a file that is there", remedy)
+        raise TaskError(str(path), "the course's secret", Unquoted("missing"), "a file that is there", remedy)
     return read_secret(path)
 
 

@@ -1,0 +1,86 @@
+"""``graphcam size``."""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from typer import Argument, Option
+
+import graphcam
+from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_lines, warnings_told
+from graphcam.language import languages
+
+if TYPE_CHECKING:
+    from graphcam.solving.sizing_design import Sizing
+
+FOLDER = DEFAULT_FOLDER / "size"
+IN_FOLDER = f"Folder for the files, {FOLDER} if left out."
+JSON_ALONE = "Print the result as JSON alone; write files only with --out."
+BEST = "size: the smallest cam; stress: that of the least contact stress.  Left out: what the task says."
+OTHER_LANGUAGE = f"Language of the chart, not the task's: {', '.join(languages())}."
+
+
+class Objective(StrEnum):
+    """What best means."""
+
+    SIZE = "size"
+    STRESS = "stress"
+
+
+def size(
+    task: Annotated[
+        Path | None,
+        Argument(parser=named, metavar="TASK.toml", help="Task file with a table \\[sizing]; without it an example."),
+    ] = None,
+    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=IN_FOLDER)] = None,
+    as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
+    objective: Annotated[Objective | None, Option(help=BEST)] = None,
+    language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
+) -> None:
+    """Find the best cam within ranges of its sizes: chart of the permitted cams, radius against stress, a sized task.
+
+    The ranges stand in the task's table \\[sizing], what is permitted in \\[limits], \\[follower] and \\[material].
+
+    [bold]Examples[/bold]
+
+    graphcam size
+
+    graphcam size cam.toml --out sized
+
+    graphcam size cam.toml --objective stress
+
+    graphcam solve sized/sized.toml   (draw the cam that was found)
+    """
+    progress = progress_lines(quiet=as_json)
+    folder = FOLDER if out is None and not as_json else out
+    with one_message(), warnings_told():
+        given = graphcam.builtin_task("sizing") if task is None else graphcam.load_task(task)
+        progress("searching the ranges")
+        sizing = graphcam.size_task(given, None if objective is None else objective.value)
+        document = sizing.to_dict()
+        if folder is not None:
+            document["files"] = sizing.write(folder, language, progress)
+    if as_json:
+        typer.echo(json.dumps(document, indent=2, allow_nan=False))
+        return
+    _print(sizing)
+    typer.echo(f"{folder}: " + ", ".join(document["files"].values()))
+
+
+def _print(sizing: Sizing) -> None:
+    """The best cam with what binds it, and the front."""
+    from graphcam.report.sizing_tables import TITLES, cam_table, front_table
+
+    title = TITLES[sizing.objective]
+    tables = [cam_table(sizing.best, sizing.adopted, title)]
+    tables += [front_table(sizing.front)] if len(sizing.front) > 1 else []
+    for table in tables:
+        rows = [[str(cell) for cell in row] for row in table.rows]
+        # Of the front there is no column of words.
+        words = 1 if table is tables[0] else 0
+        print_table([str(cell) for cell in table.header], rows, words, title=f"\n{table.title}")
+    typer.echo(f"\nactive: {', '.join(sizing.best.active) or 'nothing'}")

@@ -1,0 +1,88 @@
+"""The files of a sizing: chart, front as a table, results as JSON and the sized task; all of them or none."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphcam.files import digest, whole_folder
+from graphcam.language import language as language_of
+from graphcam.report.output_folder import SHEETS, unheard, write_sheet, written_before
+from graphcam.report.sheet_contents import title_block
+from graphcam.report.sizing_sheet import sizing_sheet
+from graphcam.report.sizing_tables import TITLES
+from graphcam.solving.sizing_design import plain_cam
+from graphcam.tasks.task_writer import TASK_FILE, task_files
+
+if TYPE_CHECKING:
+    from graphcam.sheets.model import Drawing
+    from graphcam.solving.sizing_design import Sizing
+
+RESULTS = "sizing.json"
+"""The file that names all others."""
+FRONT = "front.csv"
+SIZED = "sized.toml"
+"""The task that ``graphcam solve`` draws."""
+STEM = "sizing"
+
+
+def write(
+    sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[str], None] | None = None
+) -> dict[str, str]:
+    """Write a sizing into a folder, as :meth:`~graphcam.solving.sizing_design.Sizing.write` says."""
+    report = progress or unheard
+    with whole_folder(folder, written_before(Path(folder), RESULTS)) as draft:
+        report("laying out the chart")
+        files = write_sheet(chart(sizing, language), draft, STEM, SHEETS, "plain", report)
+        (draft / FRONT).write_text(_csv(sizing), encoding="utf-8", newline="")
+        files |= {"csv": FRONT, **write_task(sizing, draft)}
+        files["json"] = RESULTS
+        digests = {path.name: digest(path) for path in sorted(draft.iterdir())}
+        document = {**sizing.to_dict(), "files": files, "written": digests}
+        text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+        (draft / RESULTS).write_text(text + "\n", encoding="utf-8")
+    return files
+
+
+def chart(sizing: Sizing, language: str | None = None) -> Drawing:
+    """The sheet on the task's paper, with its title block.
+
+    language : by default the task's
+    """
+    paper = sizing.task.drawing
+    language = paper.language if language is None else language
+    block = title_block(sizing.task.title, language_of(language).text)
+    return sizing_sheet(
+        sizing.best,
+        paper.format,
+        paper.frame,
+        language,
+        front=sizing.front,
+        adopted=sizing.adopted,
+        title=TITLES[sizing.objective],
+        block=block,
+        orientation=paper.orientation,
+    )
+
+
+def write_task(sizing: Sizing, folder: Path) -> dict[str, str]:
+    """The sized task, and the table of a measured motion beside it."""
+    written: dict[str, str] = {}
+    for name, text in task_files(sizing.sized_task).items():
+        kind, name = ("task", SIZED) if name == TASK_FILE else ("table", name)
+        (folder / name).write_text(text, encoding="utf-8", newline="")
+        written[kind] = name
+    return written
+
+
+def _csv(sizing: Sizing) -> str:
+    text = StringIO(newline="")
+    rows = [plain_cam(cam) for cam in sizing.front]
+    table = csv.DictWriter(text, rows[0])
+    table.writeheader()
+    table.writerows(rows)
+    return text.getvalue()
