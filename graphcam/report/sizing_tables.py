@@ -90,7 +90,7 @@ def _limits(cams: Sequence[SizedCam]) -> Iterator[Row]:
     # What holds for the best cam's roller is told.
     least = max((cams[0].cam.roller_radius + term.margin) / term.factor for term in terms)
     found = [_length(cam.min_convex_radius) for cam in cams]
-    yield CURVATURE, say("minimum curvature radius"), found, say("{length:.3f}", length=least)
+    yield CURVATURE, say("minimum radius of curvature"), found, say("{length:.3f}", length=least)
     for factor in [min(term.factor for term in limits.rule if term.of == "r0")] if SHARE in limits.kept else []:
         shares: list[Words] = [say("{share:.3f}", share=cam.cam.roller_radius / cam.cam.prime_radius) for cam in cams]
         yield SHARE, BINDING[SHARE], shares, say("{value:g}", value=factor)
