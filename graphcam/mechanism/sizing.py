@@ -162,8 +162,8 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     >>> for cam in pareto_front(sized.problem, 3):
     ...     print(round(cam.radius, 2), round(cam.stress))
     41.12 1500
-    65.56 977
-    90.0 899
+    65.56 1030
+    90.0 865
     """
     widest = problem.face_width[1]
     smallest = replace(best_cam(problem, "size").sizes, width=widest)

@@ -40,9 +40,12 @@ class FeasibleRegion:
 
 def across_of(problem: SizingProblem) -> Across:
     """The first size that has a range; the offset where all others are given."""
-    names: list[Across] = ["offset", "roller radius", "face width"]
-    open_ = [name for name in names if problem.ranges[name][0] < problem.ranges[name][1]]
-    return open_[0] if open_ else "offset"
+    ranges = problem.offset, problem.roller_radius, problem.face_width
+    names: tuple[Across, Across, Across] = ("offset", "roller radius", "face width")
+    for name, (low, high) in zip(names, ranges, strict=True):
+        if low < high:
+            return name
+    return "offset"
 
 
 def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
