@@ -215,7 +215,7 @@ def _exactly(word: str, limit: float, solution: Solution) -> Words:
     if unlimited or not over > LAST_DIGIT:
         return ""
     exact = number(math.degrees(abs(angle)))
-    return say(" as drawn; exactly it is {exact}°, {over}° over", exact=exact, over=number(over))
+    return say(" as drawn; exactly the angle is {exact}°, {over}° over", exact=exact, over=number(over))
 
 
 def _why_exceeded(word: str, angle: float, solution: Solution) -> Caption:

@@ -149,7 +149,7 @@ def test_of_two_sides_nearly_alike_the_exact_one_is_compared_whichever_the_drawi
     assert flips(replace(q, drawn=as_read))
     assert flips(replace(q, tolerance_paper=2 * abs(q.exact)))
     assert f"Nearly equal on both sides: {q.title};" in against_exact(solution)
-    assert "either side" not in against_exact(solve(law_task("cycloidal")))
+    assert "on both sides" not in against_exact(solve(law_task("cycloidal")))
 
 
 def test_where_only_more_parts_show_a_candidate_the_bound_is_unknown():

@@ -165,7 +165,7 @@ def test_marks_by_hand_win_a_total_over_the_penalty_too(course: Path):
     assert found["Clara"]["late"]["earned"] == 1
     page = (course / "pages" / "Clara.html").read_text(encoding="utf-8")
     assert "Handed in late" in page
-    assert "before the penalty" not in page
+    assert "before the late penalty" not in page
 
 
 @pytest.mark.slow

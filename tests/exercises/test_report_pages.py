@@ -166,7 +166,7 @@ def test_the_right_drawing_lies_under_the_own_one_and_the_construction_goes_on_t
     answer_key = issued(NAME, "Clara")[1]
     html = student_page(exercise, records["Clara"], answer_key, right=True)
     assert html.count('<polyline class="key"') == 1
-    assert "pitch: your drawing red, the right one blue; circled where you are farthest off." in html
+    assert "pitch: your drawing is red, the right one blue; the largest deviation is circled." in html
     before, told = (first_step_off(exercise, records["Clara"], right=right) for right in (False, True))
     assert before is not None
     assert told is not None
@@ -301,7 +301,7 @@ def test_the_teacher_sees_all_drawings_unrolled_along_their_keys(pages: Path):
     html = (pages / "grades.html").read_text()
     assert html.count('<polyline class="each"') == 3
     assert html.count('<polyline class="median"') == 1
-    assert "pitch: all 3 drawings" in html
+    assert "pitch: deviations of all 3 drawings" in html
 
 
 @pytest.mark.parametrize(("turn", "name"), [(1, "outwards"), (-1, "outwards, drawn the other way round")])
@@ -380,7 +380,7 @@ def test_a_page_draws_the_construction_up_to_the_first_step_that_is_off_and_no_f
         assert str(found.step) == "Displacements laid off"
         assert found.notebook == 5
         html = page_of(pages, student).read_text()
-        assert "go through “Displacements laid off” again" in html
+        assert "go through the step “Displacements laid off” of" in html
         assert found.picture is not None
         assert ('class="mine"' in html) == bool(found.picture.own)
         # A place of the pitch curve, which the next step finds, is the end of no line and no dot's place.

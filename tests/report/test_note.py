@@ -83,7 +83,7 @@ def test_every_note_is_well_formed(name):
         "$\\mu_\\varphi = 2\\pi/360.00 = 0.017453$ rad/mm",
         # v = 2h/F = 42.97 at half the lift: 42.97 - 15 tan 30 = 34.31
         "= 42.97 - 15.00 \\tan 30^\\circ = 34.31$ mm",
-        "It lies on the limit of: rise.",
+        "It lies on the limit set by: rise.",
         "r_0 = \\sqrt{s_0^2 + e^2} = \\sqrt{42.11^2 + (-10.00)^2} = 43.28",
         "the prime radius is adopted as $r_0 = 44$ mm",
         "A spring drives the return (force closure)",
@@ -153,7 +153,7 @@ def test_too_small_a_given_radius_is_warned_of():
 def test_an_angle_at_rest_that_is_not_limited_is_told_of():
     limits = LimitsTable(30, rest=False)
     text = note(solve(task_of("cosine", follower=TranslatingTable(-39.0), limits=limits)))
-    assert "so the limit is exceeded: it is the angle at the low rest, which this task does not limit.**" in text
+    assert "so the limit is exceeded: it is the angle in the lower dwell, which this task does not limit.**" in text
 
 
 def test_a_limit_that_only_the_drawing_keeps_is_told_of():
@@ -162,7 +162,7 @@ def test_a_limit_that_only_the_drawing_keeps_is_told_of():
     solution = solve(replace(task, drawing=replace(task.drawing, divisions=6, rounding=0.01)))
     exact = degrees(solution.cam.extremes().pressure_angle_rise[0])
     assert exact > 30.05
-    told = f"On the rise 30° are permitted, which is kept as drawn; exactly it is {exact:.2f}°, {exact - 30:.2f}° over."
+    told = f"the limit is satisfied as drawn; exactly the angle is {exact:.2f}°, {exact - 30:.2f}° over."
     assert told in note(solution)
 
 
