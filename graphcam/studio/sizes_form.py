@@ -37,6 +37,8 @@ RATIO = SizeRange(0.2, 5.0, 0.1)
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 TURNING = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
 LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
+JERK = {False: say("not drawn"), True: say("drawn by differentiation")}
+"""Whether the diagram of the jerk is drawn."""
 AT_REST = {True: say("within the limit"), False: say("not limited")}
 LANGUAGES = {"en": "English", "ru": "русский"}
 """Each in itself; another one by its sign."""
@@ -179,6 +181,7 @@ def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     yield make.number("drawing.divisions")
     yield make.open_number("drawing.ordinate", board.ordinate)
     yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
+    yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK.items())
 
 
 def _sheet(make: FieldMaker) -> Iterator[Field]:
