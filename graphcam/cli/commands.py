@@ -1,6 +1,5 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
-import shlex
 from contextlib import closing
 from dataclasses import replace
 from importlib import resources
@@ -19,6 +18,7 @@ from graphcam.cli.shared import (
     print_table,
     progress_bar,
     progress_lines,
+    quoted,
     said,
 )
 from graphcam.files import OutputError, write_new
@@ -137,4 +137,4 @@ def init(
     """
     with one_message():
         write_new(file, resources.files("graphcam").joinpath("data", "commented.toml").read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; solve it with: graphcam solve {shlex.quote(str(file))}")
+    typer.echo(f"{file} is written; solve it with: graphcam solve {quoted(file)}")
