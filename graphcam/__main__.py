@@ -2,6 +2,8 @@
 
 import os
 import signal
+import sys
+from io import TextIOWrapper
 from types import FrameType
 
 INTERRUPTED = 130
@@ -16,6 +18,10 @@ def main() -> None:
     heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if heard:
         signal.signal(signal.SIGINT, _end)
+    for stream in (sys.stdout, sys.stderr):
+        # A file or a pipe on Windows may have no letters for a rule or an index: better another sign than no table.
+        if isinstance(stream, TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="replace")
     from graphcam.cli import main as run
 
     if heard:

@@ -13,10 +13,10 @@ from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from graphcam.locks import LOCK, lock as hold
+
 PREFIX = ".graphcam-draft-"
 """How the names of drafts begin."""
-LOCK = "lock"
-"""The file in a draft on which its run holds a lock."""
 
 
 @contextmanager
@@ -50,30 +50,12 @@ def _new_draft(place: Path) -> tuple[Path, int]:
         lock: int | None = None
         with suppress(FileNotFoundError, BlockingIOError):
             lock = os.open(draft / LOCK, os.O_RDWR | os.O_CREAT)
-            _hold(lock)
+            hold(lock)
             if os.path.lexists(draft / LOCK):
                 return draft, lock
         # Before it was held, another run took it for one that a killed run left, and cleared it.
         if lock is not None:
             os.close(lock)
-
-
-def _hold(lock: int) -> bool:
-    """Lock an open file; False where the system or the file system knows no locks.
-
-    Raises
-    ------
-    BlockingIOError : another process holds it
-    """
-    try:
-        import fcntl
-
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise
-    except (ImportError, OSError):
-        return False
-    return True
 
 
 def clear_drafts(place: Path) -> None:
@@ -88,7 +70,12 @@ def _clear(draft: Path) -> None:
     with suppress(OSError):
         lock = os.open(draft / LOCK, os.O_RDWR | os.O_CREAT)
         try:
-            if _hold(lock):
+            ended = hold(lock)
+            if ended:
                 shutil.rmtree(draft, ignore_errors=True)
         finally:
             os.close(lock)
+        if ended:
+            # Windows removes nothing that is open; nor does it now, if a new run has opened it meanwhile.
+            (draft / LOCK).unlink()
+            draft.rmdir()

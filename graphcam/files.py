@@ -156,7 +156,7 @@ def write_new(path: str | Path, text: str) -> None:
     OutputError : the file is there already, or cannot be written
     """
     try:
-        with Path(path).open("x", encoding="utf-8") as file, ExitStack() as on_error:
+        with Path(path).open("x", encoding="utf-8", newline="\n") as file, ExitStack() as on_error:
             on_error.callback(os.unlink, path)
             file.write(text)
             file.flush()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import multiprocessing
 import os
 import signal
@@ -34,6 +35,8 @@ FEWEST_EXPECTED = 32
 """Workers of a cluster for which jobs are handed out, though fewer are there yet."""
 LAST_MOMENTS = 2.0
 """Seconds that a worker has to clear away when the run has been killed."""
+MOST_OF_WINDOWS = 61
+"""Processes that one can wait for on Windows."""
 _working = threading.Event()
 """Whether this process, a worker, has a job in hand."""
 _over = threading.Event()
@@ -60,6 +63,8 @@ def processes(workers: int, *preloaded: str, fresh: bool = False) -> WorkerPool:
     preloaded : modules that the jobs need, loaded once where the processes do not begin as copies of this one
     fresh : whether they never do: a copy of one whose libraries have threads of their own, as OpenCV has, may hang
     """
+    # So many Windows waits for at a time.
+    workers = min(workers, MOST_OF_WINDOWS) if sys.platform == "win32" else workers
     return WorkerPool(partial(_process_executor, workers, preloaded, fresh), workers)
 
 
@@ -208,10 +213,11 @@ def _deaf() -> None:
 
 
 def _process_executor(workers: int, preloaded: tuple[str, ...], fresh: bool = False) -> Executor:
-    if sys.platform == "linux" and threading.active_count() == 1 and not fresh:
+    methods = multiprocessing.get_all_start_methods()
+    if sys.platform == "linux" and "fork" in methods and threading.active_count() == 1 and not fresh:
         # All that is loaded is there at once: a new Python takes longer to start than hundreds of students to grade.
         return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _begin)
-    if "forkserver" not in multiprocessing.get_all_start_methods():
+    if "forkserver" not in methods:
         return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _begin)
     # A fork of a process with threads may hang; the server that forks instead has none, and loads the libraries once.
     context = multiprocessing.get_context("forkserver")
@@ -233,7 +239,7 @@ def _end_with_the_run() -> None:
     run.join()
     _over.set()
     # As by Ctrl-C, so that a student's code that it runs just now is ended too.
-    os.kill(os.getpid(), signal.SIGINT)
+    _thread.interrupt_main()
     until = time.monotonic() + LAST_MOMENTS
     while _working.is_set() and time.monotonic() < until:
         time.sleep(0.01)

@@ -217,12 +217,12 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None]
     with whole_folder(directory) as folder:
         report = measure(effort, _rendering, progress)
         progress("drawing the figures")
-        (folder / "bench.md").write_text(markdown(report), encoding="utf-8")
+        (folder / "bench.md").write_text(markdown(report), encoding="utf-8", newline="\n")
         with (folder / "bench.csv").open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(numbers(report))
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-        (folder / "bench.json").write_text(text + "\n", encoding="utf-8")
+        (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
         for name, draw in zip(FIGURES, (error_against_parts, error_against_time, error_of_the_hand), strict=True):
             save(draw, report, folder / name)
     return report

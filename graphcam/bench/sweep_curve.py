@@ -4,7 +4,7 @@ Each is a run of ``graphcam sweep`` of its own, start and imports included, so t
 time of the clock counts beside that of the processors, because the workers are processes.
 """
 
-import resource
+import os
 import subprocess
 import sys
 import time
@@ -41,7 +41,7 @@ PROC = Path("/proc")
 class SweptFile:
     """One run.
 
-    seconds : by the clock;  processor_seconds : of all processes
+    seconds : by the clock;  processor_seconds : of all processes, 0 where the system does not tell
     peak_bytes : of all processes together, pages that they share counted once; None where the system does not tell
     """
 
@@ -90,7 +90,7 @@ def swept_file(designs: int, workers: int) -> SweptFile:
     """
     with TemporaryDirectory() as folder:
         space = Path(folder, "space.toml")
-        space.write_text(SPACE.format(radii=RADII, offsets=designs // RADII), encoding="utf-8")
+        space.write_text(SPACE.format(radii=RADII, offsets=designs // RADII), encoding="utf-8", newline="\n")
         words = ["sweep", str(space), "--out", str(Path(folder, "results.parquet")), "--workers", str(workers)]
         before, start, peak = _processor_seconds(), time.perf_counter(), None
         program, quiet = [sys.executable, "-m", "graphcam", *words], subprocess.DEVNULL
@@ -107,8 +107,8 @@ def swept_file(designs: int, workers: int) -> SweptFile:
 
 def _processor_seconds() -> float:
     """Of all programs that this one has run to their end."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+    used = os.times()
+    return used.children_user + used.children_system
 
 
 def _memory_of_tree(process: int) -> int:

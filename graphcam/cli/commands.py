@@ -1,7 +1,5 @@
 """The short commands: ``graphcam notebook``, ``bench``, ``sweep`` and ``init``."""
 
-import os
-import shlex
 from contextlib import closing
 from dataclasses import replace
 from importlib import resources
@@ -20,6 +18,7 @@ from graphcam.cli.shared import (
     print_table,
     progress_bar,
     progress_lines,
+    quoted,
     said,
 )
 from graphcam.files import OutputError, write_new
@@ -150,9 +149,4 @@ def init(
     source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
     with one_message():
         write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; use it with: graphcam {use} {_typed(file)}{more}")
-
-
-def _typed(file: Path) -> str:
-    """A name as it is typed in a shell of this machine."""
-    return f'"{file}"' if os.name == "nt" else shlex.quote(str(file))
+    typer.echo(f"{file} is written; use it with: graphcam {use} {quoted(file)}{more}")

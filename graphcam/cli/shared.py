@@ -1,6 +1,8 @@
 """What the commands share: how they end on wrong input, and how they say what they are doing."""
 
+import shlex
 import shutil
+import subprocess
 import sys
 import textwrap
 import time
@@ -32,6 +34,15 @@ def said(place: str) -> str:
 def named(path: str | Path) -> Path:
     """A path that is named."""
     return Path(said(str(path)))
+
+
+def quoted(path: Path) -> str:
+    """A path as it is typed on a command line of this system.
+
+    >>> quoted(Path("cam.toml"))
+    'cam.toml'
+    """
+    return subprocess.list2cmdline([str(path)]) if sys.platform == "win32" else shlex.quote(str(path))
 
 
 TaskFile = Annotated[

@@ -26,8 +26,14 @@ from graphcam.tasks.task_writer import task_files
 TEMPLATES = Path(__file__).parent / "templates"
 SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
 """What a page shows of an output, the first that there is; of sliders it shows the stills."""
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge")
-"""Programs of Chromium's family, by the names they are installed under."""
+BROWSERS = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge"),
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Chromium.app/Contents/MacOS/Chromium",
+)
+"""Programs of Chromium's family, by their names on the path, or where Windows and macOS have them."""
 NO_BROWSER = (
     "there is no Chromium to print it",
     "install Chromium or Chrome, or print the page of --html from your browser",
@@ -143,7 +149,7 @@ def write_folder(
     notebook, files = write_notebook(task), task_files(task)
     with whole_folder(folder) as draft:
         for name, text in files.items():
-            (draft / name).write_text(text, encoding="utf-8")
+            (draft / name).write_text(text, encoding="utf-8", newline="\n")
         if run or html or pdf:
             progress("executing it")
             notebook = execute(notebook, draft)
@@ -151,7 +157,7 @@ def write_folder(
         if html or pdf:
             progress("making a page of it")
             page = to_html(notebook, notebook_title(task), task.drawing.language)
-            (draft / PAGE).write_text(page, encoding="utf-8")
+            (draft / PAGE).write_text(page, encoding="utf-8", newline="\n")
         if pdf:
             progress("printing the page")
             print_pdf(draft / PAGE, draft / PRINT)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
+from graphcam.descriptors import READ
 from graphcam.photo.images import HEIF_BRANDS, image_pictures
 from graphcam.photo.pictures import Photograph
 from graphcam.photo.refusal import PhotographError
@@ -98,7 +99,7 @@ def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | Unopened]
 
 def _opened(path: Path) -> BinaryIO:
     """A regular file; nothing is waited for, as a pipe may never end."""
-    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+    descriptor = os.open(path, READ)
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):

@@ -115,7 +115,7 @@ def write(
         if "player" in wanted:
             report("writing the step player")
             whole = drawing_of(contents) if drawing is None or per_construction else drawing
-            (folder / "player.html").write_text(player_of(contents, whole), encoding="utf-8")
+            (folder / "player.html").write_text(player_of(contents, whole), encoding="utf-8", newline="\n")
             written["player"] = "player.html"
         if finished:
             report("writing tables and note")
@@ -158,7 +158,7 @@ def _write_list(
     digests = {path.name: digest(path) for path in sorted(folder.iterdir())}
     document = (document if finished else without_answers(document)) | {"written": digests}
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-    (folder / SOLUTION).write_text(text + "\n", encoding="utf-8")
+    (folder / SOLUTION).write_text(text + "\n", encoding="utf-8", newline="\n")
 
 
 def written_before(folder: Path, names: str) -> dict[str, str]:

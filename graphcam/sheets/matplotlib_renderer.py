@@ -70,7 +70,7 @@ def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> Non
 
 def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
     """One page as an SVG file, see :func:`svg`."""
-    File(path).write_text(svg(page), encoding="utf-8")
+    File(path).write_text(svg(page), encoding="utf-8", newline="\n")
 
 
 def svg(page: Page) -> str:

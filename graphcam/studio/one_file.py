@@ -38,4 +38,4 @@ def write_one_file(path: Path, pyodide: Path, task: Task | ArcsTask, language: s
     )
     before, end, after = text.rpartition("</body>")
     with whole_file(path) as draft:
-        draft.write_text(f"{before}<!--\n{LICENCES}-->\n{carried}\n{end}{after}", encoding="utf-8")
+        draft.write_text(f"{before}<!--\n{LICENCES}-->\n{carried}\n{end}{after}", encoding="utf-8", newline="\n")

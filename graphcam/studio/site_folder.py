@@ -46,9 +46,9 @@ def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str
     with whole_folder(folder) as draft:
         for name, content in named.items():
             (draft / name).write_bytes(content)
-        (draft / "index.html").write_text(text, encoding="utf-8")
-        (draft / "service-worker.js").write_text(service, encoding="utf-8")
-        (draft / "licences.txt").write_text(LICENCES, encoding="utf-8")
+        (draft / "index.html").write_text(text, encoding="utf-8", newline="\n")
+        (draft / "service-worker.js").write_text(service, encoding="utf-8", newline="\n")
+        (draft / "licences.txt").write_text(LICENCES, encoding="utf-8", newline="\n")
 
 
 def _build(contents: dict[str, bytes]) -> str:

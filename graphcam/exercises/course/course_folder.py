@@ -88,7 +88,7 @@ class AnswerKeys:
         path.parent.mkdir(parents=True, exist_ok=True)
         # Two runs may keep the same one.
         draft = path.with_name(f"{path.name}.{os.getpid()}.new")
-        draft.write_text(answer_key, encoding="utf-8")
+        draft.write_text(answer_key, encoding="utf-8", newline="\n")
         draft.replace(path)
 
     def keep_course(self, exercise: Path, secret: bytes, **said: Any) -> None:
@@ -101,7 +101,7 @@ class AnswerKeys:
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / exercise.name).write_bytes(exercise.read_bytes())
         said = {"exercise": exercise.stem, "secret": _digest(secret), **said}
-        (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8")
+        (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8", newline="\n")
 
     def exercise(self) -> str:
         """What the course is about, as ``find_exercise`` takes it; or empty."""

@@ -176,4 +176,4 @@ def write_handouts(variant: Variant, student: Student, folder: Path, marked: She
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
     files = {TOML: answer_file(variant.exercise), NOTEBOOK: nbformat.writes(notebook(variant))}
     for name, text in (files | task_files(variant.task)).items():
-        (folder / name).write_text(text, encoding="utf-8")
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")

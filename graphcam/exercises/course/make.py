@@ -161,7 +161,7 @@ def _marked(variant: Variant, student: Student, marks: Marks, place: Path) -> Sh
     folder = place / TEACHER / PRINTED
     folder.mkdir()
     for number, page in enumerate(pages, 1):
-        (folder / f"{folder_name(student.id)}-{number}.json").write_text(page.to_json(), encoding="utf-8")
+        (folder / f"{folder_name(student.id)}-{number}.json").write_text(page.to_json(), encoding="utf-8", newline="\n")
     return sheets
 
 

@@ -78,9 +78,9 @@ def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Seq
     match target:
         case LearningSystem.MOODLE:
             text = moodle_xml(exercise, [each.answer_key for each in issued])
-            (folder / f"{exercise.name}.xml").write_text(text, encoding="utf-8")
+            (folder / f"{exercise.name}.xml").write_text(text, encoding="utf-8", newline="\n")
         case LearningSystem.MOODLE_CLOZE:
-            (folder / f"{exercise.name}.xml").write_text(cloze_xml(exercise, issued), encoding="utf-8")
+            (folder / f"{exercise.name}.xml").write_text(cloze_xml(exercise, issued), encoding="utf-8", newline="\n")
         case LearningSystem.CANVAS:
             write_quizzes(folder / f"{exercise.name}.zip", exercise, issued)
         case LearningSystem.QTI:

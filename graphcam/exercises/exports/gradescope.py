@@ -100,7 +100,7 @@ def write_autograder(folder: Path) -> None:
     """
     write_wheel(folder)
     for name, program in (("setup.sh", SETUP), ("run_autograder", RUN)):
-        (folder / name).write_text(program, encoding="utf-8")
+        (folder / name).write_text(program, encoding="utf-8", newline="\n")
         (folder / name).chmod(0o755)
 
 
@@ -120,7 +120,7 @@ def main(root: Path) -> None:
         found = results(exercise, graded.record.to_dict())
     (root / "results").mkdir(exist_ok=True)
     text = json.dumps(found, indent=1, allow_nan=False)
-    (root / "results" / "results.json").write_text(text, encoding="utf-8")
+    (root / "results" / "results.json").write_text(text, encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

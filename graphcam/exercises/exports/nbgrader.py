@@ -37,7 +37,9 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
     """The folder of a course: settings, the assignment's source, and a sheet of parameters for every student."""
     tell = exercise.tell
     stub = "# " + tell(say("Replace None by your reading."))
-    (folder / "nbgrader_config.py").write_text(CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8")
+    (folder / "nbgrader_config.py").write_text(
+        CONFIG.format(course=exercise.name, stub=stub), encoding="utf-8", newline="\n"
+    )
     source = folder / "source" / exercise.name
     source.mkdir(parents=True)
     how = say("Your parameters are on your own sheet. Replace each `None` by your reading.")
@@ -50,7 +52,7 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
     for answer_key in answer_keys:
         told = sentence(exercise.text, answer_key.parameters, tell)
         text = f"# {exercise.title}\n\n{answer_key.student}\n\n{told}"
-        (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8")
+        (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8", newline="\n")
 
 
 def _question(asked: Asked, tell: Tell) -> str:

@@ -55,7 +55,7 @@ def write_question(folder: Path, exercise: Exercise, issued: Sequence[Issued]) -
         "variants.json": _json(table),
     }
     for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
 
 
 def _info(exercise: Exercise) -> dict[str, Any]:

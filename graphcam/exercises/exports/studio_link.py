@@ -170,6 +170,6 @@ def write_links(folder: Path, secret_file: Path | None, url: str, *, checks: boo
         salt = salt_of(secret, exercise.name, student.id)
         address = studio_address(variant, key if checks else None, salt)
         text = f"{exercise.tell(PRACTICE)}\n\n{url}{address}\n"
-        (students / folder_name(student.id) / FILE).write_text(text, encoding="utf-8")
+        (students / folder_name(student.id) / FILE).write_text(text, encoding="utf-8", newline="\n")
         written += 1
     return written

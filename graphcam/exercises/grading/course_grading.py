@@ -5,7 +5,6 @@ from __future__ import annotations
 import glob
 import hashlib
 import json
-import os
 import shutil
 import zipfile
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
@@ -40,6 +39,7 @@ from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
+from graphcam.locks import locked_folder
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
@@ -78,16 +78,11 @@ class Store:
         ------
         OutputError : another run is at it
         """
-        import fcntl
-
         made = not self.folder.parent.exists()
         self.folder.mkdir(parents=True, exist_ok=True)
         with ExitStack() as stack:
-            lock = os.open(self.folder, os.O_RDONLY | os.O_CLOEXEC)
-            stack.callback(os.close, lock)
             try:
-                # The system gives it free when the run ends, however it ends.
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                stack.enter_context(locked_folder(self.folder))
             except BlockingIOError:
                 out = self.folder.with_name(self.folder.name.rpartition("-")[0][1:])
                 raise OutputError(out, "another run is grading into it", "wait until it ends") from None
@@ -120,7 +115,9 @@ class Store:
 
     def note_pages(self, folder: Path) -> None:
         """Keep in mind where students' pages are about to be written, in case the run is killed meanwhile."""
-        (self.folder / PAGES).write_text(str(folder.absolute()), encoding="utf-8", errors="surrogateescape")
+        (self.folder / PAGES).write_text(
+            str(folder.absolute()), encoding="utf-8", newline="\n", errors="surrogateescape"
+        )
 
     def clear_pages(self, out: Path) -> None:
         """Remove the half-written pages of killed runs that wrote to ``out``, wherever they put their pages."""

@@ -84,7 +84,7 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
     draft = entered.with_name(f"{entered.name}.new")
-    draft.write_text(json.dumps(noted) + "\n", encoding="utf-8")
+    draft.write_text(json.dumps(noted) + "\n", encoding="utf-8", newline="\n")
     draft.replace(entered)
     return told
 

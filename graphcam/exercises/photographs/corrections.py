@@ -86,7 +86,7 @@ def keep_corrections(teacher: Path, exercise: Exercise, corrections: Corrections
     OutputError : they cannot be written
     """
     with whole_file(teacher / KEPT) as draft:
-        draft.write_text(to_json(exercise, corrections) + "\n", encoding="utf-8")
+        draft.write_text(to_json(exercise, corrections) + "\n", encoding="utf-8", newline="\n")
 
 
 def to_json(exercise: Exercise, corrections: Corrections) -> str:

@@ -232,7 +232,7 @@ def _line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) 
 
 def _write(path: Path, text: str) -> None:
     with whole_file(path) as draft:
-        draft.write_text(text, encoding="utf-8", errors="backslashreplace")
+        draft.write_text(text, encoding="utf-8", newline="\n", errors="backslashreplace")
 
 
 def summary(read: ReadCourse) -> Iterator[str]:

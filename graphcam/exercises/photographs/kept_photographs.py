@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Generator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course.photo_reports import HIDDEN
 from graphcam.exercises.photographs.read_photo import ReadPhoto, from_json, to_json
 from graphcam.files import OutputError, whole_folder
+from graphcam.locks import locked_folder
 
 READINGS = "readings.json"
 DIGITS = 32
@@ -48,7 +48,7 @@ class KeptPhotographs:
         with whole_folder(self._of(digest)) as draft:
             for name, data in pictures.items():
                 (draft / name).write_bytes(data)
-            (draft / READINGS).write_text(to_json(photos, self.basis), encoding="utf-8")
+            (draft / READINGS).write_text(to_json(photos, self.basis), encoding="utf-8", newline="\n")
 
     def all(self) -> list[ReadPhoto]:
         """All photographs, in the order of their names; a reading of another program is left out."""
@@ -79,16 +79,15 @@ class KeptPhotographs:
         OutputError : another run is at it, or the folder cannot be made
         """
         place = self.folder / HIDDEN
-        try:
-            place.mkdir(parents=True, exist_ok=True)
-            lock = os.open(place, os.O_RDONLY | os.O_CLOEXEC)
-        except OSError as error:
-            raise OutputError(self.folder, error.strerror or str(error)) from None
-        try:
-            _lock(lock, self.folder)
+        with ExitStack() as stack:
+            try:
+                place.mkdir(parents=True, exist_ok=True)
+                stack.enter_context(locked_folder(place))
+            except BlockingIOError:
+                raise OutputError(self.folder, "another run reads photographs into it", "wait until it ends") from None
+            except OSError as error:
+                raise OutputError(self.folder, error.strerror or str(error)) from None
             yield
-        finally:
-            os.close(lock)
 
     def _of(self, digest: str) -> Path:
         """The folder of a file, by its digest or by that of a photograph in it."""
@@ -96,18 +95,3 @@ class KeptPhotographs:
 
     def _read(self, path: Path) -> tuple[list[ReadPhoto], str]:
         return from_json((path / READINGS).read_text(encoding="utf-8"), str(path))
-
-
-def _lock(descriptor: int, folder: Path) -> None:
-    """Hold a lock until the file is closed, however the run ends.
-
-    Raises
-    ------
-    OutputError : another run holds it
-    """
-    import fcntl
-
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise OutputError(folder, "another run reads photographs into it", "wait until it ends") from None

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import cv2
 
+from graphcam.descriptors import READ
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.photographs.kept_photographs import DIGITS, KeptPhotographs
 from graphcam.exercises.photographs.photo_reader import read_halves, read_photograph
@@ -156,8 +157,7 @@ def halves_in(photos: Iterable[ReadPhoto], files: Iterable[PhotoFile], kept: Kep
 def digest_of(path: Path) -> str:
     """Tells a file from all others, whatever it is called; empty of what is no file, or too large to be read."""
     try:
-        # Nothing is waited for: a pipe would never end.
-        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+        descriptor = os.open(path, READ)
     except OSError:
         return ""
     try:

@@ -51,10 +51,10 @@ def write_student(
                 for name, data in zip(names.values(), pictures, strict=True):
                     (draft / name).write_bytes(data)
                 listed.append(names)
-        (draft / AS_READ).write_text(answer_lines(exercise, student.read_values()), encoding="utf-8")
-        (draft / TOML).write_text(answer_lines(exercise, student.values()), encoding="utf-8")
+        (draft / AS_READ).write_text(answer_lines(exercise, student.read_values()), encoding="utf-8", newline="\n")
+        (draft / TOML).write_text(answer_lines(exercise, student.values()), encoding="utf-8", newline="\n")
         report = json.dumps(student_report(exercise, student) | {"overlays": listed}, indent=1, allow_nan=False)
-        (draft / REPORT).write_text(report + "\n", encoding="utf-8")
+        (draft / REPORT).write_text(report + "\n", encoding="utf-8", newline="\n")
 
 
 def _files(folder: Path) -> list[Path]:

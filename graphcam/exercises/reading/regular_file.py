@@ -3,9 +3,12 @@
 import errno
 import os
 import stat
+from collections.abc import Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from graphcam.descriptors import READ
 from graphcam.drafting.ink import Caption, say
 
 
@@ -31,8 +34,58 @@ def _too_long(name: str, limit: int) -> UnreadableError:
     return UnreadableError(say("{name} is longer than the {limit} bytes that are read", name=name, limit=limit))
 
 
-def read_regular(path: str | os.PathLike[str], limit: int, folder: int | None = None) -> bytes:
-    """The bytes of a regular file of at most ``limit`` bytes; ``folder`` is an open folder that ``path`` starts from.
+BY_DESCRIPTOR = hasattr(os, "O_DIRECTORY") and os.open in os.supports_dir_fd
+"""Whether the system opens a file by the open folder in which it is; Windows does not."""
+
+
+@contextmanager
+def open_folder(folder: str | os.PathLike[str]) -> Generator[int | Path]:
+    """A folder that is no link, for :func:`os.listdir` and :func:`read_regular`.
+
+    By its descriptor, so that it is the folder that was opened; where the system has none, by its path.
+
+    Raises
+    ------
+    OSError : it is not there, no folder, or a link
+    """
+    if not BY_DESCRIPTOR:
+        if not stat.S_ISDIR(os.lstat(folder).st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
+        yield Path(folder)
+        return
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+    try:
+        yield descriptor
+    finally:
+        os.close(descriptor)
+
+
+def _open(path: str | os.PathLike[str], folder: int | Path | None) -> int:
+    """A descriptor of what is there and is no link.
+
+    Raises
+    ------
+    OSError : it cannot be opened; ELOOP of a link
+    """
+    if isinstance(folder, Path):
+        path, folder = folder / path, None
+    if hasattr(os, "O_NOFOLLOW"):
+        return os.open(path, READ | os.O_NOFOLLOW, dir_fd=folder)
+    before = os.lstat(path)
+    if stat.S_ISLNK(before.st_mode):
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    descriptor = os.open(path, READ)
+    if os.path.samestat(before, os.fstat(descriptor)):
+        return descriptor
+    # A link took its place meanwhile.
+    os.close(descriptor)
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+
+
+def read_regular(path: str | os.PathLike[str], limit: int, folder: int | Path | None = None) -> bytes:
+    """The bytes of a regular file of at most ``limit`` bytes.
+
+    folder : that ``path`` starts from, of :func:`open_folder`
 
     Nothing is followed and nothing is waited for: a link may point at the key, a FIFO never ends.
 
@@ -51,9 +104,8 @@ def read_regular(path: str | os.PathLike[str], limit: int, folder: int | None = 
     graphcam.exercises.reading.regular_file.UnreadableError: b is a link; hand in the file itself
     """
     name = Path(path).name
-    flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
     try:
-        descriptor = os.open(path, flags, dir_fd=folder)
+        descriptor = _open(path, folder)
     except OSError as error:
         if error.errno == errno.ELOOP:
             raise UnreadableError(say("{name} is a link; hand in the file itself", name=name)) from None

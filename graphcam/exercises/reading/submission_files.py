@@ -15,7 +15,7 @@ from graphcam.exercises.reading.drawn_layers import CadDrawing
 from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import notebook_values
 from graphcam.exercises.reading.paper_area import PaperArea
-from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.regular_file import UnreadableError, open_folder, read_regular
 from graphcam.exercises.reading.values import number, points, shown
 
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
@@ -36,25 +36,19 @@ def read_files(
 
     names : of a folder that holds files of others too, how the student's are called there by how they were handed in
     """
-    try:
-        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
-    except OSError:
-        return {}, [say("the submission is not a folder")]
     found: dict[str, bytes] = {}
     errors: list[Caption] = []
     try:
-        # By the descriptor, so that it is the folder that was opened.
-        there = names if names is not None else {name: name for name in os.listdir(descriptor)}  # noqa: PTH208
-        chosen, notes = answer_files(there)
-        for name, handed_in in chosen.items():
-            try:
-                found[name] = read_regular(there[handed_in], LIMITS[name], descriptor)
-            except UnreadableError as error:
-                errors.append(error.why)
+        with open_folder(folder) as place:
+            there = names if names is not None else {name: name for name in os.listdir(place)}  # noqa: PTH208
+            chosen, notes = answer_files(there)
+            for name, handed_in in chosen.items():
+                try:
+                    found[name] = read_regular(there[handed_in], LIMITS[name], place)
+                except UnreadableError as error:
+                    errors.append(error.why)
     except OSError:
         return {}, [say("the submission is not a folder")]
-    finally:
-        os.close(descriptor)
     if not found and not errors and not notes:
         errors.append(say("there is none of {names}", names=", ".join(LIMITS)))
     return found, [*errors, *notes]

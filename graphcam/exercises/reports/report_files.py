@@ -148,7 +148,7 @@ def write_feedback(
             photographs = photo_pictures(place, right=right) if place is not None else []
             shown = {**record, "student": name}
             text = student_page(exercise, shown, answer_key, right=right, photographs=photographs)
-            (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8")
+            (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8", newline="\n")
 
 
 def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:

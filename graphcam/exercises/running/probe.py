@@ -10,7 +10,6 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.exercises.running.sandbox import run_cells, visible
 
 FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
@@ -70,7 +69,7 @@ def missing(level: Level) -> str:
     if level is Level.L0:
         return ""
     if sys.platform != "linux":
-        return "its limits are those of Linux"
+        return "it needs Linux and the program bwrap (bubblewrap); level L0, which runs no code, grades everywhere"
     if level is Level.L2 and shutil.which("bwrap") is None:
         return "the program bwrap (bubblewrap) is not installed"
     if level is Level.L1 and os.getuid() == 0 and not _readable_by_all(Path(sys.executable)):
@@ -94,6 +93,8 @@ def require(level: Level, private: tuple[Path, ...] = ()) -> None:
         raise LevelError(level, why)
     if level is not Level.L2:
         return
+    from graphcam.exercises.running.sandbox import visible
+
     for path in private:
         for folder in visible():
             if path.resolve().is_relative_to(folder):
@@ -109,6 +110,9 @@ def _readable_by_all(program: Path) -> bool:
 
 def _broken(level: Level) -> str:
     import socket
+
+    # Made of what only Linux has: not to be loaded before it is known to be one.
+    from graphcam.exercises.running.sandbox import run_cells
 
     # Not hidden by the sandbox's own /tmp.
     outside = Path.home() if os.access(Path.home(), os.W_OK) else Path.cwd()

@@ -33,7 +33,7 @@ def _tree(leader: int) -> list[int]:
     for number in found:
         with suppress(OSError):
             for task in Path(f"/proc/{number}/task").iterdir():
-                found += map(int, (task / "children").read_text().split())
+                found += map(int, (task / "children").read_text(encoding="utf-8").split())
     return found
 
 
@@ -51,6 +51,6 @@ def _files(tree: list[int]) -> int:
 def _memory(number: int) -> int:
     for file, names in (("smaps_rollup", COUNTED), ("status", COUNTED_OTHERWISE)):
         with suppress(OSError):
-            lines = Path(f"/proc/{number}/{file}").read_text().splitlines()
+            lines = Path(f"/proc/{number}/{file}").read_text(encoding="utf-8").splitlines()
             return KIBIBYTE * sum(int(line.split()[1]) for line in lines if line.startswith(names))
     return 0
