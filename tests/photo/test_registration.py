@@ -165,8 +165,8 @@ def test_tags_on_one_side_only_are_refused():
 def test_another_page_is_refused():
     camera = Camera(A3)
     renamed = replace(A3, tags={number + 20: place for number, place in A3.tags.items()})
-    assert "those of another page" in refusal(camera.tags(), renamed, camera.size)
-    assert "not where this page has them" in refusal(camera.tags(), A4, camera.size)
+    assert "belong to another page" in refusal(camera.tags(), renamed, camera.size)
+    assert "do not lie where they lie on this page" in refusal(camera.tags(), A4, camera.size)
 
 
 def test_a_mirrored_picture_is_refused():
