@@ -214,6 +214,6 @@ def test_a_zip_that_is_broken_or_of_no_course_is_told(course: Path, tmp_path_fac
     with pytest.raises(TaskError, match="beside the folder 'teacher'"):
         grade_course(Course(elsewhere / "all.zip", course / "secret", elsewhere / "grades.csv", exercise=NAME))
     (course / "all.zip").write_bytes(data[:40])
-    with pytest.raises(TaskError, match="'a file'"):
+    with pytest.raises(TaskError, match="the folder is a file, but must be one with a folder for every student"):
         graded_zip(course)
     assert sorted(path.name for path in elsewhere.iterdir()) == ["all.zip"]

@@ -403,7 +403,7 @@ PARTS = {
         lambda: Poly([at(0, s=0, v=0), at(90, s=30), P(90 * DEG + 1e-13, s=30.0000001), at(180, s=31, v=0)]),
         "decided by the last digits of the numbers",
     ),
-    "degree of a spline": (lambda: Spline(spline_points(), 1), "degree is 1, but must be 2 to 9"),
+    "degree of a spline": (lambda: Spline(spline_points(), 1), "degree is 1, but must be from 2 to 9"),
     "too few for a spline": (
         lambda: Spline([at(0, s=0), at(90, s=1)], 3),
         "points is 2 conditions, but must be 4 or more for a degree of 3",

@@ -233,7 +233,7 @@ S = table(LAWS["3-4-5"])
 @pytest.mark.parametrize(
     ("phi", "s", "row", "words"),
     [
-        (DEGREES[::60], S[::60], 5, "number of rows is 6, but must be 8 to 10000"),
+        (DEGREES[::60], S[::60], 5, "number of rows is 6, but must be from 8 to 10000"),
         (np.append(DEGREES[:9], math.nan), S[:10], 9, "row is nan, "),
         (DEGREES[:9], np.append(S[:8], math.inf), 8, "finite numbers"),
         (DEGREES, np.where(DEGREES[7] == DEGREES, -1e300, S), 7, "numbers up to 1e+100"),
@@ -256,7 +256,7 @@ def test_a_row_that_cannot_be_is_named(phi, s, row, words):
     [
         (DEGREES, S, 0.0, "tolerance is 0.0"),
         (DEGREES, S, math.nan, "tolerance is nan"),
-        (DEGREES, S * 1e-150, 1e-152, "1e-100 at least"),
+        (DEGREES, S * 1e-150, 1e-152, "at least 1e-100"),
         (DEGREES, S[:-1], 0.01, "one number for each cam angle"),
         (DEGREES, 0 * S, 0.01, "lift is 0, but must be more than 0.02"),
         (DEGREES, np.random.default_rng(1).standard_normal(360), 0.01, "greater than the noise that turns the table"),

@@ -165,7 +165,7 @@ def test_tags_on_one_side_only_are_refused():
 def test_another_page_is_refused():
     camera = Camera(A3)
     renamed = replace(A3, tags={number + 20: place for number, place in A3.tags.items()})
-    assert "those of another page" in refusal(camera.tags(), renamed, camera.size)
+    assert "belong to another page" in refusal(camera.tags(), renamed, camera.size)
     assert "not in the positions of this page" in refusal(camera.tags(), A4, camera.size)
 
 
