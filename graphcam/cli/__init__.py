@@ -10,6 +10,7 @@ from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
+from graphcam.cli.voice import begin, in_language_of_machine
 
 app = typer.Typer(
     name="graphcam", add_completion=False, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode="rich"
@@ -18,7 +19,7 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line."""
-    app(prog_name="graphcam")
+    in_language_of_machine(typer.main.get_command(app))(prog_name="graphcam")
 
 
 def _print_version(wanted: bool) -> None:
@@ -43,6 +44,7 @@ def options(
 
     graphcam solve cam.toml --out cam
     """
+    begin()
 
 
 for command in (solve, studio, notebook, bench, sweep, init):

@@ -13,6 +13,7 @@ import graphcam
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
+    echo,
     named,
     one_message,
     print_table,
@@ -21,7 +22,9 @@ from graphcam.cli.shared import (
     quoted,
     said,
 )
+from graphcam.cli.voice import voice
 from graphcam.files import OutputError, write_new
+from graphcam.words import say, say_many
 
 
 def notebook(
@@ -46,10 +49,12 @@ def notebook(
 
     Executing needs the extra: pip install 'graphcam\\[notebooks]'
     """
+    voice().choose(language)
     with one_message():
         given = graphcam.builtin_task() if task is None else graphcam.load_task(task)
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
+        voice().hear(given.drawing.language)
         # Loads nbconvert: only when the input has been found right.
         from graphcam.notebooks.notebook_folder import write_folder
 
@@ -116,12 +121,12 @@ def sweep(
                 raise OutputError(out, "a cluster writes a folder of parts", "leave out the ending")
             with executor_of(workers) as executor:
                 sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
-            typer.echo(f"{out}: {len(designs)} designs")
+            echo(say_many("{out}: {count} design", "{out}: {count} designs", len(designs), out=str(out)))
             return
         with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
             found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
     print_table(("quantity", "least", "greatest"), found.rows())
-    typer.echo(f"{out}: {found}")
+    echo(f"{out}: {found}")
 
 
 def init(
@@ -137,4 +142,5 @@ def init(
     """
     with one_message():
         write_new(file, resources.files("graphcam").joinpath("data", "commented.toml").read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; solve it with: graphcam solve {quoted(file)}")
+    command = f"graphcam solve {quoted(file)}"
+    echo(say("{file} is written; solve it with: {command}", file=str(file), command=command))

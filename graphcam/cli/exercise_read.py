@@ -10,6 +10,7 @@ import typer
 from typer import Argument, Option
 
 from graphcam.cli.shared import named, one_message, progress_bar
+from graphcam.cli.voice import tell
 
 
 def read(
@@ -51,6 +52,6 @@ def read(
     with one_message(), progress_bar("photographs") as step:
         order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
         lines = list(summary(read_course(order, step)))
-    for line in lines:
+    for line in map(tell, lines):
         # A name may hold what is no line, and what a terminal obeys.
         typer.echo(line if line.isprintable() else ascii(line))

@@ -17,12 +17,14 @@ import graphcam
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
+    echo,
     named,
     one_message,
     print_table,
     progress_lines,
     warnings_told,
 )
+from graphcam.cli.voice import voice
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -82,11 +84,13 @@ def solve(
 
     graphcam solve cam.toml --working-drawing   (the cam as a part, with its polar table)
     """
+    voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
     with one_message(), warnings_told(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
+        voice().hear(given.drawing.language)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
@@ -153,7 +157,7 @@ def _print_solution(
             _print_quantities(document["quantities"])
         typer.echo(f"{folder}: " + ", ".join(name for name in document["files"].values() if name))
     for sentence in sentences:
-        typer.echo(f"warning: {sentence}", err=True)
+        echo(f"warning: {sentence}", err=True)
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
