@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 LOCK = "lock"
 """How files end that are there to be locked."""
@@ -33,7 +35,8 @@ def lock(descriptor: int) -> bool:
 
 def _lock_of_windows(descriptor: int) -> bool:
     try:
-        import msvcrt
+        # By its name: a type check for another system knows nothing of what is in it.
+        msvcrt: Any = importlib.import_module("msvcrt")
     except ImportError:
         return False
     try:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 import string
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import IO, Any
 
 CONTEXT = "message"
@@ -47,12 +47,9 @@ HELPED = {"Option", "Argument", "Typer"}
 """Calls of typer with a help."""
 RETURN = {"nearest", "missing", "_broken", "_sentence", "unreadable"}
 """Functions that return texts; those of errors that say themselves do so too."""
-Extracted = tuple[int, str, tuple[str, str], list[str]]
 
 
-def extract(
-    file: IO[bytes], keywords: Any, comment_tags: Any, options: Any
-) -> Generator[tuple[int, str, Any, list[str]]]:
+def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> Iterator[Any]:
     """A method for ``pybabel extract``: what it finds in Python itself, and the texts of messages."""
     from babel.messages.extract import extract_python
 
