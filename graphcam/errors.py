@@ -75,8 +75,9 @@ class MissingFileError(TaskError):
         self.where = where
 
     def __str__(self) -> str:
-        place = f" {self.where}" if self.where else ""
-        return f"there is no {self.kind} {self.path}{place}; {self.remedy}"
+        if self.where:
+            return f"there is no {self.kind} {self.path} {self.where}; {self.remedy}"
+        return f"there is no {self.kind} {self.path}; {self.remedy}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _missing_file, (self.path, self.remedy, self.kind, self.where)

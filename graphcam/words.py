@@ -76,6 +76,15 @@ def say_many(one: str, many: str, count: int, /, **values: Any) -> Caption:
     return Caption(one, {**values, "count": count}, "", many, count)
 
 
+def plain(text: str) -> str:
+    """The text itself, which is put together in English; for the tools of gettext it is that of a message.
+
+    >>> plain("3 hand-ins")
+    '3 hand-ins'
+    """
+    return text
+
+
 def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
     """Texts one after another.
 

@@ -12,13 +12,14 @@ from graphcam.cli.next_steps import show_next_steps
 from graphcam.cli.size import size
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
+from graphcam.cli.voice import begin, in_language_of_machine
 
 app = typer.Typer(name="graphcam", add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
 
 
 def main() -> None:
     """Run the command line."""
-    app(prog_name="graphcam")
+    in_language_of_machine(typer.main.get_command(app))(prog_name="graphcam")
 
 
 def _print_version(wanted: bool) -> None:
@@ -44,6 +45,7 @@ def options(
 
     graphcam solve cam.toml --out cam
     """
+    begin()
     if context.invoked_subcommand is None:
         show_next_steps()
 

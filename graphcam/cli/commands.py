@@ -13,6 +13,7 @@ import graphcam
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
+    echo,
     named,
     one_message,
     print_table,
@@ -21,7 +22,9 @@ from graphcam.cli.shared import (
     quoted,
     said,
 )
+from graphcam.cli.voice import voice
 from graphcam.files import OutputError, write_new
+from graphcam.words import say, say_many
 
 
 def notebook(
@@ -46,10 +49,12 @@ def notebook(
 
     Executing needs the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
     """
+    voice().choose(language)
     with one_message():
         given = graphcam.builtin_task() if task is None else graphcam.load_task(task)
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
+        voice().hear(given.drawing.language)
         # Loads nbconvert: only when the input has been found right.
         from graphcam.notebooks.notebook_folder import write_folder
 
@@ -126,7 +131,7 @@ def sweep(
                 found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
     if isinstance(found, dataset.Summary):
         print_table(("quantity", "least", "greatest"), found.rows())
-        typer.echo(f"{out}: {found}")
+        echo(f"{out}: {found}")
     tell_sweep(designs, found)
     with one_message():
         write_front(designs, out, found.front)
@@ -149,4 +154,5 @@ def init(
     source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
     with one_message():
         write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
-    typer.echo(f"{file} is written; use it with: graphcam {use} {quoted(file)}{more}")
+    command = f"graphcam {use} {quoted(file)}{more}"
+    echo(say("{file} is written; use it with: {command}", file=str(file), command=command))

@@ -25,10 +25,12 @@ from graphcam.cli.grade_options import (
     SecretFile,
     ShowRight,
 )
-from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.voice import tell, voice
 from graphcam.errors import install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
+from graphcam.words import Caption, plain, say, say_many
 
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
@@ -42,8 +44,13 @@ Hand = Annotated[
 ]
 SECRET = b"simulation"
 """Of the simulated course."""
-KEEP = "the course's secret. Keep the folder 'teacher' safe and to yourself: without it nothing can be graded."
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
+
+
+def _keep(secret: Path) -> Caption:
+    """What is to be done with a new secret."""
+    advice = say("Keep the folder 'teacher' safe and to yourself: without it nothing can be graded.")
+    return say("{file} is new: the course's secret. {advice}", file=str(secret), advice=advice)
 
 
 @exercise.command("list")
@@ -113,20 +120,26 @@ def _print_matrix(found: Simulation) -> None:
     columns = ("mistake made", "named", "hand-ins", "full marks", "named rightly")
     print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
     for counted, value in (
-        (f"right work that loses any point, of {found.careful}", f"{found.false_rejections:.2%}"),
+        (plain(f"right work that loses any point, of {found.careful}"), f"{found.false_rejections:.2%}"),
         *(
-            (f"of it with {name} hands, of {tally.hands}", f"{tally.rate:.2%}")
+            (plain(f"of it with {name} hands, of {tally.hands}"), f"{tally.rate:.2%}")
             for name, tally in found.populations.items()
         ),
-        ("right work remarked on as exact as a program", str(found.too_exact)),
-        ("wrong work that earns full marks", f"{found.false_acceptances:.2%}"),
-        ("mistakes named rightly", f"{found.right_diagnoses:.2%}"),
-        ("mistakes that are not looked for, taken for another", f"{found.outside_named:.2%}"),
-        (f"marks earned at most by a copy of another variant, of {found.copies.pairs}", f"{found.copies.best:.0%}"),
-        ("copies of another variant that earn more than half", f"{found.copies.part_above_half:.1%}"),
-        (f"draws a variant, all {found.variants} separable", f"{found.draws:.2f}, at most {len(found.issued)}"),
+        (plain("right work remarked on as exact as a program"), str(found.too_exact)),
+        (plain("wrong work that earns full marks"), f"{found.false_acceptances:.2%}"),
+        (plain("mistakes named rightly"), f"{found.right_diagnoses:.2%}"),
+        (plain("mistakes that are not looked for, taken for another"), f"{found.outside_named:.2%}"),
+        (
+            plain(f"marks earned at most by a copy of another variant, of {found.copies.pairs}"),
+            f"{found.copies.best:.0%}",
+        ),
+        (plain("copies of another variant that earn more than half"), f"{found.copies.part_above_half:.1%}"),
+        (
+            plain(f"draws a variant, all {found.variants} separable"),
+            plain(f"{found.draws:.2f}, at most {len(found.issued)}"),
+        ),
     ):
-        typer.echo(f"{counted}: {value}")
+        typer.echo(f"{tell(counted)}: {tell(value)}")
 
 
 @exercise.command()
@@ -176,6 +189,7 @@ def make(
     from graphcam.exercises.course.make import UNMARKED, make as run, usual_paper
     from graphcam.exercises.exports.studio_link import check_url, write_links
 
+    voice().hear(language)
     progress = progress_lines(quiet=False)
 
     def step(done: int, total: int) -> None:
@@ -193,10 +207,12 @@ def make(
         count = run(name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step)
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)
-    students = "1 student" if count == 1 else f"{count} students"
-    typer.echo(f"{out}: {students}, papers for students in 'students', yours in 'teacher'")
+    students = say_many("{count} student", "{count} students", count)
+    echo(
+        say("{out}: {students}, papers for students in 'students', yours in 'teacher'", out=str(out), students=students)
+    )
     if secret_file is None:
-        typer.echo(f"{out / TEACHER / SECRET_FILE} is new: {KEEP}")
+        echo(_keep(out / TEACHER / SECRET_FILE))
 
 
 exercise.command()(read)
@@ -261,7 +277,7 @@ def grade(
             show_right=show_right,
         )
         said = grade_course(course, step)
-    typer.echo(said)
+    echo(said)
 
 
 @exercise.command()
@@ -301,16 +317,18 @@ def export(
     from graphcam.exercises.course.roster import Student, read_roster
     from graphcam.exercises.exports.export import export as write
 
+    voice().hear(language)
     with one_message(), progress_bar("variants") as step:
         secret = read_secret(secret_file) if secret_file else None
         students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
         if roster:
             students = read_roster(roster)
         write(name, target, students, out, secret, step, language, hand)
-    variants = "1 variant" if len(students) == 1 else f"{len(students)} variants"
-    typer.echo(f"{variants} of {name} for {target} in {out}")
+    variants = say_many("{count} variant", "{count} variants", len(students))
+    where = {"name": name, "target": str(target), "out": str(out)}
+    echo(say("{variants} of {name} for {target} in {out}", variants=variants, **where))
     if secret_file is None:
-        typer.echo(f"{out / TEACHER / SECRET_FILE} is new: {KEEP}")
+        echo(_keep(out / TEACHER / SECRET_FILE))
 
 
 @exercise.command()

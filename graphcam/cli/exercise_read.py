@@ -11,6 +11,7 @@ from typer import Argument, Option
 
 from graphcam.cli.grade_options import SecretFile
 from graphcam.cli.shared import named, one_message, progress_bar
+from graphcam.cli.voice import tell
 
 
 def read(
@@ -52,6 +53,6 @@ def read(
     with one_message(), progress_bar("photographs") as step:
         order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
         lines = list(summary(read_course(order, step)))
-    for line in lines:
+    for line in map(tell, lines):
         # A name may hold what is no line, and what a terminal obeys.
         typer.echo(line if line.isprintable() else ascii(line))

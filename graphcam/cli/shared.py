@@ -14,6 +14,7 @@ from typing import Annotated, Any
 
 import typer
 
+from graphcam.cli.voice import tell
 from graphcam.errors import GraphcamError, LetteringWarning
 
 WRONG_INPUT = 2
@@ -27,7 +28,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def said(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter("'' names no place; '.' is the current folder")
+        raise typer.BadParameter(tell("'' names no place; '.' is the current folder"))
     return place
 
 
@@ -45,6 +46,11 @@ def quoted(path: Path) -> str:
     return subprocess.list2cmdline([str(path)]) if sys.platform == "win32" else shlex.quote(str(path))
 
 
+def echo(words: object, *, err: bool = False) -> None:
+    """Print a text in the language of the command that is run."""
+    typer.echo(tell(words), err=err)
+
+
 TaskFile = Annotated[
     Path | None,
     typer.Argument(parser=named, metavar="TASK.toml", help="Task file; without it the built-in coursework."),
@@ -57,7 +63,7 @@ def one_message() -> Generator[None]:
     try:
         yield
     except GraphcamError as error:
-        typer.echo(f"graphcam: {error}", err=True)
+        typer.echo(f"graphcam: {tell(error)}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
     except OSError as error:
         # Without the number that the system gives it.
@@ -75,7 +81,7 @@ def warnings_told() -> Generator[None]:
         def told(message: Warning | str, category: type[Warning], *where: Any) -> None:
             """In one line, as every other warning; what else warns is shown as before."""
             if issubclass(category, LetteringWarning):
-                typer.echo(f"warning: {message}", err=True)
+                echo(f"warning: {message}", err=True)
             else:
                 otherwise(message, category, *where)
 
@@ -86,7 +92,7 @@ def warnings_told() -> Generator[None]:
 def progress_lines(*, quiet: bool) -> Callable[[str], None]:
     """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
     silent = quiet and not sys.stderr.isatty()
-    return lambda line: None if silent else typer.echo(f"{line} ...", err=True)
+    return lambda line: None if silent else typer.echo(f"{tell(line)} ...", err=True)
 
 
 def print_table(
@@ -94,7 +100,8 @@ def print_table(
 ) -> None:
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
     width = shutil.get_terminal_size().columns
-    lines = [title, *table_lines([columns, *rows], words, width), caption]
+    head = [tell(column) for column in columns]
+    lines = [tell(title), *table_lines([head, *rows], words, width), tell(caption)]
     typer.echo("\n".join(line for line in lines if line))
 
 
@@ -158,7 +165,7 @@ def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
         shown = now if due else shown
         progress.update(bar, completed=done, total=total, refresh=due)
 
-    columns = (TextColumn(things), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn(tell(things)), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     # Without a thread that refreshes: a process with threads is better not forked.
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         bar = progress.add_task(things, total=None)

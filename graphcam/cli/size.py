@@ -11,8 +11,10 @@ import typer
 from typer import Argument, Option
 
 import graphcam
-from graphcam.cli.shared import DEFAULT_FOLDER, named, one_message, print_table, progress_lines, warnings_told
+from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_lines, warnings_told
+from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
+from graphcam.words import say, sequence
 
 if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
@@ -55,10 +57,12 @@ def size(
 
     graphcam solve sized/sized.toml   (draw the cam that was found)
     """
+    voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = FOLDER if out is None and not as_json else out
     with one_message(), warnings_told():
         given = graphcam.builtin_task("sizing") if task is None else graphcam.load_task(task)
+        voice().hear(given.drawing.language)
         progress("searching the ranges")
         sizing = graphcam.size_task(given, None if objective is None else objective.value)
         document = sizing.to_dict()
@@ -73,14 +77,16 @@ def size(
 
 def _print(sizing: Sizing) -> None:
     """The best cam with what binds it, and the front."""
-    from graphcam.report.sizing_tables import TITLES, cam_table, front_table
+    from graphcam.report.sizing_tables import BINDING, TITLES, cam_table, front_table
 
     title = TITLES[sizing.objective]
     tables = [cam_table(sizing.best, sizing.adopted, title)]
     tables += [front_table(sizing.front)] if len(sizing.front) > 1 else []
     for table in tables:
-        rows = [[str(cell) for cell in row] for row in table.rows]
+        rows = [[tell(cell) for cell in row] for row in table.rows]
         # Of the front there is no column of words.
         words = 1 if table is tables[0] else 0
-        print_table([str(cell) for cell in table.header], rows, words, title=f"\n{table.title}")
-    typer.echo(f"\nactive: {', '.join(sizing.best.active) or 'nothing'}")
+        print_table([tell(cell) for cell in table.header], rows, words, title=f"\n{tell(table.title)}")
+    active = sequence([BINDING[name] for name in sizing.best.active]) if sizing.best.active else say("nothing")
+    echo("")
+    echo(say("active: {names}", names=active))

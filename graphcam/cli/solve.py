@@ -17,6 +17,7 @@ import graphcam
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
+    echo,
     named,
     one_message,
     print_table,
@@ -24,6 +25,7 @@ from graphcam.cli.shared import (
     warnings_told,
 )
 from graphcam.cli.telling_files import tell_files
+from graphcam.cli.voice import voice
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -83,11 +85,13 @@ def solve(
 
     graphcam solve cam.toml --working-drawing   (the cam as a part, with its polar table)
     """
+    voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
     with one_message(), warnings_told(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
+        voice().hear(given.drawing.language)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
@@ -153,7 +157,7 @@ def _print_solution(
         if "quantities" in document:
             _print_quantities(document["quantities"])
     for sentence in sentences:
-        typer.echo(f"warning: {sentence}", err=True)
+        echo(f"warning: {sentence}", err=True)
     if folder is not None and not as_json:
         # Loaded already, by what wrote the files.
         from graphcam.report.output_folder import written_files

@@ -12,9 +12,11 @@ import typer
 from typer import Option
 
 import graphcam
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, named, one_message, warnings_told
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, warnings_told
+from graphcam.cli.voice import voice
 from graphcam.errors import DesignError, Unquoted
 from graphcam.language import languages
+from graphcam.words import say
 
 if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
@@ -25,7 +27,7 @@ LANGUAGE = f"Language of the page and of what it writes, not the task's: {', '.j
 ONE_FILE = "Write the studio as one file that needs no server, and end."
 STATIC = "Write the studio as a folder for a web server, and end."
 PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site pack."
-ENDS = "It ends with its last tab, or with Ctrl-C."
+ENDS = say("It ends with its last tab, or with Ctrl-C.")
 
 
 def studio(
@@ -54,13 +56,15 @@ def studio(
 
     graphcam studio --site public/studio --pyodide pyodide   (a folder for a web server)
     """
+    voice().choose(language)
     with one_message(), warnings_told():
         _check(html, site, pyodide)
         given = _read(task, language)
+        voice().hear(given.drawing.language)
         if pyodide is None:
             _serve(given, out, browser=browser)
         else:
-            typer.echo(f"{_written(given, html, site, pyodide)} is written")
+            echo(say("{file} is written", file=str(_written(given, html, site, pyodide))))
 
 
 def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
@@ -103,7 +107,8 @@ def _serve(task: Task | ArcsTask, out: Path, *, browser: bool) -> None:
 
     with local_studio(out, task.drawing.language) as server:
         address = opened_address(server, task)
-        typer.echo(f"{address}\n{ENDS}")
+        typer.echo(address)
+        echo(ENDS)
         if browser:
             # A browser of the terminal returns when it is closed.
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

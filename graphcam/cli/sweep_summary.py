@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import typer
 
-from graphcam.cli.shared import print_table
+from graphcam.cli.shared import echo, print_table
 from graphcam.cli.telling_files import tell_file
+from graphcam.cli.voice import tell
 from graphcam.files import whole_file
 from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
+from graphcam.words import Caption, say, say_many
 
 if TYPE_CHECKING:
     from graphcam.sweeps.dataset import Summary
@@ -25,33 +26,43 @@ MOST_ROWS = 12
 
 def tell_sweep(space: Space, found: FoundBest | Summary) -> None:
     """Print how many designs keep the limits, the smallest of them, and the front as a table."""
-    designs = f"{found.designs} designs"
+    designs = say_many("{count} design", "{count} designs", found.designs)
     if found.feasible is None:
-        typer.echo(f'{designs}; to be told the best, put "{FEASIBLE}" among the quantities')
+        echo(
+            say('{designs}; to be told the best, put "{column}" among the quantities', designs=designs, column=FEASIBLE)
+        )
         return
-    typer.echo(f"{designs}, {found.feasible} keep the limits")
+    echo(say("{designs}, {feasible} keep the limits", designs=designs, feasible=str(found.feasible)))
     if not found.feasible:
-        typer.echo("none keeps the limits: try larger prime radii or larger angles of rise and return")
+        echo(say("none keeps the limits: try larger prime radii or larger angles of rise and return"))
     elif found.front is not None:
         _tell_front(space, found.front)
 
 
 def _tell_front(space: Space, front: Columns) -> None:
     shown = [name for name in dict.fromkeys((SIZE, *space.varied_columns, ANGLE)) if name in front]
-    typer.echo(f"the smallest: {_named(front, shown)}")
+    echo(say("the smallest: {values}", values=_named(front, shown)))
     count = front[SIZE].size
     if count == 1:
         return
     same = [name for name in shown if np.all(front[name] == front[name][0])]
     differing = [name for name in shown if name not in same]
     rows = np.unique(np.linspace(0, count - 1, min(count, MOST_ROWS)).round().astype(int)).tolist()
-    alike = f", all with {_named(front, same)}" if same else ""
+    title = say("No design is both smaller and of a smaller pressure angle than one of these:")
+    if same:
+        title = say(
+            "No design is both smaller and of a smaller pressure angle than one of these, all with {values}:",
+            values=_named(front, same),
+        )
+    part = say(
+        "{shown} of {count}, from the smallest to that of the least angle", shown=str(len(rows)), count=str(count)
+    )
     print_table(
         [_short(name) for name in differing],
         [[_value(front, name, row) for name in differing] for row in rows],
         words=0,
-        title=f"\nNo design is both smaller and of a smaller pressure angle than one of these{alike}:",
-        caption=f"{len(rows)} of {count}, from the smallest to that of the least angle" if len(rows) < count else "",
+        title=f"\n{tell(title)}",
+        caption=tell(part) if len(rows) < count else "",
     )
 
 
@@ -78,19 +89,19 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
             name = f"_front{ending}"
             with SharedFolder.reached(out).whole(name) as file:
                 file.write(text.encode())
-            typer.echo(f"{out.rstrip('/')}/{name}: {what}")
+            echo(f"{out.rstrip('/')}/{name}: {tell(what)}")
 
 
-def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, str]]:
+def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Caption]]:
     """Ending, text and what it is; a figure only of more than one design."""
-    yield ".csv", front_csv(front), "these designs with all their quantities"
+    yield ".csv", front_csv(front), say("these designs with all their quantities")
     if front[SIZE].size > 1:
         # Loads matplotlib.
         from graphcam.plots.figures import figure_svg
         from graphcam.plots.front_figure import front_figure
 
         limit = float(np.degrees(space.limits(space.follower).rise))
-        yield ".svg", figure_svg(front_figure(front, limit)), "their pressure angle over their size, as a figure"
+        yield ".svg", figure_svg(front_figure(front, limit)), say("their pressure angle over their size, as a figure")
 
 
 def _named(front: Columns, names: list[str]) -> str:

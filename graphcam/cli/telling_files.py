@@ -6,24 +6,27 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from graphcam.cli.voice import tell
+from graphcam.words import Caption, say, say_many
+
 if TYPE_CHECKING:
     from rich.text import Text
 
-ABOUT: Mapping[str, str] = {
-    "player": "step by step in a browser, and the mechanism turning",
-    "sheet": "the sheet, true to scale",
-    "worksheet": "the sheet to be finished, true to scale",
-    "note": "the calculation with formulas and numbers",
-    "comparison": "drawn values beside exact ones",
-    "profile": "the exact working profile, for CAD and machines",
-    "working-drawing": "the cam as a part",
-    "solution": "all of it, for programs",
+ABOUT: Mapping[str, Caption] = {
+    "player": say("step by step in a browser, and the mechanism turning"),
+    "sheet": say("the sheet, true to scale"),
+    "worksheet": say("the sheet to be finished, true to scale"),
+    "note": say("the calculation with formulas and numbers"),
+    "comparison": say("drawn values beside exact ones"),
+    "profile": say("the exact working profile, for CAD and machines"),
+    "working-drawing": say("the cam as a part"),
+    "solution": say("all of it, for programs"),
 }
 """What the files of a solution are, by their names without page number and ending; in the order they are told."""
-FIRST: Mapping[str, str] = {
-    "player.html": "in a browser",
-    "sheet.pdf": "print at 100 %",
-    "worksheet.pdf": "print at 100 %",
+FIRST: Mapping[str, Caption] = {
+    "player.html": say("in a browser"),
+    "sheet.pdf": say("print at 100 %"),
+    "worksheet.pdf": say("print at 100 %"),
 }
 """What to open first, and how."""
 
@@ -40,7 +43,7 @@ def about(name: str) -> str:
     return stem if stem in ABOUT else ""
 
 
-def grouped(names: Iterable[str]) -> list[tuple[str, list[str]]]:
+def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
     """The files of each kind and what they are, in the order of ``ABOUT``; pages by their numbers.
 
     >>> for what, names in grouped(["solution.json", "sheet-10.svg", "sheet-2.svg", "sheet.svg"]):
@@ -61,26 +64,27 @@ def tell_files(folder: Path, names: Sequence[str]) -> None:
     from rich.text import Text
 
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    count = "1 file" if len(names) == 1 else f"{len(names)} files"
+    count = tell(say_many("{count} file", "{count} files", len(names)))
     console.print(Text.assemble("\n", linked(folder, str(folder)), f": {count}"))
     for what, found in grouped(names):
         links = Text(", ").join(linked(folder / name, name) for name in found)
-        console.print(Text.assemble("  ", links, f": {what}" if what else ""))
+        console.print(Text.assemble("  ", links, f": {tell(what)}" if what else ""))
     first = [
-        Text.assemble(linked(folder / name, str(folder / name)), f" ({how})")
+        Text.assemble(linked(folder / name, str(folder / name)), f" ({tell(how)})")
         for name, how in FIRST.items()
         if name in names
     ]
     if first:
-        console.print(Text.assemble("Open first: ", Text(", then ").join(first)))
+        then = Text(tell(say(", then ")))
+        console.print(Text.assemble(tell(say("Open first: ")), then.join(first)))
 
 
-def tell_file(path: Path, what: str) -> None:
+def tell_file(path: Path, what: Caption) -> None:
     """Print that a file was written, and what it is."""
     from rich.console import Console
 
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(linked(path, str(path)) + f": {what}")
+    console.print(linked(path, str(path)) + f": {tell(what)}")
 
 
 def linked(path: Path, words: str) -> Text:

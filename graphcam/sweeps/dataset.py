@@ -23,6 +23,7 @@ from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
+from graphcam.words import plain
 from graphcam.workers import WorkerPool, results
 
 MANIFEST = "_manifest.json"
@@ -61,9 +62,10 @@ class Summary:
     front: Columns | None = None
 
     def __str__(self) -> str:
-        kept = "" if self.feasible is None else f", {self.feasible} feasible"
-        spent = f"{self.parts} parts, {self.bytes} bytes, {self.seconds:.1f} s of processor time"
-        return f"{self.designs} designs{kept}; {spent}"
+        spent = plain(f"{self.parts} parts, {self.bytes} bytes, {self.seconds:.1f} s of processor time")
+        if self.feasible is None:
+            return plain(f"{self.designs} designs") + f"; {spent}"
+        return plain(f"{self.designs} designs, {self.feasible} feasible") + f"; {spent}"
 
     def rows(self) -> list[list[str]]:
         """The ranges as texts."""

@@ -131,7 +131,7 @@ def test_the_studio_without_a_server_is_written_with_its_task(opened, tmp_path, 
     for option, place in (("--html", "s.html"), ("--site", "s")):
         result, addresses = opened(option, place, "--pyodide", "p", "--language", "ru")
         assert result.exit_code == 0
-        assert result.stdout == f"{place} is written\n"
+        assert result.stdout == f"{place} записан\n"
     assert addresses == []
     task = replace(gc.builtin_task(), drawing=replace(gc.builtin_task().drawing, language="ru"))
     assert written == [

@@ -40,6 +40,7 @@ from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
 from graphcam.locks import locked_folder
+from graphcam.words import plain
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
@@ -248,14 +249,16 @@ def _graded(
             store.note_pages(course.feedback)
             folders = {one.student: one.path for one in hand_ins}
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
-        told = [f"not graded: {one.place}: {one.why}" for one in refused]
+        told = [plain(f"not graded: {one.place}: {one.why}") for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, records, kept.folder / ENTERED)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
-    watched = f" (memory watched, {assignment.memory} MiB for all processes)" if assignment.memory else ""
-    where = f"in {course.out.parent}: {', '.join(files)}"
-    done = f"{len(records)} submissions, graded at level {course.level}{watched}, {where}"
+    level = f"{course.level}"
+    if assignment.memory:
+        level = plain(f"{course.level} (memory watched, {assignment.memory} MiB for all processes)")
+    listed = ", ".join(files)
+    done = plain(f"{len(records)} submissions, graded at level {level}, in {course.out.parent}: {listed}")
     return "\n".join([done, *map(_line, told)])
 
 

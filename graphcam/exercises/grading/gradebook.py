@@ -10,6 +10,7 @@ from typing import Any
 from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.overrides import TOTAL
+from graphcam.words import plain
 
 ENTERED = "gradebook.json"
 """In the teacher's folder, what was entered into grade books."""
@@ -80,7 +81,9 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
                 handed_in = book.find_submission_notebook(NOTEBOOK, exercise.name, student)
                 handed_in.late_submission_penalty = max(record["late"]["earned"] - record["total"], 0.0)
             if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
-                told.append(f"{student}: the total given by hand is not in the grade book, which adds up the answers")
+                told.append(
+                    plain(f"{student}: the total given by hand is not in the grade book, which adds up the answers")
+                )
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
     draft = entered.with_name(f"{entered.name}.new")
@@ -112,10 +115,10 @@ def _enter(
         grade.manual_score, grade.needs_manual_grade = answer["marks"], False
         marks = answer["marks"]
     else:
-        told.append(f"{place}: the grade book keeps {grade.manual_score:g}, not {answer['marks']:g}")
+        told.append(plain(f"{place}: the grade book keeps {grade.manual_score:g}, not {answer['marks']:g}"))
     if comment.manual_comment in (None, "", words, said):
         comment.manual_comment = words = said
     else:
-        told.append(f"{place}: the grade book keeps its comment")
+        told.append(plain(f"{place}: the grade book keeps its comment"))
     former[answer["name"]] = [marks, words]
     return told

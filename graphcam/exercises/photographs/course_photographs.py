@@ -32,7 +32,7 @@ from graphcam.exercises.photographs.settling import SettledStudent, settled
 from graphcam.exercises.photographs.student_files import write_student
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.files import OutputError, whole_file
-from graphcam.words import say
+from graphcam.words import Caption, say, say_many
 from graphcam.workers import processes, results
 
 READINGS = "photos"
@@ -235,22 +235,30 @@ def _write(path: Path, text: str) -> None:
         draft.write_text(text, encoding="utf-8", newline="\n", errors="backslashreplace")
 
 
-def summary(read: ReadCourse) -> Iterator[str]:
+def summary(read: ReadCourse) -> Iterator[Caption]:
     """What was done, in lines for a terminal."""
     refused = [photo for photo in read.photos if photo.why]
     waiting = [one for one in read.students if one.open]
     unmeasured = [one for one in read.students if one.pages and not one.corrections.bars]
-    known = f"{_counted(read.photos, 'photograph')} of {_counted(read.students, 'student')}"
-    yield f"{read.folder}: {known}, {len(refused)} refused; to check: {_counted(waiting, 'student')}"
+    yield say(
+        "{folder}: {photographs} of {students}, {refused} refused; to check: {waiting}",
+        folder=str(read.folder),
+        photographs=say_many("{count} photograph", "{count} photographs", len(read.photos)),
+        students=_students(read.students),
+        refused=len(refused),
+        waiting=_students(waiting),
+    )
     if unmeasured:
-        whose = _counted(unmeasured, "student")
-        yield f"of {whose} no scale bar is typed; a printer may be off by 1 %, and no photograph shows it"
+        yield say(
+            "of {students} no scale bar is typed; a printer may be off by 1 %, and no photograph shows it",
+            students=_students(unmeasured),
+        )
     for photo in refused:
-        yield f"refused: {photo.name}: {photo.why}; {photo.remedy}"
+        yield say("refused: {name}: {why}; {remedy}", name=photo.name, why=photo.why, remedy=photo.remedy)
     for one in waiting:
         names = ", ".join(each.asked.name for each in one.answers if each.status in ("refused", "not seen"))
-        yield f"to check: {one.student}: {names}"
+        yield say("to check: {student}: {names}", student=one.student, names=names)
 
 
-def _counted(things: Sequence[object], name: str) -> str:
-    return f"{len(things)} {name}" if len(things) == 1 else f"{len(things)} {name}s"
+def _students(listed: Sequence[object]) -> Caption:
+    return say_many("{count} student", "{count} students", len(listed))

@@ -1,0 +1,116 @@
+"""Messages of errors, and lines on what is being done, in another language than the English in which they are made.
+
+Whoever raises an error knows no language: its text is put together there, in English.  A catalog has the texts of
+messages as templates (:mod:`graphcam.message_texts` collects them); here a message is recognised by their literal
+parts, and what stands in their places is told likewise.  A text that no template fits stays as it is.
+"""
+
+from __future__ import annotations
+
+import re
+import string
+from dataclasses import dataclass
+from functools import cache
+
+from graphcam.language import ENGLISH, Language, language
+from graphcam.message_texts import CONTEXT, is_text
+
+DEEPEST = 6
+"""Messages within messages."""
+SUBJECT = "what"
+"""The place in :mod:`graphcam.errors` of what is wrong."""
+BETWEEN = ("; ", ": ")
+"""What stands between what is wrong and what to do, and behind the place where it is."""
+
+
+def told(message: object, spoken: Language) -> str:
+    """A message in a language.
+
+    message : an error, or a text that stands in the catalogs as one of a message
+
+    >>> from graphcam.errors import DesignError
+    >>> print(told(DesignError("prime radius", -3, "greater than 0 mm"), language("ru")))
+    начальный радиус: -3, а должно быть: больше 0 мм
+    """
+    text = str(message)
+    return text if spoken == ENGLISH else _told(text, _texts(spoken.name), DEEPEST)
+
+
+@dataclass(frozen=True)
+class _Template:
+    """A template and what a language makes of it.
+
+    parts : its literal parts, between which the places are
+    names : of the places in their order
+    """
+
+    parts: tuple[str, ...]
+    names: tuple[str, ...]
+    translation: str
+
+    def fit(self, text: str) -> dict[str, str] | None:
+        """What stands in the places of a text; None where it is another one."""
+        # Seldom one fits: so first by what is quickly seen.
+        if not (text.startswith(self.parts[0]) and text.endswith(self.parts[-1])):
+            return None
+        if any(part not in text for part in self.parts):
+            return None
+        found = re.fullmatch("(.+?)".join(map(re.escape, self.parts)), text, re.DOTALL)
+        return dict(zip(self.names, found.groups(), strict=True)) if found else None
+
+
+@dataclass(frozen=True)
+class _Texts:
+    """The texts of messages in a language: those without places, and the templates, those that say most first."""
+
+    plain: dict[str, str]
+    templates: list[_Template]
+
+
+@cache
+def _texts(name: str) -> _Texts:
+    plain: dict[str, str] = {}
+    templates: list[_Template] = []
+    for (context, text), (translation, *_) in language(name).catalog.told.items():
+        if context not in (CONTEXT, ""):
+            continue
+        pieces = [(literal, place) for literal, place, *_ in string.Formatter().parse(text)]
+        names = tuple(place for _, place in pieces if place is not None)
+        if not names:
+            # What a message says in its own context counts before what a caption says; and a caption of one word may be
+            # the name of a field as well.
+            if context or (text not in plain and " " in text):
+                plain["".join(literal for literal, _ in pieces)] = translation.replace("{{", "{").replace("}}", "}")
+            continue
+        parts = [literal for literal, _ in pieces] + ([""] if pieces[-1][1] is not None else [])
+        if is_text(text) and len({*names}) == len(names):
+            templates.append(_Template(tuple(parts), names, translation))
+    return _Texts(plain, sorted(templates, key=lambda one: -sum(map(len, one.parts))))
+
+
+def _told(text: str, texts: _Texts, deeper: int) -> str:
+    if text in texts.plain:
+        return texts.plain[text]
+    if not deeper:
+        return text
+    for template in texts.templates:
+        if (values := template.fit(text)) is not None:
+            inner = {name: _inner(name, value, texts, deeper - 1) for name, value in values.items()}
+            return _filled(template.translation, inner)
+    for between in BETWEEN:
+        first, found, second = text.partition(between)
+        if found:
+            return _told(first, texts, deeper) + between + _told(second, texts, deeper)
+    return text
+
+
+def _inner(place: str, text: str, texts: _Texts, deeper: int) -> str:
+    """What stands in a place of a message; one word for what is wrong is the name of a field, and stays."""
+    field = place == SUBJECT and " " not in text.rpartition(": ")[2]
+    return text if field else _told(text, texts, deeper)
+
+
+def _filled(template: str, values: dict[str, str]) -> str:
+    """A template with texts in its places, whatever formats these have."""
+    pieces = string.Formatter().parse(template)
+    return "".join(literal + (values[place] if place is not None else "") for literal, place, *_ in pieces)

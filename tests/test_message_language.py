@@ -1,0 +1,176 @@
+"""The command line in another language: every text in the catalogs, messages recognised, and which language it is."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from russian import english_words
+from typer.testing import CliRunner
+
+import graphcam
+from graphcam.cli import app
+from graphcam.cli.voice import Voice, language_of_machine
+from graphcam.errors import DesignError, TaskError
+from graphcam.files import OutputError
+from graphcam.language import ENGLISH, language
+from graphcam.message_texts import CONTEXT, is_text, texts_of_messages
+from graphcam.messages import told
+
+PACKAGE = Path(graphcam.__file__).parent
+RUSSIAN = language("ru")
+
+
+def russian(*words: str, folder: Path | None = None, **variables: str) -> subprocess.CompletedProcess[str]:
+    """What the command line does on a Russian machine."""
+    environment = {**os.environ, "LANGUAGE": "ru", "PYTHONPATH": str(PACKAGE.parent), "COLUMNS": "200", **variables}
+    command = [sys.executable, "-m", "graphcam", *words]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, encoding="utf-8", check=False)
+
+
+@pytest.mark.parametrize(
+    ("variables", "name"),
+    [
+        ({}, "en"),
+        ({"LANG": "C.UTF-8"}, "en"),
+        ({"LANG": "ru_RU.UTF-8"}, "ru"),
+        ({"LANG": "ru"}, "ru"),
+        ({"LANG": "ru_RU@euro", "LC_MESSAGES": ""}, "ru"),
+        ({"LANG": "ru_RU.UTF-8", "LC_ALL": "C"}, "en"),
+        ({"LANG": "en_US.UTF-8", "LC_MESSAGES": "ru_RU.UTF-8"}, "ru"),
+        ({"LANG": "en_US.UTF-8", "LANGUAGE": "xx:ru"}, "ru"),
+        ({"LANG": "ru_RU.UTF-8", "LANGUAGE": "xx"}, "en"),
+    ],
+)
+def test_the_machine_names_its_language_as_for_gettext(variables, name):
+    assert language_of_machine(variables).name == name
+
+
+def test_what_is_asked_for_counts_before_the_task_and_the_task_before_the_machine():
+    voice = Voice(language=RUSSIAN)
+    voice.hear("en")
+    assert voice.language == RUSSIAN
+    voice.choose("en")
+    voice.hear("ru")
+    assert voice.language == ENGLISH
+    voice = Voice(language=ENGLISH)
+    voice.choose(None)
+    voice.choose("xx")
+    voice.hear("ru")
+    assert voice.language == RUSSIAN
+
+
+def test_a_message_is_recognised_with_what_stands_in_it():
+    error = TaskError("cam.toml", "motion.phases[0].lift", 0, "greater than 0 mm", "did you mean 'lift'?")
+    said = "cam.toml: motion.phases[0].lift: 0, а должно быть: больше 0 мм; может быть, 'lift'?"
+    assert told(error, RUSSIAN) == said
+    assert told(error, ENGLISH) == str(error)
+
+
+def test_the_names_of_fields_and_what_a_user_wrote_stay():
+    # "rotation" is a caption as well.
+    assert told(DesignError("rotation", "rise", "'ccw' or 'cw'"), RUSSIAN) == (
+        "rotation: 'rise', а должно быть: 'ccw' или 'cw'"
+    )
+
+
+def test_a_message_that_stands_in_no_catalog_stays_english():
+    assert told("a brand-new text", RUSSIAN) == "a brand-new text"
+    said = told(OutputError("out", "a brand-new text"), RUSSIAN)
+    assert said == "не удаётся записать 'out' (a brand-new text); выберите другое место"
+
+
+def every_text() -> list[str]:
+    texts = [text for path in PACKAGE.rglob("*.py") for _, text in texts_of_messages(path.read_text(encoding="utf-8"))]
+    return sorted(set(texts))
+
+
+def test_every_message_is_told_as_its_own_template_says():
+    """No template takes a message from another: each is recognised, and its places are filled."""
+    catalog = RUSSIAN.catalog
+    wrong = []
+    for text in every_text():
+        places = re.findall(r"\{(\w+)\}", text)
+        values = {place: f"«{k}»" for k, place in enumerate(places)}
+        if told(text.format(**values), RUSSIAN) != catalog.say(text, CONTEXT).format(**values):
+            wrong.append(text)
+    assert len(every_text()) > 500
+    assert wrong == []
+
+
+def calls_of_the_command_line() -> list[tuple[Path, ast.Call]]:
+    found = []
+    for path in (PACKAGE / "cli").rglob("*.py"):
+        module = ast.parse(path.read_text(encoding="utf-8"))
+        found += [(path, node) for node in ast.walk(module) if isinstance(node, ast.Call)]
+    return found
+
+
+def test_no_text_of_the_command_line_escapes_the_catalogs():
+    """What is printed as it is, by typer or rich, has no words of its own: these go through ``echo`` or ``tell``."""
+    printing = [
+        (path, call)
+        for path, call in calls_of_the_command_line()
+        if isinstance(call.func, ast.Attribute) and call.func.attr in ("echo", "secho", "print")
+    ]
+    assert printing
+    as_they_are = [
+        (path.name, part.value)
+        for path, call in printing
+        for part in ast.walk(call)
+        if isinstance(part, ast.Constant) and isinstance(part.value, str) and is_text(part.value)
+    ]
+    # The name of the program, and a key of a document.
+    assert {text for _, text in as_they_are} <= {"graphcam ", "graphcam: ", "files"}
+
+
+def test_the_help_is_russian_and_the_names_in_it_are_not():
+    for words in (["--help"], ["solve", "--help"], ["exercise", "grade", "--help"]):
+        said = russian(*words).stdout
+        # Click's own words stand in no catalog of ours, and the remarks beside the examples are part of them.
+        assert "Show this message and exit." in said
+        assert re.search("[а-я]{4,}", said)
+    summaries = [line for line in russian("--help").stdout.splitlines() if line.startswith("│ ")]
+    names = ("version", "help", "bool", "Show this message and exit", "graphcam", "Jupyter", *app_names())
+    assert english_words("\n".join(summaries), names) == set()
+
+
+def app_names() -> list[str]:
+    return [*(str(command.callback.__name__) for command in app.registered_commands if command.callback), "exercise"]
+
+
+WRONG = {
+    "a missing task": (["solve", "none.toml"], {"none", "toml", "TOML", "graphcam", "init", "FILE"}),
+    "no such division": (["solve", "--divisions", "0"], {"graphcam", "divisions"}),
+    "no such language": (["solve", "--language", "xx"], {"graphcam", "language"}),
+    "two options": (["solve", "--worksheet", "--upto", "2"], {"graphcam", "upto", "worksheet"}),
+    "no such exercise": (["exercise", "make", "nix", "--roster", "r", "--secret-file", "s"], None),
+    "no such course": (["exercise", "grade", "none", "--secret-file", "s", "--out", "g.csv"], None),
+    "a file that is there": (["init", "there.toml"], {"graphcam", "there", "toml"}),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_input_is_told_in_russian(case, tmp_path, monkeypatch):
+    words, names = WRONG[case]
+    (tmp_path / "there.toml").touch()
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, words, env={"LANGUAGE": "ru"})
+    assert done.exit_code == 2
+    assert re.search("[а-я]{4,}", done.stderr), done.stderr
+    if names is not None:
+        assert english_words(done.stderr) <= names
+
+
+def test_the_table_of_a_task_in_russian_is_russian(tmp_path):
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["solve", "--language", "ru", "--out", str(out)], env={"LANGUAGE": ""})
+    assert done.exit_code == 0
+    assert re.search(r"величина +ед\. +построено +точно +погрешность +предел", done.stdout)
+    assert "погрешность и оценка предельной погрешности в мм на чертеже" in done.stdout
+    assert english_words(done.stderr) <= {"PDF", "SVG", "PNG", "DXF"}
