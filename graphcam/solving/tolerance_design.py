@@ -9,7 +9,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.ink import Caption, Construction, say
+from graphcam.drafting.ink import Caption, Construction, say, say_in
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
@@ -181,7 +181,7 @@ class ToleranceDesign:
             return Table(title, ("", ""), ((say("the profile is undercut"), "–"),))
         bands, told = self.bands, self.quantities
         header = (
-            say("tolerance"),
+            say_in("of a size", "tolerance"),
             say("± mm"),
             *(say("{symbol}, {unit}", symbol=each.symbol, unit=unit(each.unit)) for each in told),
             *(say("of {symbol}, %", symbol=each.symbol) for each in told),
