@@ -9,7 +9,7 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.ink import Caption, Construction, say, say_in
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
@@ -21,7 +21,7 @@ from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, plain_place, turn_diagrams
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.words import Words
+from graphcam.words import Words, say_in
 
 TOLERANCE_MEANING = Meaning(
     "tolerances",
