@@ -21,7 +21,7 @@ from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, plain_place, turn_diagrams
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.words import Words
+from graphcam.words import Words, say_in
 
 TOLERANCE_MEANING = Meaning(
     "tolerances",
@@ -181,7 +181,7 @@ class ToleranceDesign:
             return Table(title, ("", ""), ((say("the profile is undercut"), "–"),))
         bands, told = self.bands, self.quantities
         header = (
-            say("tolerance"),
+            say_in("of a size", "tolerance"),
             say("± mm"),
             *(say("{symbol}, {unit}", symbol=each.symbol, unit=unit(each.unit)) for each in told),
             *(say("of {symbol}, %", symbol=each.symbol) for each in told),
