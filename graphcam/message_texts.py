@@ -29,6 +29,15 @@ TEXTS = {
     "OSError": (0,),
     "IsADirectoryError": (0, 1),
     "BadParameter": (0,),
+    "_wrong": (0, 1, 2, 3),
+    "wrong": (1, 2),
+    "_refused": (0, 1, 2),
+    "_error": (3,),
+    "unreadable": (1, 2, 4),
+    "student_lines": (1, 4, 5),
+    "once": (2,),
+    "other_file": (0, 1),
+    "WrongType": (1,),
     "positive": (2,),
     "progress": (0,),
     "report": (0,),
@@ -39,13 +48,16 @@ TEXTS = {
     "print_table": (0,),
 }
 """Which of the arguments of a call are texts."""
-KEYWORDS = {"limit", "expected", "remedy", "title", "caption", "help"}
+KEYWORDS = {"limit", "expected", "remedy", "kind", "where", "title", "caption", "help"}
 """Arguments by name that are texts."""
-NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1}
+NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1, "_wrong": 0}
 """Which of them is a name; one word alone is that of a field, the same in every language."""
 HELPED = {"Option", "Argument", "Typer"}
 """Calls of typer with a help."""
-RETURN = {"nearest", "missing", "_broken", "_sentence", "unreadable"}
+RETURN = {
+    *("nearest", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "_told"),
+    *("_typography", "_comma", "_value"),
+}
 """Functions that return texts; those of errors that say themselves do so too."""
 
 
@@ -136,10 +148,15 @@ class _Assigned:
                     pairs = ((target, value) for target in targets)
                 case ast.AnnAssign(target=target, value=ast.expr() as value):
                     pairs = [(target, value)]
+                case ast.For(target=ast.Tuple(elts=targets), iter=ast.Tuple(elts=rows)):
+                    tuples = [row.elts for row in rows if isinstance(row, ast.Tuple)]
+                    pairs = [pair for values in tuples for pair in zip(targets, values, strict=False)]
                 case _:
                     continue
+            several = isinstance(node, ast.For)
             for target, value in pairs:
-                if isinstance(target, ast.Name):
+                # Among what is gone through are names of files and fields; a text has several words.
+                if isinstance(target, ast.Name) and not (several and " " not in _template(value)):
                     self.values.setdefault(target.id, []).append(value)
 
     def texts(self, node: ast.expr, *, named: bool = False, deeper: int = 3) -> Iterator[tuple[int, str]]:
@@ -151,6 +168,10 @@ class _Assigned:
                 template = _template(node)
                 if is_text(template) and not (named and " " not in template):
                     yield node.lineno, template
+                if isinstance(node, ast.JoinedStr):
+                    for part in node.values:
+                        if isinstance(part, ast.FormattedValue) and isinstance(part.value, ast.Name | ast.IfExp):
+                            yield from self.texts(part.value, named=True, deeper=deeper - 1)
                 if isinstance(node, ast.BinOp):
                     for part in (node.left, node.right):
                         if not isinstance(part, ast.Constant | ast.JoinedStr):

@@ -98,9 +98,9 @@ class Moving:
 
     def __post_init__(self) -> None:
         _check_positive("lift", self.lift, "mm")
-        remedy = f"write math.radians({self.angle:.6g}) if it is in degrees"
-        if self.lift <= FULL_TURN:
-            remedy += f", or {_swapped(self)} if the two are swapped"
+        in_degrees = f"write math.radians({self.angle:.6g}) if it is in degrees"
+        swapped = f"{in_degrees}, or {_swapped(self)} if the two are swapped"
+        remedy = swapped if self.lift <= FULL_TURN else in_degrees
         _check_angle(self.angle, remedy)
         _ = self.normalised  # says at once if there is no such law
 
@@ -341,8 +341,8 @@ def _remedy(phases: Sequence[Phase], turn: float) -> str:
     lifts = math.fsum(phase.angle if isinstance(phase, Dwell) else phase.lift for phase in phases)
     if abs(lifts - FULL_TURN) < NEARLY * FULL_TURN:
         return f"the lifts make a turn: name the arguments, {_swapped(moving)}"
-    change = "lengthen" if turn < FULL_TURN else "shorten"
-    return f"{change} a dwell by {abs(math.degrees(turn) - 360):.10g} degrees"
+    off = f"{abs(math.degrees(turn) - 360):.10g}"
+    return f"lengthen a dwell by {off} degrees" if turn < FULL_TURN else f"shorten a dwell by {off} degrees"
 
 
 def _swapped(phase: Moving) -> str:

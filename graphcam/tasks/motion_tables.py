@@ -105,7 +105,7 @@ class MotionTable:
         if not given:
             raise DesignError("phases", Unquoted("missing"), "given")
         if len(given) > 1:
-            limit = f"left out where there {'is a table' if given[0] == 'table' else 'are phases'}"
+            limit = "left out where there is a table" if given[0] == "table" else "left out where there are phases"
             raise DesignError(given[1], ways[given[1]], limit, "give one of the two")
         if self.tolerance is not None and self.table is None:
             left_out = "left out where there is no table"

@@ -51,10 +51,11 @@ def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskErro
     lines = text.splitlines() or [""]
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
-    told = _typography(line) or _comma(line) or _value(line)
+    place_of = f"line {number}"
+    told = _typography(line, place_of) or _comma(line, place_of) or _value(line, place_of)
     if told is not None:
         what, found, wanted, remedy = told
-        return TaskError(path, f"line {number}{what}", Unquoted(found), wanted, remedy)
+        return TaskError(path, what, Unquoted(found), wanted, remedy)
     shown = line.strip()
     shown = shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
     return TaskError(path, f"line {number}", shown, f"TOML ({why[:1].lower()}{why[1:]})", example)
@@ -64,7 +65,7 @@ Told = tuple[str, str, str, str]
 """What in a line, its value, what it must be, and the remedy."""
 
 
-def _typography(line: str) -> Told | None:
+def _typography(line: str, place: str) -> Told | None:
     """A character outside of texts and comments that is not the one of the keyboard."""
     outside = _STRING_OR_COMMENT.sub(lambda found: " " * len(found[0]), line)
     for column, letter in enumerate(outside, 1):
@@ -74,9 +75,9 @@ def _typography(line: str) -> Told | None:
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
         if not plain.strip():
             wanted, remedy = ("a plain space", "type it anew") if plain else ("left out", "delete it")
-            return f", column {column}: the character", f"invisible ({name})", wanted, remedy
+            return f"{place}, column {column}: the character", f"invisible ({name})", wanted, remedy
         return (
-            f", column {column}: the character",
+            f"{place}, column {column}: the character",
             f"'{letter}' ({name})",
             f"a plain {plain!r}",
             "type it in a text editor",
@@ -98,26 +99,26 @@ def _plain(letter: str) -> str | None:
     return same if same.isascii() and len(same) == 1 else None
 
 
-def _comma(line: str) -> Told | None:
+def _comma(line: str, place: str) -> Told | None:
     """A number with a decimal comma."""
     if comma := _COMMA.search(line):
         remedy = f"write {comma[1]}.{comma[2]}"
-        return ": the number", f"{comma[1]},{comma[2]}", "written with a decimal point", remedy
+        return f"{place}: the number", f"{comma[1]},{comma[2]}", "written with a decimal point", remedy
     return None
 
 
-def _value(line: str) -> Told | None:
+def _value(line: str, place: str) -> Told | None:
     """A text without quotes, or a number with its unit."""
     for found in _VALUE.finditer(_STRING_OR_COMMENT.sub("''", line)):
         word = found[1]
         if word.startswith("''") or _is_value(word):
             continue
         if word in _SWITCHES:
-            return ": the switch", word, "true or false", f"write {_SWITCHES[word]}"
+            return f"{place}: the switch", word, "true or false", f"write {_SWITCHES[word]}"
         if number := _WITH_UNIT.fullmatch(word):
-            return ": the number", word, "written without its unit", f"write {number[1]}"
+            return f"{place}: the number", word, "written without its unit", f"write {number[1]}"
         if "'" not in word and '"' not in word:
-            return ": the text", word, "in quotes", f'write "{word}"'
+            return f"{place}: the text", word, "in quotes", f'write "{word}"'
     return None
 
 
