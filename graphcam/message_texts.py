@@ -58,7 +58,7 @@ RETURN = {
     *("nearest", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "_told"),
     *("_typography", "_comma", "_value"),
 }
-"""Functions that return texts; those of errors that say themselves do so too."""
+"""Functions that return texts; errors that say themselves do so too, and have texts as defaults."""
 
 
 def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> Iterator[Any]:
@@ -92,6 +92,10 @@ def texts_of_messages(code: str) -> Iterator[tuple[int, str]]:
                     yield from said.texts(inner.value)
         elif isinstance(node, ast.ClassDef) and node.name.endswith("Error"):
             for inner in node.body:
+                if isinstance(inner, ast.FunctionDef) and inner.name == "__init__":
+                    for argument, default in zip(inner.args.kwonlyargs, inner.args.kw_defaults, strict=True):
+                        if argument.arg in KEYWORDS and default is not None:
+                            yield from said.texts(default)
                 if isinstance(inner, ast.FunctionDef) and inner.name == "__str__":
                     for last in ast.walk(inner):
                         if isinstance(last, ast.Return) and last.value is not None:
@@ -159,7 +163,7 @@ class _Assigned:
                 if isinstance(target, ast.Name) and not (several and " " not in _template(value)):
                     self.values.setdefault(target.id, []).append(value)
 
-    def texts(self, node: ast.expr, *, named: bool = False, deeper: int = 3) -> Iterator[tuple[int, str]]:
+    def texts(self, node: ast.expr, *, named: bool = False, deeper: int = 4) -> Iterator[tuple[int, str]]:
         """The texts that an expression can be."""
         if not deeper:
             return

@@ -50,8 +50,10 @@ class OscillatingKinematics(RollerKinematics):
         arm, distance, r0 = self.arm, self.distance, self.prime_radius
         nearest, farthest = abs(distance - arm), distance + arm
         if not nearest < r0 < farthest:
-            limit = f"between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it"
-            limit += f" from a centre distance of {distance:g} mm"
+            limit = (
+                f"between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it "
+                f"from a centre distance of {distance:g} mm"
+            )
             raise DesignError("prime radius", r0, limit, "change the prime radius, the arm or the centre distance")
         if math.isnan(self.psi0):
             left = math.degrees(math.pi - angle_between(distance, arm, r0))

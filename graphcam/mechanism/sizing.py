@@ -119,8 +119,8 @@ def size_cam(
     ('minimum prime radius', 'maximum roller radius')
     """
     if (prime_radius is None) == (base_radius is None):
-        found = "neither" if prime_radius is None else "both"
-        raise DesignError("prime_radius and base_radius", Unquoted(f"{found} given"), "one of them, as a range in mm")
+        found = "neither given" if prime_radius is None else "both given"
+        raise DesignError("prime_radius and base_radius", Unquoted(found), "one of them, as a range in mm")
     measure: Measure = "base radius" if prime_radius is None else "prime radius"
     limits = SizingLimits(
         permitted_stress, rise, return_, terms_of(roller_rule), contact or RollerContact(1.0), friction

@@ -120,4 +120,4 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
 
 
 def _missing(folder: Path, name: str) -> TaskError:
-    return MissingFileError(name, f"run there: {PACKING}", where=f"in {folder}")
+    return MissingFileError(name, f"run there: {PACKING}", where=f"in the folder {folder}")

@@ -103,8 +103,8 @@ def test_arcs_and_another_language_are_opened(opened, tmp_path):
         (["--site", "s"], "--pyodide is missing, but must be given with --site"),
         (["--site", "s", "--html", "s.html", "--pyodide", "p"], "--site is 's', but must be left out with --html"),
         (["--pyodide", "p"], "--pyodide is 'p', but must be left out without --html and --site"),
-        (["--html", "s.html", "--pyodide", "gone"], "there is no file pyodide.js in gone; run there: npm"),
-        (["--site", "s", "--pyodide", "gone"], "there is no file pyodide.js in gone; run there: npm"),
+        (["--html", "s.html", "--pyodide", "gone"], "there is no file pyodide.js in the folder gone; run there: npm"),
+        (["--site", "s", "--pyodide", "gone"], "there is no file pyodide.js in the folder gone; run there: npm"),
         (["--html", "", "--pyodide", "p"], None),
     ],
 )
