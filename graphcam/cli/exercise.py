@@ -61,7 +61,7 @@ def list_exercises() -> None:
     rows: list[list[str]] = []
     with one_message():
         for name in library():
-            found = find_exercise(name)
+            found = find_exercise(name, voice().language.name)
             counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
             rows.append([name, found.title, *map(str, counts)])
     print_table(("name", "title", "answers", "marks", "mistakes told"), rows, words=2)

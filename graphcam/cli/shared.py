@@ -1,5 +1,6 @@
 """What the commands share: how they end on wrong input, and how they say what they are doing."""
 
+import re
 import shlex
 import shutil
 import subprocess
@@ -14,13 +15,15 @@ from typing import Annotated, Any
 
 import typer
 
-from graphcam.cli.voice import tell
+from graphcam.cli.voice import tell, voice
 from graphcam.errors import GraphcamError, LetteringWarning
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
 REFRESHED = 0.1
 """Seconds between two looks of a bar."""
+NUMBER = re.compile(r"[-−]?\d+\.\d+(e[-+]?\d+)?[*%]?")
+"""A decimal number in a table, perhaps a percentage."""
 DEFAULT_FOLDER = Path("graphcam-out")
 """Where the files go if nothing is said."""
 
@@ -101,8 +104,14 @@ def print_table(
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
     width = shutil.get_terminal_size().columns
     head = [tell(column) for column in columns]
-    lines = [tell(title), *table_lines([head, *rows], words, width), tell(caption)]
+    said = [[*row[:words], *map(_number, row[words:])] for row in rows]
+    lines = [tell(title), *table_lines([head, *said], words, width), tell(caption)]
     typer.echo("\n".join(line for line in lines if line))
+
+
+def _number(cell: str) -> str:
+    """A number with the decimal sign of the language; any other text as it is."""
+    return cell.replace(".", voice().language.decimal) if NUMBER.fullmatch(cell) else cell
 
 
 def table_lines(rows: Sequence[Sequence[str]], words: int, width: int) -> list[str]:

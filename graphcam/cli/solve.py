@@ -25,7 +25,7 @@ from graphcam.cli.shared import (
     warnings_told,
 )
 from graphcam.cli.telling_files import tell_files
-from graphcam.cli.voice import voice
+from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
 
 if TYPE_CHECKING:
@@ -166,10 +166,19 @@ def _print_solution(
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
+    # Loaded already, by what drew.
+    from graphcam.drafting.units import UNITS
+
     rows: list[list[str]] = []
     for name, row in quantities.items():
         numbers = (row[key] for key in ("drawn", "exact", "error_paper", "tolerance_paper"))
         # Adding zero makes a positive zero of what rounds to a negative one.
-        rows.append([name, row["unit"], *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers)])
+        rows.append(
+            [
+                name,
+                tell(UNITS.get(row["unit"], row["unit"])),
+                *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers),
+            ]
+        )
     columns = ("quantity", "unit", "drawn", "exact", "error", "bound")
     print_table(columns, rows, words=2, caption="error and estimated bound in mm on paper")

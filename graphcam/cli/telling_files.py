@@ -75,8 +75,8 @@ def tell_files(folder: Path, names: Sequence[str]) -> None:
         if name in names
     ]
     if first:
-        then = Text(tell(say(", then ")))
-        console.print(Text.assemble(tell(say("Open first: ")), then.join(first)))
+        begin, then = tell(say("Open first: ")), tell(say(", then "))
+        console.print(Text.assemble(begin, Text(then).join(first)))
 
 
 def tell_file(path: Path, what: Caption) -> None:

@@ -346,7 +346,11 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     if sum(waves) >= (room := DEEPEST * float(np.min(room))):
         k = int(np.argmax(waves))
         n = errors.harmonics[k]
-        why = "a roller would bridge the hollows of deep ones" if roller else "a face would bridge the hollows of deep ones"
+        why = (
+            "a roller would bridge the hollows of deep ones"
+            if roller
+            else "a face would bridge the hollows of deep ones"
+        )
         limit = f"less than {room / n**2:.3g} mm at {n} waves per turn: {why}"
         raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, "take smaller amplitudes or fewer waves")
 
