@@ -24,7 +24,7 @@ from graphcam.cli.shared import (
 )
 from graphcam.cli.voice import voice
 from graphcam.files import OutputError, write_new
-from graphcam.words import say, say_many
+from graphcam.words import say
 
 
 def notebook(

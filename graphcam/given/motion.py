@@ -182,10 +182,12 @@ class Motion(Shown):
         phases = tuple(self.phases)
         angles = [phase.angle for phase in phases]
         steps = [phase.direction * phase.lift for phase in phases]
-        for direction, kind in ((1, "rise"), (-1, "return")):
+        for direction, found, remedy in (
+            (1, "without a rise", "add a rise"),
+            (-1, "without a return", "add a return"),
+        ):
             if all(phase.direction != direction for phase in phases):
-                limit = "one with a rise and a return"
-                raise DesignError("motion", Unquoted(f"without a {kind}"), limit, f"add a {kind}")
+                raise DesignError("motion", Unquoted(found), "one with a rise and a return", remedy)
         turn = math.fsum(angles)
         if abs(turn - FULL_TURN) > CLOSURE:
             total = Unquoted(f"{turn:.6g} rad ({math.degrees(turn):.10g} degrees)")

@@ -38,7 +38,7 @@ class SizingTable:
         for name, (low, high) in self.ranges().items():
             if not low <= high:
                 limit = "a range from the smaller size to the larger, in mm"
-                raise DesignError(name, Unquoted(f"{low:g} to {high:g}"), limit, "exchange the two")
+                raise DesignError(name, Unquoted(f"from {low:g} to {high:g}"), limit, "exchange the two")
             for end in (low, high):
                 if name == "offset":
                     _finite(name, end)
