@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 import graphcam
 from graphcam.cli import app
 from graphcam.cli.voice import Voice, language_of_machine
-from graphcam.errors import DesignError, TaskError
+from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH, language
 from graphcam.message_texts import CONTEXT, is_text, texts_of_messages
@@ -83,6 +83,38 @@ def test_a_message_that_stands_in_no_catalog_stays_english():
     assert told("a brand-new text", RUSSIAN) == "a brand-new text"
     said = told(OutputError("out", "a brand-new text"), RUSSIAN)
     assert said == "не удаётся записать 'out' (a brand-new text); выберите другое место"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("missing", "отсутствует"),
+        ("left out", "не указано"),
+        ("not installed", "не установлено"),
+        ("30 degrees", "30 градусов"),
+        ("not readable (Permission denied)", "не читается (Permission denied)"),
+    ],
+)
+def test_what_is_said_of_a_value_is_told_too(words, said):
+    assert told(DesignError("lift", Unquoted(words), "a number"), RUSSIAN) == f"lift: {said}, а должно быть: число"
+    # What somebody wrote is not.
+    assert told(DesignError("lift", words, "a number"), RUSSIAN) == f"lift: '{words}', а должно быть: число"
+
+
+def test_a_missing_file_is_told_with_its_place():
+    error = MissingFileError("motion.csv", "check motion.table", where="beside cam.toml")
+    assert told(error, RUSSIAN) == "отсутствует файл motion.csv рядом с cam.toml; проверьте motion.table"
+    error = MissingFileError("week 5", kind="folder")
+    assert told(error, RUSSIAN) == "отсутствует папка week 5; проверьте имя"
+
+
+def test_what_is_found_in_a_line_of_a_file_is_told_piece_by_piece(tmp_path, monkeypatch):
+    (tmp_path / "cam.toml").write_text("[follower]\noffset = −10\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(app, ["solve", "cam.toml"], env={"LANGUAGE": "ru"})
+    place = "cam.toml: строка 2, столбец 10: знак"
+    wanted = "а должно быть: обычный '-'; наберите его в текстовом редакторе"
+    assert done.stderr == f"graphcam: {place}: '−' (minus sign), {wanted}\n"
 
 
 def every_text() -> list[str]:
@@ -155,6 +187,18 @@ WRONG = {
 }
 
 
+def test_what_to_do_next_is_russian_but_the_commands():
+    said = CliRunner().invoke(app, [], env={"LANGUAGE": "ru"}).stdout
+    lines = [line for line in said.splitlines() if not line.startswith("    ")]
+    assert english_words("\n".join(lines)) <= {"graphcam", "out", "help", "solve", "Jupyter"}
+    assert said.splitlines()[0].endswith("кулачки, построенные как на чертёжной доске, и рядом точные значения.")
+
+
+def test_the_exercises_are_listed_by_their_titles_in_the_language():
+    said = CliRunner().invoke(app, ["exercise", "list"], env={"LANGUAGE": "ru", "COLUMNS": "200"}).stdout
+    assert re.search(r"pressure-angle +Угол давления", said)
+
+
 @pytest.mark.parametrize("case", WRONG)
 def test_wrong_input_is_told_in_russian(case, tmp_path, monkeypatch):
     words, names = WRONG[case]
@@ -173,4 +217,15 @@ def test_the_table_of_a_task_in_russian_is_russian(tmp_path):
     assert done.exit_code == 0
     assert re.search(r"величина +ед\. +построено +точно +погрешность +предел", done.stdout)
     assert "погрешность и оценка предельной погрешности в мм на чертеже" in done.stdout
+    assert re.search(r"мм/рад +57,296 +57,296", done.stdout)
+    assert re.search(r"sheet.pdf, .*: лист в масштабе\n", done.stdout)
     assert english_words(done.stderr) <= {"PDF", "SVG", "PNG", "DXF"}
+
+
+def test_the_tables_of_a_sized_cam_are_russian(tmp_path):
+    done = CliRunner().invoke(app, ["size", "--language", "ru", "--out", str(tmp_path / "out")], env={"LANGUAGE": ""})
+    assert done.exit_code == 0
+    tables = done.stdout.partition(str(tmp_path))[0]
+    assert english_words(tables) == set()
+    assert re.search(r"эксцентриситет +20,000 мм", tables)
+    assert "активные ограничения: угол давления на удалении, контактное напряжение" in tables
