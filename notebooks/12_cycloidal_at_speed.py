@@ -357,7 +357,7 @@ figure, _ = chart("", "", 5.0)
 figure.clear()
 bands.plot(figure)
 figure.tight_layout()
-picture_of(figure, "Displacement, velocity and acceleration of the cam over the turn, each with a band about it that is drawn many times as wide. The bands of 2000 solved mechanisms lie within those of the first order; that of the acceleration is drawn the least magnified.",
+picture_of(figure, "Displacement, velocity and acceleration of the cam over the turn, each with a band about it that is drawn many times as wide. The bands of 2000 solved mechanisms lie within those of the first order; that of the acceleration has the smallest magnification.",
            "Where 95 of 100 cams lie that are made to these tolerances; the bands are magnified as written beside them")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]

@@ -345,15 +345,16 @@ class Chain(Drawings):
     def _readable(self, region: Construction, name: str) -> float:
         """The machine value of a reading that a decision rests on."""
         value = float(region.readings[name].value)
-        if math.isnan(value) and (slip := self.board.limits.slip()):
-            way, angle = slip
-            limit = "large enough for lines that cross at a degree or more"
-            remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given"
-            raise DesignError(f"permitted pressure angle on the {way}", Unquoted(f"{angle:g} degrees"), limit, remedy)
         if math.isnan(value):
             follower, given = self.board.follower, self.board.prime_radius
             missing = [f"follower.{follower.place_name}"] if follower.place is None else []
             missing += ["cam.prime_radius"] if given is None else []
+            if slip := self.board.limits.slip():
+                way, angle = slip
+                limit = "large enough for lines that cross at a degree or more"
+                remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given; or give {' and '.join(missing)}"
+                found = Unquoted(f"{angle:g} degrees")
+                raise DesignError(f"permitted pressure angle on the {way}", found, limit, remedy)
             limit = "a place within all limits, where lines cross at a degree or more"
             remedy = f"give {' and '.join(missing)}, or permit larger pressure angles"
             raise DesignError("minimum prime radius", Unquoted("unreadable"), limit, remedy)

@@ -71,12 +71,12 @@ MEANING = Meaning(
     say("Jerk"),
     say(
         "The jerk is the slope of the acceleration: a parallel through the pole to a chord of a cuts it off. It is "
-        "drawn by differentiation, which enlarges the errors of the hand; where the acceleration jumps it is infinite."
+        "drawn by differentiation, which amplifies drawing errors; where the acceleration jumps it is infinite."
     ),
     {
         "j": ReadingMeaning(say("jerk j"), "j", "lift/rad³", over=_parts),
         "max_j": ReadingMeaning(
-            say("greatest j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("greatest jerk", "max_j")
+            say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("greatest jerk", "max_j")
         ),
     },
     "report.jerk_paragraphs.jerk",
@@ -201,7 +201,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     )
     said = say(
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
-        "to P₃; carry the level at which the ray ends on the vertical axis to the upright in the middle of the part. "
+        "to P₃; carry the level at which the ray ends on the vertical axis to the vertical in the middle of the part. "
         "Ray {name} ends at {y:+.2f} mm."
     ).where(distance=distance, name=names[k], y=heights.shown[k].imag + 0.0)
     one = say("Ray {name}: parallel to chord {name} through P₃, to {y:+.2f} mm; level to the middle of part {name}.")
@@ -262,7 +262,7 @@ def _scale(c: DrawnJerk) -> Step:
     givens, read = c.givens.integrated.givens, c.readings["j"]
     mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
     said = say(
-        "The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm. The greatest "
+        "The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm. The maximum "
         "finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³."
     ).where(mu_a=mu_a, mu_phi=givens.mu_phi.per_mm, pole=c.givens.pole, mu=mu, unit=lift)
     told = [said.where(mm=float(c.first("max_j")), value=float(c.value("max_j")))]

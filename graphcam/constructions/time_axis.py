@@ -70,7 +70,8 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
         Line(np.array([0.0, end]) + level * UP, Role.SCALE),
         Segments(x, below, Role.SCALE),
         *(Label(at, say("{t:.6g}", t=n * every), towards=-UP, small=True) for at, n in named),
-        Label(complex(end, level), say("t, {unit}; μₜ = {mu:.4g} {unit}/mm", unit=unit("s"), mu=mu_t.per_mm), 1 + 1j),
+        # On the left, where the poles are: on the right the combined diagram stands at the height of the displacements.
+        Label(complex(0, level), say("t, {unit}; μₜ = {mu:.4g} {unit}/mm", unit=unit("s"), mu=mu_t.per_mm), -1 + 0j),
     )
 
 

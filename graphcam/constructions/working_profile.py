@@ -340,7 +340,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
         told.append(said)
         names = [_names(profile)[at] for at in (start, end)]
         each = say(
-            "Join A to touch points {start} and {end}, between which the follower rests at the bottom, and measure the "
+            "Join A to the contact points {start} and {end}, between which the follower dwells, and measure the "
             "angle of the arc: {said}; {rest:.1f}° are left of the turn."
         )
         parts.append(Part(each.where(start=names[0], end=names[1], said=said, rest=360 - degrees), (places,)))
@@ -351,7 +351,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
         "protractor the angle between them: {told}."
     ).where(told=sequence(told, "; "))
     why = say(
-        "Because the follower rests on an arc about the cam centre, whose angle is that of the dwell; the rest of the "
+        "Because the follower dwells on an arc about the cam centre, whose angle is that of the dwell; the rest of the "
         "profile, which moves the follower, is its working part."
     )
     yield Step(say("Angle of the lower dwell"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))

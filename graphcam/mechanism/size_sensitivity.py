@@ -142,7 +142,7 @@ def radius_sensitivity(
     least = minimum_radius(motion, follower, rotation, rise, return_, offset, rest, curvature)
     if not least.active:
         remedy = "without one the radius is where the follower only just reaches the cam"
-        raise DesignError("least prime radius", Unquoted(f"{least.prime_radius:g} mm"), "held by a limit", remedy)
+        raise DesignError("minimum prime radius", Unquoted(f"{least.prime_radius:g} mm"), "held by a limit", remedy)
     if least.place_name is None:
         return {"curvature": 1.0, "lift": (least.prime_radius - (curvature or 0.0)) / motion.lift}
     fixed = {"offset": offset, "distance": getattr(follower, "distance", None)}[least.place_name] is not None

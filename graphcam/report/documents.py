@@ -10,7 +10,7 @@ from graphcam.sheets.runs import TooLargeError
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import HOPELESS, check_given_sizes
+from graphcam.solving.task_board import check_given_sizes
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
@@ -56,7 +56,6 @@ def contents_of(solution: AnySolution) -> Contents:
     """
     if isinstance(solution, ArcsSolution):
         return arcs_contents(solution)
-    check_given_sizes(solution.task, HOPELESS)
     return motion_contents(solution)
 
 

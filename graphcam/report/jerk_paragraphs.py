@@ -58,7 +58,7 @@ def _greatest(solution: Solution) -> list[Caption]:
     of_lift, value = board.follower.unit, float(c.value("max_j"))
     said = [
         say(
-            "The greatest finite jerk measures {mm} mm, which is {value} {unit}.",
+            "The maximum finite jerk measures {mm} mm, which is {value} {unit}.",
             mm=number(float(c.first("max_j"))),
             value=number(value, digits(c.readings["j"].per_mm)),
             unit=unit(f"{of_lift}/rad³"),

@@ -21,6 +21,7 @@ from graphcam.sheets.tables import Table
 from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import HOPELESS, check_given_sizes
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
@@ -134,6 +135,7 @@ def motion_contents(solution: Solution) -> Contents:
     DesignError : the lift is too small to be drawn beside the cam
     """
     _check_drawable(solution.cam)
+    check_given_sizes(solution.task, HOPELESS)
     drawn = all_drawn(solution)
     results = [comparison(solution.comparison.quantities)]
     if solution.spring:

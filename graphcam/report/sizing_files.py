@@ -44,7 +44,7 @@ def write(
         digests = {path.name: digest(path) for path in sorted(draft.iterdir())}
         document = {**sizing.to_dict(), "files": files, "written": digests}
         text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-        (draft / RESULTS).write_text(text + "\n", encoding="utf-8")
+        (draft / RESULTS).write_text(text + "\n", encoding="utf-8", newline="\n")
     return files
 
 

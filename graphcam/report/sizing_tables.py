@@ -25,7 +25,7 @@ SIZES: Mapping[str, Caption] = {
     for words in (say("prime radius"), say("base radius"), say("offset"), say("roller radius"), say("face width"))
 }
 """The sizes by their names in :class:`~graphcam.mechanism.sizing_problem.SizingProblem`."""
-SMALLEST, CALMEST = say("The smallest cam"), say("The cam of the least stress")
+SMALLEST, CALMEST = say("The smallest cam"), say("The cam under the minimum stress")
 TITLES = {"size": SMALLEST, "stress": CALMEST}
 """By the objective."""
 FRONT = say("Radius against stress")

@@ -174,7 +174,7 @@ def _convex(chain: Chain, radius: float) -> Caption:
         said = say("Then r₀ + s + a would fall to {rho:.1f} mm: the profile would turn inside out and be cut away.")
     elif rho < least:
         said = say(
-            "With it the profile would be as sharp as ρ = {rho:.1f} mm, and {least:g} mm is the minimum permitted."
+            "Then the radius of curvature would fall to ρ = {rho:.1f} mm, and {least:g} mm is the permitted minimum."
         )
     else:
         said = say("Then the minimum of ρ = r₀ + s + a is {rho:.1f} mm, and {least:g} mm is enough.")

@@ -40,7 +40,7 @@ SHORT: Mapping[str, Caption] = {
 class NamedStep:
     """A step with its names.
 
-    id : construction and title, as "minimum_radius/the-least-prime-radius"
+    id : construction and title, as "minimum_radius/the-minimum-prime-radius"
     number : in order, from 1, of all steps that are drawn
     """
 

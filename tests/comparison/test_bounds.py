@@ -163,7 +163,7 @@ def test_where_only_more_parts_show_a_candidate_the_bound_is_unknown():
     assert q.error > 20
     assert np.isnan(q.tolerance_paper)
     assert solution.to_dict()["quantities"][q.name]["tolerance_paper"] is None
-    assert f"within its bound, where there is one. No bound is known of {q.title}:" in against_exact(solution)
+    assert f"within its bound, where there is one. No bound is known for {q.title}:" in against_exact(solution)
 
 
 @pytest.mark.parametrize(

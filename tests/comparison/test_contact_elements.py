@@ -95,7 +95,7 @@ def test_bodies_that_end_differ_from_half_spaces_the_more_the_wider_they_touch()
         ({"force": math.inf}, "force"),
         ({"force": 1e8}, "force"),
         ({"width": 0.0}, "width"),
-        ({"radius1": -10.0}, "radii"),
+        ({"radius1": -10.0}, "pair of radii"),
         ({"radius2": 0.0}, "radius2"),
         ({"young": -1.0}, "young1"),
         ({"poisson": 0.5}, "poisson"),
@@ -112,5 +112,5 @@ def test_what_cannot_be_is_refused(changes, quantity):
 
 def test_without_the_extra_it_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "skfem", None)
-    with pytest.raises(TaskError, match=r"pip install 'graphcam\[fem\]'"):
+    with pytest.raises(TaskError, match=r'pip install "\.\[fem\]"'):
         contact()

@@ -85,9 +85,9 @@ def test_lines_that_cross_below_one_degree_leave_no_radius_to_adopt(offset, degr
     last = region.steps()[-1]
     assert "at less than a degree" in str(last.caption)
     assert last.marks == ()
-    with pytest.raises(DesignError, match=r"minimum prime radius .* give .*cam.prime_radius"):
+    with pytest.raises(DesignError, match=r"permitted pressure angle on the rise .* give .*cam.prime_radius"):
         _ = chain.prime_radius
-    with pytest.raises(DesignError, match="minimum prime radius"):
+    with pytest.raises(DesignError, match="permitted pressure angle on the rise"):
         _ = chain["inversion"]
 
 

@@ -617,7 +617,7 @@ def test_the_pressure_angle_is_drawn_between_the_followers_line_and_the_normal(n
 
 def test_without_a_roller_the_profile_is_the_pitch_curve():
     drawn: dict[str, Construction] = dict(Chain(coursework("3-4-5", roller_radius=0.0)))
-    (step,) = drawn["working_profile"].steps()
+    step, *_ = drawn["working_profile"].steps()
     pitch = drawn["inversion"].steps()[3].marks[0]
     np.testing.assert_allclose(step.marks[0].points, pitch.points)
     radii = np.abs(drawn["inversion"].value("radius"))

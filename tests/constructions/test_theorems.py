@@ -234,7 +234,7 @@ def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n)
     assert covered[inside & ~edge].all()
     assert not covered[~inside & ~edge].any()
     assert np.isnan(profile.readings["radius"].value[covered]).all()
-    _, _, envelope, _ = profile.steps()
+    _, _, envelope, *_ = profile.steps()
     assert "undercut" in str(envelope.caption)
 
 

@@ -90,7 +90,7 @@ def test_a_dotted_key_that_a_text_hid_is_not_read_by_itself():
         (
             {"answers (1).toml": "1", "answers (2).toml": "2"},
             None,
-            "none of answers (1).toml, answers (2).toml is read: call the right one answers.toml",
+            "none of answers (1).toml, answers (2).toml is read: rename the right one to answers.toml",
         ),
         ({"my answers.toml": "1"}, None, "there is none of answers.toml, answers.csv, answers.ipynb, answers.dxf"),
     ],

@@ -174,7 +174,7 @@ def test_the_first_course_makes_its_secret_says_so_and_is_graded_with_it(made, t
     kept = secret.rename(tmp_path / "kept")
     missing = CliRunner().invoke(app, grading)
     assert missing.exit_code == 2
-    assert f"{secret}: the course's secret is 'missing'" in missing.stderr
+    assert f"{secret}: the course's secret is missing" in missing.stderr
     assert "--secret-file" in missing.stderr
     assert CliRunner().invoke(app, [*grading, "--secret-file", str(kept)]).exit_code == 0
 
@@ -204,7 +204,7 @@ def test_a_secret_that_is_named_must_be_there(tmp_path):
     ]
     result = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert result.exit_code == 2
-    assert f"{tmp_path / 'old'}: the course's secret is 'missing'" in result.stderr
+    assert f"{tmp_path / 'old'}: the course's secret is missing" in result.stderr
     assert "leave out --secret-file" in result.stderr
     assert {path.name for path in tmp_path.iterdir()} == {"r.csv"}
 

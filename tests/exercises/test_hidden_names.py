@@ -80,7 +80,7 @@ def test_no_page_tells_who_somebody_is_and_the_table_tells_whose_each_is(course:
         assert f"{records[student]['total']:g} of {records[student]['of']:g} marks" in files[f"{name}.html"]
         assert name in group
     assert f'<a href="../pages/{whose["zoe/zimmer"]}.html">' in group
-    assert "grades-not-graded.csv: it tells what is not graded, 1 in all" in group
+    assert "grades-not-graded.csv: it lists what was not graded, 1 in total" in group
     assert "look" in files[f"{whose['anna.berg']}.html"]
     alike = group[group.index("agree more than by chance") :]
     assert whose["clara_copy"] in alike

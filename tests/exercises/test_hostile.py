@@ -282,7 +282,7 @@ def test_the_bound_of_memory_that_was_in_force_is_told(tmp_path: Path, assignmen
     ]
     assert [record["memory"] for record in records] == [None, 1024]
     pages = [group_page(assignment.exercise, [record], {}) for record in records]
-    assert ["watched: 1024 MiB" in page for page in pages] == [False, True]
+    assert ["limited to 1024 MiB" in page for page in pages] == [False, True]
 
 
 def test_memory_of_all_processes_together_is_bounded():

@@ -53,7 +53,7 @@ def test_marks_given_by_hand_last_and_are_shown(course: Path):
     assert rows == [("'=Ben", "total", "0", "3", "on paper"), ("Anna", FIRST, "0", "0.5", "see <b>it</b>")]
     said = f"{FIRST}: your teacher gives 0.5 of {EXERCISE.answers[0].marks:g} marks: see &lt;b&gt;it&lt;/b&gt;"
     assert said in (course / "pages" / "Anna.html").read_text(encoding="utf-8")
-    assert "marks in all: on paper" in (course / "pages" / "=Ben.html").read_text(encoding="utf-8")
+    assert "marks in total: on paper" in (course / "pages" / "=Ben.html").read_text(encoding="utf-8")
     assert "see &lt;b&gt;it&lt;/b&gt;" in (course / "out" / "grades.html").read_text(encoding="utf-8")
     # A line that is taken back leaves the marks that were found.
     (course / TEACHER / OVERRIDES).unlink()

@@ -63,7 +63,7 @@ def test_a_question_stands_beside_what_it_is_about_and_the_open_ones_first(cours
             f"{SECOND.marks:g} of {SECOND.marks:g}",
             "open",
         ],
-        [STRANGE, "in all", "On paper", "–", f"0 of {EXERCISE.marks:g}", "open"],
+        [STRANGE, "total", "On paper", "–", f"0 of {EXERCISE.marks:g}", "open"],
         ["Anna", FIRST.name, "Is it not <b>near</b>?", "12345.5", f"0.5 of {FIRST.marks:g}", "0.5; half of it"],
     ]
     # Each link leads from the group's page to the student's.
@@ -79,7 +79,7 @@ def test_without_pages_there_are_no_links_and_without_questions_nothing_is_said_
     (course / TEACHER / REQUESTS).write_text(f"{HEAD}Anna,total,Why?\n")
     grade_course(Course(course, course / "secret", out))
     html = out.with_suffix(".html").read_text(encoding="utf-8")
-    assert asked(html)[0][:3] == ["Anna", "in all", "Why?"]
+    assert asked(html)[0][:3] == ["Anna", "total", "Why?"]
     assert "href" not in html
     assert "Questions from students" not in page(course, HEAD)
 

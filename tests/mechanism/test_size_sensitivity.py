@@ -129,7 +129,7 @@ def test_the_least_radius_changes_as_differences_say(laws, follower, rotation, g
 
 
 def test_a_radius_that_nothing_holds_has_no_derivatives():
-    with pytest.raises(gc.DesignError, match="least prime radius is '30 mm', but must be held by a limit"):
+    with pytest.raises(gc.DesignError, match="minimum prime radius is 30 mm, but must be held by a limit"):
         gc.radius_sensitivity(motion(0.3), gc.Oscillating(80, 110), "ccw", rise=0.7, rest=False)
 
 

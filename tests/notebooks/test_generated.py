@@ -109,7 +109,7 @@ def test_a_russian_page_has_no_english_word(tmp_path):
 
 def test_warnings_are_told():
     source = "\n".join(cell.source for cell in write_notebook(TASKS["undercut"]).cells)
-    assert "**Mind:** The profile cannot be cut" in source
+    assert "**Note:** The profile cannot be cut" in source
 
 
 def test_a_title_is_no_markup():

@@ -184,18 +184,18 @@ def test_what_is_named_and_is_none_is_told(tmp_path):
 
 
 TOLD = {
-    "half.jpg": "broken",
-    "head.jpg": "broken",
+    "half.jpg": "damaged",
+    "head.jpg": "damaged",
     "empty.jpg": "empty",
     "text.jpg": "neither",
     "bomb.png": "too large",
     "large bomb.png": "too large",
     "bomb.tif": "too large",
-    "junk.pdf": "broken",
+    "junk.pdf": "damaged",
     "locked.pdf": "password",
     "bomb.pdf": "too large",
-    "half.heic": "broken",
-    "float.tif": "colours",
+    "half.heic": "damaged",
+    "float.tif": "colour",
     "pipe.jpg": "not a file",
     "loop.jpg": "link",
     "device.jpg": "not a file",

@@ -146,8 +146,8 @@ def test_functions_of_rooms_above_are_there():
     kinds = [getattr(gc, name) for name in dir(gc)]
     drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Shown)}
     assert drawn == {
-        "cam_outline", "arcs_outline", "construction_drawing", "motion_curves", "response_curves", "sheet_page",
-        "spectrum_curves",
+        "band_curves", "cam_outline", "arcs_outline", "construction_drawing", "motion_curves", "response_curves",
+        "sheet_page", "spectrum_curves",
     }  # fmt: skip
     for function in named | {f"plots.{module}.plot" for module in drawn}:
         assert callable(from_above(function))

@@ -80,7 +80,7 @@ def test_a_worksheet_shows_the_givens_and_no_answers() -> None:
     read = {f"{quantities[name].drawn:.3f}" for name in ("max_v", "minimum_prime_radius", "roller_radius")}
     assert read <= set(whole)
     assert not read & set(said)
-    assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "−10 mm", "greatest v, mm/rad"} <= set(said)
+    assert {"H₁ = 40", "P₂", "12′", "360°", "φ₁ = 80°", "−10 mm", "maximum v, mm/rad"} <= set(said)
     names = {group.name.split(" ")[1] for _, group in groups(sheet_of(solution(), 0)).items() if "step" in group.name}
     assert {"scheme", "acceleration", "integration", "minimum_radius", "inversion"} <= names
     assert not names & {"pressure_angle", "curvature", "working_profile"}, "what is only found leaves no line"

@@ -105,7 +105,14 @@ def test_the_command_line_tells_no_answers_of_a_worksheet(tmp_path, monkeypatch)
     whole = CliRunner().invoke(app, ["solve", "cam.toml", "--json"])
     assert "warning" in whole.stderr
     told = CliRunner().invoke(app, ["solve", "cam.toml", "--worksheet", "--out", "out"])
-    assert told.stdout == "out: worksheet.pdf, worksheet.svg, worksheet.png, worksheet.dxf\n"
+    sheets = [f"worksheet{end}" for end in (".dxf", ".pdf", ".png", "-2.png", ".svg", "-2.svg")]
+    assert told.stdout.splitlines() == [
+        "",
+        "out: 7 files",
+        f"  {', '.join(sheets)}: the sheet to be finished, true to scale",
+        "  solution.json: all of it, for programs",
+        "Open first: out/worksheet.pdf (print at 100 %)",
+    ]
     assert all(line.endswith("...") for line in told.stderr.splitlines())
     as_json = json.loads(CliRunner().invoke(app, ["solve", "cam.toml", "--worksheet", "--json"]).stdout)
     assert as_json == {key: json.loads(whole.stdout)[key] for key in ("graphcam", "task", "files")}

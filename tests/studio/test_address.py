@@ -35,7 +35,7 @@ def random_place(seed: int) -> StudioPlace:
     random = np.random.default_rng([seed, 17])
     task = random_arcs_task(seed % 30) if seed % 10 == 9 else KINDS[seed % 3](seed)
     phi = round(random.uniform(0, 360), 1)
-    shown = {"view": "combined", "step": "minimum_radius/the-least-prime-radius-2", "phi": phi, "mode": "predict"}
+    shown = {"view": "combined", "step": "minimum_radius/the-minimum-prime-radius-2", "phi": phi, "mode": "predict"}
     kept = {name: value for name, value in shown.items() if random.integers(2)}
     pin = plain(KINDS[(seed + 1) % 3](seed)) if random.integers(2) else None
     return StudioPlace(plain(task), random.choice(list(BUILT_IN)).item(), **kept, pin=pin)

@@ -59,7 +59,7 @@ def test_a_small_picture_has_no_letters():
 
 def test_russian_is_written_with_its_words_and_decimal_commas():
     found = ask(plain_task("coursework"), "combined", told=True, values=True, language="ru")
-    step = found["views"][0]["steps"]["minimum_radius/the-least-prime-radius"]
+    step = found["views"][0]["steps"]["minimum_radius/the-minimum-prime-radius"]
     assert re.search(r"\d,\d", step["readings"][0]["value"] + step["readings"][0]["taken"])
     assert all("." not in value["said"]["drawn"] for value in found["values"])
     assert re.search("[а-я]", step["caption"])

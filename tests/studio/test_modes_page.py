@@ -60,7 +60,7 @@ def test_only_what_is_given_is_drawn_until_it_is_constructed(opened):
     page.click("#construct")
     page.wait_for_selector("#judged")
     settled(page)
-    assert shown_steps(page)[-1] == "minimum_radius/the-least-prime-radius"
+    assert shown_steps(page)[-1] == "minimum_radius/the-minimum-prime-radius"
     assert "larger than the minimum" in page.inner_text("#judged")
     assert page.inner_text("#judged") in announced(page)
     assert page.locator(".guesses .answer").count() == 1

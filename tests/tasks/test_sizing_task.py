@@ -155,7 +155,7 @@ def test_the_command_tells_the_cam_its_active_limits_and_the_files(tmp_path, mon
     (tmp_path / "cam.toml").write_text(TEXT, encoding="utf-8")
     result = run("cam.toml", "--out", "sized")
     assert result.exit_code == 0
-    for line in ("base radius                  78.759 mm   79.000 mm           60 to 120",
+    for line in ("base radius                   78.759 mm   79.000 mm                  60 to 120",
                  "active: pressure angle on the rise, stress", "Radius against stress"):  # fmt: skip
         assert line in result.stdout
     last = result.stdout.splitlines()[-1]
