@@ -19,7 +19,11 @@ DEEPEST = 6
 """Messages within messages."""
 SUBJECT = "what"
 """The place in :mod:`graphcam.errors` of what is wrong."""
-BETWEEN = ("; ", ": ")
+OPEN = {"allowed", "message", "sentence", "remedy", "why", "error"}
+"""The places in which a message with its remedy may stand."""
+REMEDY = "; "
+"""What stands before a remedy."""
+BETWEEN = (REMEDY, ": ")
 """What stands between what is wrong and what to do, and behind the place where it is."""
 
 
@@ -56,7 +60,10 @@ class _Template:
         if any(part not in text for part in self.parts):
             return None
         found = re.fullmatch("(.+?)".join(map(re.escape, self.parts)), text, re.DOTALL)
-        return dict(zip(self.names, found.groups(), strict=True)) if found else None
+        values = dict(zip(self.names, found.groups(), strict=True)) if found else {}
+        # A remedy is no part of what stands before it.
+        told = [*self.parts, *(value for name, value in values.items() if name in OPEN)]
+        return values if values and text.count(REMEDY) == sum(part.count(REMEDY) for part in told) else None
 
 
 @dataclass(frozen=True)
@@ -65,6 +72,10 @@ class _Texts:
 
     plain: dict[str, str]
     templates: list[_Template]
+
+    def know(self, text: str) -> bool:
+        """Whether a text is one of them as a whole."""
+        return text in self.plain or any(template.fit(text) for template in self.templates)
 
 
 @cache
@@ -98,10 +109,17 @@ def _told(text: str, texts: _Texts, deeper: int) -> str:
             inner = {name: _inner(name, value, texts, deeper - 1) for name, value in values.items()}
             return _filled(template.translation, inner)
     for between in BETWEEN:
-        first, found, second = text.partition(between)
-        if found:
+        if between in text:
+            first, second = _parted(text, between, texts)
             return _told(first, texts, deeper) + between + _told(second, texts, deeper)
     return text
+
+
+def _parted(text: str, between: str, texts: _Texts) -> tuple[str, str]:
+    """A text parted where most of the two parts are known, of several such places in the first."""
+    pieces = text.split(between)
+    pairs = [(between.join(pieces[:k]), between.join(pieces[k:])) for k in range(1, len(pieces))]
+    return max(pairs, key=lambda pair: sum(map(texts.know, pair))) if pairs[1:] else pairs[0]
 
 
 def _inner(place: str, text: str, texts: _Texts, deeper: int) -> str:

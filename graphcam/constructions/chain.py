@@ -34,6 +34,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
+from graphcam.given.limits import PERMITTED
 from graphcam.given.measured import MeasuredMotion
 
 PHASE_ANGLES = complex(58.0, 44.0)
@@ -354,7 +355,7 @@ class Chain(Drawings):
                 limit = "large enough for lines that cross at a degree or more"
                 remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given; or give {' and '.join(missing)}"
                 found = Unquoted(f"{angle:g} degrees")
-                raise DesignError(f"permitted pressure angle on the {way}", found, limit, remedy)
+                raise DesignError(PERMITTED[way], found, limit, remedy)
             limit = "a place within all limits, where lines cross at a degree or more"
             remedy = f"give {' and '.join(missing)}, or permit larger pressure angles"
             raise DesignError("minimum prime radius", Unquoted("unreadable"), limit, remedy)

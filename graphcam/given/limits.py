@@ -7,6 +7,11 @@ from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import Translating
 
 QUARTER_TURN = math.pi / 2
+PERMITTED = {
+    "rise": "permitted pressure angle on the rise",
+    "return": "permitted pressure angle on the return",
+}
+"""What an error calls a limit, by its name."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +38,7 @@ class Limits:
             remedy = "30 degrees is usual for a translating follower"
             if given > 360:
                 remedy = f"write math.radians({value:g}) if it is in degrees"
-            raise DesignError(f"permitted pressure angle on the {name}", Unquoted(f"{given:g} degrees"), limit, remedy)
+            raise DesignError(PERMITTED[name], Unquoted(f"{given:g} degrees"), limit, remedy)
 
     def slip(self) -> tuple[str, float] | None:
         """The name and the degrees of a limit so small that radians were given for degrees; None if there is none.

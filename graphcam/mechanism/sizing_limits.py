@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
+from graphcam.given.limits import PERMITTED
 from graphcam.given.motion import Motion
 from graphcam.given.roller_contact import RollerContact
 from graphcam.given.roller_rule import Candidate
@@ -60,7 +61,7 @@ class SizingLimits:
             raise DesignError("permitted stress", self.stress, "a finite number greater than 0 MPa")
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
-                quantity, limit = f"permitted pressure angle on the {name}", "between 0 and 90 degrees, both excluded"
+                quantity, limit = PERMITTED[name], "between 0 and 90 degrees, both excluded"
                 raise DesignError(quantity, Unquoted(f"{math.degrees(angle):g} degrees"), limit)
         check_friction(self.friction)
 

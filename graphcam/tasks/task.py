@@ -14,7 +14,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
-from graphcam.given.limits import Limits
+from graphcam.given.limits import PERMITTED, Limits
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.showing import WIDTH, in_lines
@@ -191,7 +191,7 @@ class LimitsTable:
         positive("least radius of curvature", self.min_curvature_radius, "mm")
         self()
         for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
-            positive(f"permitted pressure angle on the {name}", permitted, "degrees permitted")
+            positive(PERMITTED[name], permitted, "degrees permitted")
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
