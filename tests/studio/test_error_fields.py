@@ -84,7 +84,6 @@ NOT_REACHED = {
 PARAMETERS = {
     "pencil *": ("pencil line",),
     "poles[*]": ("poles[0]", "poles[1]"),
-    "permitted pressure angle on the *": tuple(f"permitted pressure angle on the {way}" for way in ("rise", "return")),
     "drawing.poles[*]": ("drawing.poles[0]", "drawing.poles[1]"),
     "motion.phases[*].law": ("motion.phases[0].law",),
     "limits.*": ("limits.pressure_angle_rise", "limits.pressure_angle_return", "limits.min_curvature_radius"),
