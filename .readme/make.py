@@ -53,7 +53,7 @@ def graded_picture() -> Image.Image:
         page = browser.new_page(viewport={"width": 900, "height": 900})
         page.goto(page_file.as_uri())
         shot = Image.open(BytesIO(page.screenshot(full_page=True))).convert("RGB")
-        middle = round(page.locator("h2", has_text="The first step").bounding_box()["y"])
+        middle = round(page.locator("h2", has_text="The first wrong step").bounding_box()["y"])
         last = page.locator("figure svg, svg").last.bounding_box()
         browser.close()
     both = Image.new("RGB", (1560, middle), "#ffffff")

@@ -134,7 +134,7 @@ def measure(
     pair = timer.pairs(PAIR_STATIONS) / PAIR_STATIONS
     progress("error against the number of parts")
     series = tuple(convergence(effort.parts, effort.laws))
-    progress("error of the hand")
+    progress("drawing error")
     hands = tuple(by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws)
     hands_of = bands(LAW, effort.hands), tuple(budgets(LAW))
     progress("error against time")

@@ -130,7 +130,7 @@ def sweep(
             with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
                 found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
     if isinstance(found, dataset.Summary):
-        print_table(("quantity", "least", "greatest"), found.rows())
+        print_table(("quantity", "minimum", "maximum"), found.rows())
         echo(f"{out}: {found}")
     tell_sweep(designs, found)
     with one_message():

@@ -117,7 +117,7 @@ def _print_matrix(found: Simulation) -> None:
         most = sorted(row.named.items(), key=lambda pair: -pair[1])
         named = ", ".join(f"{other} {count}" for other, count in most)
         rows.append([name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}"])
-    columns = ("mistake made", "named", "hand-ins", "full marks", "named rightly")
+    columns = ("mistake made", "named", "submissions", "full marks", "named rightly")
     print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
     for counted, value in (
         (plain(f"right work that loses any point, of {found.careful}"), f"{found.false_rejections:.2%}"),
@@ -148,7 +148,7 @@ def make(
     roster: Annotated[
         Path, Option(parser=named, metavar="CSV", help="The students: their ids in a column 'id', or the first.")
     ],
-    out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the papers.")] = DEFAULT_FOLDER
+    out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER
     / "exercise",
     secret_file: Annotated[
         Path | None,
@@ -158,7 +158,7 @@ def make(
             help="An earlier course's secret; if left out, a new one is made.",
         ),
     ] = None,
-    language: Annotated[str, Option(metavar="en|ru", help="Of the papers and of the feedback.")] = "en",
+    language: Annotated[str, Option(metavar="en|ru", help="Of the handouts and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
@@ -268,7 +268,7 @@ def grade(
     from graphcam.exercises.grading.deadlines import deadline_of, late_penalty_of
     from graphcam.exercises.grading.lateness import NO_PENALTY
 
-    with one_message(), progress_bar("hand-ins") as step:
+    with one_message(), progress_bar("submissions") as step:
         marks = policy_changes(follow_through, near, cap or ())
         course = Course(
             *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
@@ -337,7 +337,7 @@ def speed(
         list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
     ] = None,
 ) -> None:
-    """Measure how long papers take to make, and how many hand-ins one core grades in a second.
+    """Measure how long handouts take to make, and how many submissions one core grades in a second.
 
     Read and marked alone, and as a whole course with its files; simulated students hand in answers.toml.
 
@@ -360,5 +360,5 @@ def speed(
             found, course = marking_speed(find_exercise(name), timer), course_speed(name)
             rates = (found.careful, found.wrong, course.graded)
             rows.append([found.exercise, *(f"{rate:.0f}" for rate in rates), f"{course.papers:.2f}"])
-    heads = ("hand-ins a second, one core", "careful", "with a mistake", "with files", "papers, s")
+    heads = ("submissions a second, one core", "careful", "with a mistake", "with files", "papers, s")
     print_table(heads, rows)

@@ -28,7 +28,9 @@ Caps = Annotated[
 Deadline = Annotated[
     str, Option(metavar="TIME", help="2026-12-01T23:59, in the zone of this machine, or with one: +01:00.")
 ]
-Late = Annotated[str, Option(metavar="PART/day", help="Lost per started day (or hour), to a least part: 0.1/day:0.5.")]
+Late = Annotated[
+    str, Option(metavar="PART/day", help="Lost per started day (or hour), to a minimum part: 0.1/day:0.5.")
+]
 Attempts = Annotated[
     str, Option(metavar="last|best", help="Which attempt counts; best:3 is the best of the first three.")
 ]

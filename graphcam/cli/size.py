@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 FOLDER = DEFAULT_FOLDER / "size"
 IN_FOLDER = f"Folder for the files, {FOLDER} if left out."
 JSON_ALONE = "Print the result as JSON alone; write files only with --out."
-BEST = "size: the smallest cam; stress: that of the least contact stress.  Left out: what the task says."
+BEST = "size: the smallest cam; stress: that under the minimum contact stress.  Left out: what the task says."
 OTHER_LANGUAGE = f"Language of the chart, not the task's: {', '.join(languages())}."
 
 

@@ -55,7 +55,7 @@ def _tell_front(space: Space, front: Columns) -> None:
             values=_named(front, same),
         )
     part = say(
-        "{shown} of {count}, from the smallest to that of the least angle", shown=str(len(rows)), count=str(count)
+        "{shown} of {count}, from the smallest to that of the minimum angle", shown=str(len(rows)), count=str(count)
     )
     print_table(
         [_short(name) for name in differing],

@@ -70,8 +70,9 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
         Line(np.array([0.0, end]) + level * UP, Role.SCALE),
         Segments(x, below, Role.SCALE),
         *(Label(at, say("{t:.6g}", t=n * every), towards=-UP, small=True) for at, n in named),
-        # On the left, where the poles are: on the right the combined diagram stands at the height of the displacements.
-        Label(complex(0, level), say("t, {unit}; μₜ = {mu:.4g} {unit}/mm", unit=unit("s"), mu=mu_t.per_mm), -1 + 0j),
+        # The scale stands over the line, in the last phase: beside it there may be another view.
+        Label(complex(end, level), say("t, {unit}", unit=unit("s")), 1 + 0j),
+        Label(complex(end, level), say("μₜ = {mu:.4g} {unit}/mm", unit=unit("s"), mu=mu_t.per_mm), -1 + 1j, small=True),
     )
 
 

@@ -49,12 +49,12 @@ def _check_gap(
     number: int, where: str, s: tuple[Fraction, Fraction], v: tuple[Fraction, Fraction], size: Fraction
 ) -> None:
     if abs(s[1] - s[0]) > SAME * size:
-        found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower rests {where}"
+        found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower dwells {where}"
         raise DesignError(
             f"parts[{number}] (s before it)", Unquoted(found), limit, "give a part that leads from one to the other"
         )
     if max(map(abs, v)) > SAME * size:
-        found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower rests {where}"
+        found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower dwells {where}"
         raise DesignError(
             f"parts[{number}] (v before it)", Unquoted(found), limit, "give v = 0 there, or a part that fills the gap"
         )
@@ -113,5 +113,5 @@ def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
     off = max(map(abs, v)) if gap else abs(v[1] - v[0])
     if off > SAME * (size + abs(v[0])):
         found = f"{float(v[0]):.10g}, and {float(v[1]):.10g} where they begin"
-        limit = "0 at both: the follower rests between them" if gap else "the same at both"
+        limit = "0 at both: the follower dwells between them" if gap else "the same at both"
         raise DesignError("parts (v at their end)", Unquoted(found), limit, "give v at the first and at the last point")

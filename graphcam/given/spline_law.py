@@ -98,7 +98,7 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     for symbol, values in (("u", u), ("f", f)):
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
         if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
-            found = f"{len(values)} numbers from {values[0]:g} to {values[-1]:g}, the least step {least:g}"
+            found = f"{len(values)} numbers from {values[0]:g} to {values[-1]:g}, the smallest step {least:g}"
             remedy = "divide by the last one; where the lift falls, begin another phase"
             raise DesignError(f"samples {symbol} of the law '{name}'", Unquoted(found), "growing from 0 to 1", remedy)
     ends = tuple([(1, 0.0), (2, acceleration)] for acceleration in accelerations)

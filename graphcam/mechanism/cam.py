@@ -77,7 +77,7 @@ class Cam(Shown):
     DesignError : a length is not positive, the offset, the arm or the roller does not fit the prime radius, an arm's
         centre distance is left open, or the rotation is unknown
 
-    A roller larger than the least radius of curvature is no error here: the profile is then the whole envelope, with
+    A roller larger than the minimum radius of curvature is no error here: the profile is then the whole envelope, with
     its loops; :meth:`undercuts` finds them.  So it is with a flat face on too small a cam.
 
     >>> import graphcam as gc

@@ -182,7 +182,7 @@ def flat_minimum_radius(
     """
     least = curvature or 0.0
     if not (math.isfinite(least) and least >= 0):
-        raise DesignError("least radius of curvature", least, "a finite length of 0 mm or more")
+        raise DesignError("minimum radius of curvature", least, "a finite length of 0 mm or more")
     s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
     radius = least - float(np.min(s + a))
     return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())

@@ -208,7 +208,7 @@ class ContactStress:
 
     def _undercut(self, rho: float) -> DesignError:
         if not self._kinematics.takes_roller:
-            limit = f"so large that the least radius of curvature, {rho:.6g} mm, is greater than 0 mm"
+            limit = f"so large that the minimum radius of curvature, {rho:.6g} mm, is greater than 0 mm"
             return DesignError("prime radius", self.forces.cam.prime_radius, limit, "enlarge the prime radius")
-        limit = f"less than the least radius of curvature of {rho:.6g} mm"
+        limit = f"less than the minimum radius of curvature of {rho:.6g} mm"
         return DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")

@@ -85,7 +85,7 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
         if beyond > KEPT * (arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
             limit = "one at which the pressure angle can keep its limits over the whole swing"
-            remedy = f"leave it open: the least prime radius has a centre distance of {free.distance:.6g} mm"
+            remedy = f"leave it open: the minimum prime radius has a centre distance of {free.distance:.6g} mm"
             raise DesignError("centre distance", distance, limit, remedy)
     names = [line.name for line in lines]
     return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINES if name in names]))

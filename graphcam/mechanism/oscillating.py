@@ -57,7 +57,7 @@ class OscillatingKinematics(RollerKinematics):
             raise DesignError("prime radius", r0, limit, "change the prime radius, the arm or the centre distance")
         if math.isnan(self.psi0):
             left = math.degrees(math.pi - angle_between(distance, arm, r0))
-            limit = f"less than the {left:g} degrees from the low rest to the stretched arm"
+            limit = f"less than the {left:g} degrees from the lower dwell to the stretched arm"
             remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
             raise DesignError("lift", Unquoted(f"{math.degrees(self.swing):g} degrees"), limit, remedy)
 

@@ -80,7 +80,7 @@ class SizingProblem:
         least = Contact(self.motion, self.load).least_force()
         if least.value < -BINDS * abs(self.load.preload):
             limit = "0 N or more, so that the follower stays on its cam"
-            remedy = "preload the spring: spring_preload(...) tells the least"
+            remedy = "preload the spring: spring_preload(...) tells the minimum"
             raise DesignError("minimum contact force", Unquoted(f"{least.value:.4g} N"), limit, remedy)
 
     def sizes(self, radius: Any, offset: Any, roller: Any, width: Any) -> Sizes:

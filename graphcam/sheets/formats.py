@@ -50,7 +50,7 @@ class Format:
             if given is not None and given not in names:
                 raise DesignError(quantity, given, f"one of {', '.join(names)}", nearest(given, names))
         if self.orientation == "landscape" and self._upright_only:
-            limit = "portrait: GOST 2.301 uses A4 upright only"
+            limit = "portrait: GOST 2.301 uses A4 in portrait only"
             remedy = 'leave orientation out, or choose another format or frame = "iso"'
             raise DesignError("orientation", self.orientation, limit, remedy)
 

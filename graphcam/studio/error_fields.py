@@ -39,7 +39,7 @@ FIELDS: Mapping[str, str] = {
     "undercut": "cam.prime_radius",
     "permitted pressure angle on the rise": "limits.pressure_angle_rise",
     "permitted pressure angle on the return": "limits.pressure_angle_return",
-    "least radius of curvature": "limits.min_curvature_radius",
+    "minimum radius of curvature": "limits.min_curvature_radius",
     "curvature": "limits.min_curvature_radius",
     "mass": "spring.mass",
     "stiffness": "spring.stiffness",

@@ -142,6 +142,6 @@ def solution_of(task: dict[str, Any], spoken: str) -> Solution:
     found = task_in(task, spoken)
     if not isinstance(found, Task):
         raise DesignError(
-            "task", Unquoted("a cam of arcs"), "one with phases of motion", "take another task to foretell"
+            "task", Unquoted("a cam of arcs"), "one with phases of motion", "take another task to predict"
         )
     return solve_motion(found)

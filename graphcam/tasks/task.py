@@ -188,7 +188,7 @@ class LimitsTable:
     rest: bool = True
 
     def __post_init__(self) -> None:
-        positive("least radius of curvature", self.min_curvature_radius, "mm")
+        positive("minimum radius of curvature", self.min_curvature_radius, "mm")
         self()
         for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
             positive(PERMITTED[name], permitted, "degrees permitted")
@@ -318,7 +318,7 @@ class Task:
             remedy = "a knife edge has no stress that could be kept"
             raise DesignError("follower.roller_radius", 0.0, "greater than 0 mm where there is a [sizing]", remedy)
         if not self.limits.rest:
-            remedy = "a range of offsets needs the limit at the low rest"
+            remedy = "a range of offsets needs the limit in the lower dwell"
             raise DesignError("limits.rest", False, "true where there is a [sizing]", remedy)
 
     def _check_spring(self) -> None:

@@ -82,7 +82,7 @@ _KEYS = {
     "prime radius": "prime_radius",
     "permitted pressure angle on the rise": "pressure_angle_rise",
     "permitted pressure angle on the return": "pressure_angle_return",
-    "least radius of curvature": "min_curvature_radius",
+    "minimum radius of curvature": "min_curvature_radius",
     "the table's lift": "table (lift)",
 }
 """What a quantity of a design error is called in the file, where that differs."""

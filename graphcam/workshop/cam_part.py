@@ -168,14 +168,14 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
     needed = part.keyway_top + LEAST_WALL * part.bore
     hub = part.hub
     if hub and not hub.diameter / 2 < least_radius:
-        limit = f"less than twice the least radius of the profile, {least_radius:.4g} mm"
+        limit = f"less than twice the minimum radius of the profile, {least_radius:.4g} mm"
         raise DesignError("part.hub_diameter", hub.diameter, limit, "take a smaller hub or a larger prime radius")
     if hub and not hub.length > part.width:
         limit = f"greater than the cam's width of {part.width:g} mm"
         raise DesignError("part.hub_length", hub.length, limit, "lengthen the hub or give a smaller part.width")
     for inside, outer, larger in (
         *([("the hub's radius", hub.diameter / 2, "part.hub_diameter")] if hub else []),
-        ("the least radius of the profile", least_radius, "prime radius"),
+        ("the minimum radius of the profile", least_radius, "prime radius"),
     ):
         if not needed <= outer:
             keyway = f" with its keyway {part.keyway.depth:g} mm deep" if part.keyway else ""

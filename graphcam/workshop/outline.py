@@ -226,7 +226,7 @@ class Outline:
             return  # seen from every place of its way a cutter has only one nearest place of a convex cam
         remedy = "take a smaller cutter, or leave it out"
         if not radius < self.least_hollow:
-            limit = f"less than {self.least_hollow:.4g} mm, the least radius of the profile's hollows"
+            limit = f"less than {self.least_hollow:.4g} mm, the minimum radius of the profile's hollows"
             raise DesignError("part.cutter_radius", radius, limit, remedy)
         from scipy.spatial import KDTree
 

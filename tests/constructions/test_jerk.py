@@ -204,7 +204,7 @@ def test_without_a_speed_no_time_is_drawn_and_with_one_every_diagram_has_it():
     motion = coursework_motion("3-4-5")
     assert not [text for text in texts(Chain(board_of(motion))) if "m/s" in text or text.startswith("t, ")]
     timed = texts(Chain(board_of(motion, omega=4 * math.pi, jerk_pole=4.0)))
-    for said in ("v, m/s", "a, m/s²", "j, m/s³", "t, s; μₜ = 0.001389 s/mm"):
+    for said in ("v, m/s", "a, m/s²", "j, m/s³", "t, s", "μₜ = 0.001389 s/mm"):
         assert said in timed
     assert "0.5" in timed  # the end of the turn
 

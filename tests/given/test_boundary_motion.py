@@ -446,11 +446,11 @@ TURNS = {
     ),
     "s over a gap": (
         lambda: [RISE, Poly([at(180, s=29, **REST), at(270, s=0, **REST)])],
-        r"parts\[1\] \(s before it\) is 30 and 29, but must be equal: the follower rests from 90 degrees to 180",
+        r"parts\[1\] \(s before it\) is 30 and 29, but must be equal: the follower dwells from 90 degrees to 180",
     ),
     "v at a gap": (
         lambda: [RISE, Poly([at(180, s=30, v=1), at(270, s=0, v=0)])],
-        r"parts\[1\] \(v before it\) is 0 and 1, but must be 0: the follower rests",
+        r"parts\[1\] \(v before it\) is 0 and 1, but must be 0: the follower dwells",
     ),
     "s of the turn": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(270, s=1, **REST)])],
@@ -462,7 +462,7 @@ TURNS = {
     ),
     "v at the last gap": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(350, s=0, v=-2)])],
-        r"parts \(v at their end\) is .* must be 0 at both: the follower rests between them",
+        r"parts \(v at their end\) is .* must be 0 at both: the follower dwells between them",
     ),
     "more than a turn": (
         lambda: [RISE, Poly([at(180, s=30, **REST), at(370, s=0, **REST)])],

@@ -181,5 +181,5 @@ def test_a_slow_motion_needs_no_radius():
 @pytest.mark.parametrize("curvature", [-1.0, math.nan, math.inf])
 def test_a_curvature_that_cannot_be_is_refused(curvature):
     motion = Motion([Rise(30, 2.0), Return(30, FULL_TURN - 2)])
-    with pytest.raises(DesignError, match=r"least radius of curvature is .* 0 mm or more"):
+    with pytest.raises(DesignError, match=r"minimum radius of curvature is .* 0 mm or more"):
         minimum_radius(motion, FlatFaced(), curvature=curvature)

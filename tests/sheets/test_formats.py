@@ -118,7 +118,7 @@ def test_a4_of_gost_stands_upright_and_the_title_block_fills_its_short_side() ->
         assert paper.upright
         assert paper.size == (210, 297)
         assert (title_box(paper).left, title_box(paper).right) == (paper.content.left, paper.content.right)
-    with pytest.raises(DesignError, match=r"GOST 2\.301 uses A4 upright only; leave orientation out"):
+    with pytest.raises(DesignError, match=r"GOST 2\.301 uses A4 in portrait only; leave orientation out"):
         Format("A4", "gost", "landscape")
     # Every other sheet lies unless it is to stand.
     assert [sheet for sheet in EVERY if Format(*sheet).upright] == [("A4", "gost")]

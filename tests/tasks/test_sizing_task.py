@@ -197,7 +197,7 @@ def test_a_task_without_ranges_is_told_so(name, tmp_path):
         (TEXT.replace("roller_radius = 15 ", "#"), "sizing.roller_radius", "missing follower.roller_radius"),
         (TEXT.replace("roller_radius = 15 ", "roller_radius = 0 "), "follower.roller_radius", "knife edge"),
         (TEXT.replace("permitted_stress = 1500", "#"), "material.permitted_stress", "missing [sizing]"),
-        (TEXT.replace("pressure_angle_rise = 25", "rest = false"), "limits.rest", "false true low rest"),
+        (TEXT.replace("pressure_angle_rise = 25", "rest = false"), "limits.rest", "false true lower dwell"),
         (
             TEXT.replace('kind = "translating"\noffset = 20             #', 'kind = "flat-faced" #')
             .replace("roller_radius = 15 ", "#").replace("roller_rule", "#").replace("pressure_angle_rise = 25", ""),

@@ -213,7 +213,7 @@ def test_angles_that_close_in_degrees_close_in_radians(phases):
         (lambda: OscillatingTable(arm=0, distance=100), "arm"),
         (lambda: CamTable(0), "prime radius"),
         (lambda: LimitsTable(90), "permitted pressure angle on the rise"),
-        (lambda: LimitsTable(min_curvature_radius=0), "least radius of curvature"),
+        (lambda: LimitsTable(min_curvature_radius=0), "minimum radius of curvature"),
         (lambda: DrawingTable(format="A5"), "format"),
         (lambda: DrawingTable(divisions=0), "divisions"),
         (lambda: DrawingTable(poles=(40, 0)), "poles[1]"),

@@ -231,7 +231,7 @@ def test_a_limit_that_was_meant_in_radians_is_asked_about(tmp_path):
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
     assert result.exit_code == WRONG_INPUT
     assert "permitted pressure angle on the rise is 0.52 degrees" in result.stderr
-    assert result.stderr.endswith("; 30 degrees? 0.52 was given\n")
+    assert result.stderr.endswith("; 30 degrees? 0.52 was given; or give cam.prime_radius\n")
 
 
 def test_what_a_word_processor_puts_into_texts_and_comments_is_no_fault(tmp_path):

@@ -40,9 +40,9 @@ def test_the_frame_chooses_the_standards(frame: str, standard: str) -> None:
 
 WRONG = {
     "bore = 50": "part.bore is 50 mm with its keyway 3.8 mm deep, but must be small enough to leave a wall of 0.15 "
-    "of the bore inside the least radius of the profile of 27 mm",
+    "of the bore inside the minimum radius of the profile of 27 mm",
     "keyway = 'din6885'\nbore = 5": "part.keyway is 'din6885', but must be none for a bore of 5 mm",
-    "hub_diameter = 60\nhub_length = 40": "part.hub_diameter is 60.0, but must be less than twice the least radius",
+    "hub_diameter = 60\nhub_length = 40": "part.hub_diameter is 60.0, but must be less than twice the minimum radius",
     "bore = 20\nhub_diameter = 24\nhub_length = 40": "inside the hub's radius of 12 mm; take a smaller bore",
     "bore = 20\nhub_diameter = 40\nhub_length = 10": "part.hub_length is 10.0, but must be greater than the cam's",
     "cutter_radius = 80": "part.cutter_radius is 80.0, but must be less than 47.97 mm",

@@ -151,7 +151,7 @@ class HandTable:
         for field, said in self._own.items():
             least, greatest = said if isinstance(said, tuple) else (said, said)
             if not 0 <= least <= greatest < math.inf:
-                raise DesignError(f"hand.{field}", said, "0 or more, or the least and the greatest of such numbers")
+                raise DesignError(f"hand.{field}", said, "0 or more, or the minimum and the maximum of such numbers")
         if not self.errors.stretch < 1:
             raise DesignError("hand.stretch", self.stretch, "a part less than 1, such as 0.005")
 

@@ -15,7 +15,9 @@ from graphcam.exercises.course.student_table import once, student_lines
 EXTENSIONS = "extensions.csv"
 """In the teacher's folder, deadlines of single students."""
 PERIODS = {"day": timedelta(days=1), "hour": timedelta(hours=1)}
-PENALTY_FORM = "the part lost per started day or hour, and perhaps the least part left, such as 0.1/day or 0.1/day:0.5"
+PENALTY_FORM = (
+    "the part lost per started day or hour, and perhaps the minimum part left, such as 0.1/day or 0.1/day:0.5"
+)
 
 
 @dataclass(frozen=True)
