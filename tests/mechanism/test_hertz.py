@@ -136,7 +136,7 @@ def test_no_stress_without_contact_and_none_on_an_undercut_profile():
     undercut = gc.Cam(motion, gc.Translating(5, 20), 30)
     stress = gc.ContactStress(gc.CamForces(undercut, gc.SpringLoad(0.2, 100, 5, 50)), gc.RollerContact(10))
     assert np.isnan(stress.at(0, np.linspace(0, 1, 101)).peak_pressure).any()
-    with pytest.raises(gc.DesignError, match="roller radius is 20, but must be less than the least radius"):
+    with pytest.raises(gc.DesignError, match="roller radius is 20, but must be less than the minimum radius"):
         stress.greatest()
     knife = gc.CamForces(gc.Cam(motion, gc.Translating(5), 30), gc.SpringLoad(0.2, 100, 5, 50))
     with pytest.raises(gc.DesignError, match="a knife edge has no line contact"):

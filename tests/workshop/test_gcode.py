@@ -201,7 +201,7 @@ def test_a_cutter_too_large_for_a_hollow_is_refused():
     limit = outline.least_hollow
     cutting_program(outline, cutter_radius=0.99 * limit)
     with pytest.raises(
-        DesignError, match=r"part.cutter_radius is .*, but must be less than 47.97 mm, the least radius"
+        DesignError, match=r"part.cutter_radius is .*, but must be less than 47.97 mm, the minimum radius"
     ):
         cutting_program(outline, cutter_radius=1.01 * limit)
 

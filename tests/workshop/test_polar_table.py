@@ -157,7 +157,7 @@ def test_a_cutter_larger_than_the_hollow_is_refused() -> None:
     hollow = (area < -1e-12) & (np.abs(b - a) > 1e-3) & (np.abs(c - b) > 1e-3)
     radius = np.abs((b - a) * (c - b) * (a - c))[hollow] / (2 * np.abs(area[hollow]))
     assert outline.least_hollow == pytest.approx(radius.min(), rel=0.01)
-    with pytest.raises(DesignError, match=r"part.cutter_radius is 60, but must be less than 47\.97 mm, the least"):
+    with pytest.raises(DesignError, match=r"part.cutter_radius is 60, but must be less than 47\.97 mm, the minimum"):
         polar_table(outline, PartTable(cutter_radius=60))
 
 

@@ -89,7 +89,7 @@ def test_the_part_asks_for_a_spline_and_hears_its_error(degree, count, tmp_path)
     ("said", "message"),
     [
         ({"spline_control_points": 5}, r"part.spline_control_points is 5, but must be \d+ to 2000 for this profile"),
-        ({"cutter_radius": 60.0}, r"part.cutter_radius is 60.0, but must be less than 47.97 mm, the least radius"),
+        ({"cutter_radius": 60.0}, r"part.cutter_radius is 60.0, but must be less than 47.97 mm, the minimum radius"),
         ({"bore": 64.0}, r"part.bore is 64 mm.*small enough to leave a wall"),
     ],
 )

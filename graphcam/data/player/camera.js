@@ -96,9 +96,11 @@ function thinnerOf(pane) {
     || (text.closest(".current, .titles") ? 3 : 4);
 
   function thin(page, pixel) {
+    // On the whole sheet none has grown.
+    const grow = pane.closest(".lettered");
     const shown = texts.filter((one) => one.page === page && !one.text.closest(".later, .step.away"))
       // What has its own size stands as on the sheet.
-      .map((one) => ({ ...boxOf(one), text: one.text, grown: one.size < LEAST * pixel, weight: weight(one) }))
+      .map((one) => ({ ...boxOf(one), text: one.text, grown: grow && one.size < LEAST * pixel, weight: weight(one) }))
       .sort((a, b) => a.grown - b.grown || a.weight - b.weight);
     const kept = [];
     for (const one of shown) {
