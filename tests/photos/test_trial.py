@@ -15,8 +15,8 @@ RECORD = Path(__file__).parent / "record.json"
 
 
 @pytest.mark.slow
-def test_twenty_photographs(tmp_path_factory: pytest.TempPathFactory) -> None:
-    check_goals(photographs(range(20), shared_scratch(tmp_path_factory)))
+def test_twelve_photographs(tmp_path_factory: pytest.TempPathFactory) -> None:
+    check_goals(photographs(range(12), shared_scratch(tmp_path_factory)))
 
 
 @pytest.mark.slow

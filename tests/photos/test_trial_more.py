@@ -7,5 +7,5 @@ from trial_goals import check_goals, photographs, shared_scratch
 
 
 @pytest.mark.slow
-def test_twenty_more_photographs(tmp_path_factory: pytest.TempPathFactory) -> None:
-    check_goals(photographs(range(20, 40), shared_scratch(tmp_path_factory)))
+def test_twelve_more_photographs(tmp_path_factory: pytest.TempPathFactory) -> None:
+    check_goals(photographs(range(20, 32), shared_scratch(tmp_path_factory)))
