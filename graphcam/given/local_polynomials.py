@@ -90,6 +90,7 @@ class _Cutter:
     way: int
 
     def cells(self) -> list[Cell]:
+        """The parts of the piece, seen from the origin."""
         low, high = sorted((self._from_origin(self.piece.start), self._from_origin(self.piece.end)))
         return self._cut(low, high, 0)
 
