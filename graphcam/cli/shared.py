@@ -56,7 +56,7 @@ def echo(words: object, *, err: bool = False) -> None:
 
 TaskFile = Annotated[
     Path | None,
-    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; without it the built-in coursework."),
+    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."),
 ]
 
 
