@@ -112,7 +112,7 @@ class ArmLoad:
 
         Raises
         ------
-        DesignError : a spring at a point is led over its dead point, where it turns nothing
+        DesignError : a spring at a point passes its dead point, where it has no torque
         """
         placed = PlacedArmLoad(self, arm, distance, psi0)
         placed.check(swing)
@@ -123,7 +123,7 @@ class ArmLoad:
 class PlacedArmLoad:
     """A load on an arm beside its cam: a torque about the pivot [N mm], positive towards the cam.
 
-    arm, distance : l and c [mm];  psi0 : angle between the arm and the line of centres at the low rest [rad]; each may
+    arm, distance : l and c [mm];  psi0 : angle between arm and line of centres at the lower dwell [rad]; each may
         be an array, of many arms at once
     """
 

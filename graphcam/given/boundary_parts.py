@@ -26,7 +26,7 @@ SPLINE_DEGREES = 2, 9
 MOST_POINTS = 100
 """Of a part."""
 LAST_DIGITS = 1e-9
-"""Of the part's greatest displacement: what the last digits of the given numbers may change it by."""
+"""Of the part's maximum displacement: what the last digits of the given numbers may change it by."""
 MOST_TURNS = 2
 """So often a part may turn between neighbouring points."""
 WILD = 0.5

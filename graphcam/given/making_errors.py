@@ -73,7 +73,7 @@ class MakingErrors:
     Parameters
     ----------
     waviness : mm, the amplitudes of the profile's waves, along its normal;  harmonics : as many, waves per turn
-    roller_diameter, offset, distance, arm : mm, the width of the tolerance zone, from the least size to the greatest;
+    roller_diameter, offset, distance, arm : mm, the width of the tolerance zone, from the minimum size to the maximum;
         0 is exact.  A flat face has none of them, a translating follower no distance and no arm
     distribution : of the sizes, "normal" or "uniform"
 

@@ -78,7 +78,7 @@ class MeasuredMotion(Motion):
 
     @property
     def greatest_residual(self) -> float:
-        """The greatest |residual| [mm]; it is no greater than the tolerance."""
+        """The maximum |residual| [mm]; it is at most the tolerance."""
         return float(np.max(np.abs(self.residuals)))
 
     @property
@@ -104,8 +104,8 @@ class IntegratedMotion(MeasuredMotion):
 def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> MeasuredMotion:
     """The motion through measured displacements, smooth to the third derivative.
 
-    Where the rows keep to one level the motion rests; else it rises or falls from each rest or turning point to the
-    next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
+    Where the rows stay at one level the motion dwells; otherwise it rises or falls from each dwell or turning point to
+    the next, by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
     The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
     and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
@@ -156,7 +156,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
 def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> IntegratedMotion:
     """The motion whose accelerations were measured [mm/rad^2 at cam angles in rad]: integrated twice, then fitted.
 
-    Between rows the acceleration is taken to be straight.  For the follower to come back to where it was, the mean of
+    Between rows the acceleration is assumed to be linear.  For the follower to come back to where it was, the mean of
     the acceleration is taken from every row, and the velocity begins so that its own mean is zero; what was taken is
     ``closing``.  The tolerance holds for the displacements.
 
@@ -249,7 +249,7 @@ def _degrees(angle: float) -> Unquoted:
 def _scatter(phi: Floats, s: Floats) -> float:
     """The standard deviation of the rows, from what a polynomial of the fifth degree through every seven leaves.
 
-    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts is taken,
+    The median of a part of the turn does not see the few rows about a jump; the maximum of the parts is taken,
     because rounding is smaller where the follower rests.
     """
     rows = np.arange(s.size)[:, None] + np.arange(WINDOW)

@@ -25,7 +25,7 @@ class SpringLoad:
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2], 0 at a
         constant speed
     stiffness : c of the spring [N/mm];  preload : F0 at the lowest place [N], with a constant load of the follower
-    friction : in the guide [N], whatever the side force: it acts against the motion, so the cam bears it on a rise and
+    friction : in the guide [N], whatever the side force: it acts against the motion, so it loads the cam on a rise and
         is relieved of it on a return
     load : P, what presses on the follower besides [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn

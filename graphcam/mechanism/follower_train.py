@@ -189,15 +189,15 @@ class VibratingFollower(Shown):
         return TrainMotion(phi, *((each + unknown).reshape(phi.shape) for each in (x, x1, x2, y, force)))
 
     def least_force(self) -> ValueAt:
-        """The least N of the turn [N]; of equal ones the first."""
+        """The minimum N of the turn [N]; of equal ones the first."""
         return self._first(np.argmin)
 
     def greatest_force(self) -> ValueAt:
-        """The greatest N of the turn [N]; of equal ones the first."""
+        """The maximum N of the turn [N]; of equal ones the first."""
         return self._first(np.argmax)
 
     def least_preload(self) -> float:
-        """The least preload [N] with which the follower keeps to the cam at this speed."""
+        """The minimum preload [N] with which the follower keeps to the cam at this speed."""
         return self.train.preload - self.least_force().value
 
     def lost(self) -> list[tuple[float, float]]:

@@ -171,7 +171,7 @@ class MotionBands(Shown):
 
     @property
     def widest(self) -> tuple[ValueAt, ValueAt, ValueAt]:
-        """The greatest half-widths of the bands of s, v and a to the first order, and where."""
+        """The maximum half-widths of the bands of s, v and a to the first order, and where."""
         at, half = self._widest
         phi, _, inner = self._dense
         s, v, a = (
@@ -257,7 +257,7 @@ def motion_bands(
 def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[str, Floats]:
     """By how much each error moves s, v and a at the most, (3, ...), to the first order, from (s, v, a, j).
 
-    A wave reaches its greatest displacement, velocity and acceleration at different phases.
+    A wave reaches its maximum displacement, velocity and acceleration at different phases.
     """
     lifted, found = lifted_over(kin, values), dict[str, Floats]()
     waves = {wave_name(n): n for n in errors.harmonics}

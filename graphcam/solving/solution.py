@@ -213,7 +213,7 @@ class Solution(ShownSolution):
 
 
 def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
 
     Raises
     ------

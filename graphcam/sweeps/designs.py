@@ -35,7 +35,7 @@ class Designs:
     lift, prime_radius, roller_radius : mm; the lift of an arm is an angle [rad]
     rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
     offset : mm, of a translating follower;  arm, distance : mm, an arm's length and centre distance
-    rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of one's own
+    rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of your own
     rotation : "ccw" or "cw"
     follower : "translating", "oscillating", or "flat-faced", which has neither offset nor roller
 
@@ -157,7 +157,7 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
 
 
 def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[()] = ()) -> NDArray[Any]:
-    """Names that are known, or objects of one's own."""
+    """Names that are known, or objects of your own."""
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:

@@ -55,13 +55,13 @@ def sweep(
     designs : n cams
     quantities : what is wanted, of these; nothing else is computed
 
-        - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of greatest magnitude
-        - min_pitch_curvature_radius [mm], the least of the convex parts, inf without any; of a flat face the least rho
+        - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of maximum magnitude
+        - min_pitch_curvature_radius [mm], the minimum of the convex parts, inf without any; of a flat face minimum rho
         - max_v [mm/rad] and max_a [mm/rad^2], magnitudes; of an arm [rad/rad] and [rad/rad^2]
         - feasible: within the limits, and the roller smaller than the minimum radius of curvature
         - under a load, and not by default: max_normal_force, min_normal_force [N], max_torque [N mm] on the cam,
-          least_preload [N; N mm of a torsion spring], jamming_margin, the least cos(alpha) - mu sin(alpha)
-        - with errors of making, and not by default: position_band [mm; of an arm rad], the greatest half-width of the
+          least_preload [N; N mm of a torsion spring], jamming_margin, the minimum cos(alpha) - mu sin(alpha)
+        - with errors of making, and not by default: position_band [mm; of an arm rad], the maximum half-width of the
           band of s to the first order, see :class:`graphcam.MotionBands`
 
     executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here

@@ -79,7 +79,7 @@ class ArcsTask:
     """A cam of three circular arcs, as its file says it.
 
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    part : what the workshop must know; None is a part that follows from the cam
+    part : the data for the workshop; None is a part that follows from the cam
 
     Raises
     ------
