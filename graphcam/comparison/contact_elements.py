@@ -85,7 +85,7 @@ class ElementContact:
 
     @cached_property
     def half_width(self) -> float:
-        """Where the pressure ends [mm]: its square, taken as even over x^2 by least squares, is nought there."""
+        """Where the pressure ends [mm]: there the straight line through p^2 over x^2, by least squares, is zero."""
         touch = self.pressure > 0
         slope, middle = np.polyfit(self.x[touch] ** 2, self.pressure[touch] ** 2, 1)
         return math.sqrt(-middle / slope)

@@ -107,11 +107,11 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     Where the rows stay at one level the motion dwells; otherwise it rises or falls from each dwell or turning point to
     the next, by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
-    The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
-    and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
-    noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
-    noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
-    as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
+    The errors of the rows are assumed to be independent, with Gaussian noise of one standard deviation, which is found
+    from neighbouring rows and is at most tolerance/4.5.  So give a tolerance of 4.5 times the scatter of the table, or
+    more: if it is smaller, noise becomes motion; if it is larger, small motions are not seen.  Where dwells are off
+    their level by more than such noise explains, as with waves or after an integration, tolerance/4.5 is used instead.
+    Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they are hidden for several degrees.
 
     Parameters
     ----------
