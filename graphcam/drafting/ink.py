@@ -191,7 +191,7 @@ class Construction(Shown, Generic[G]):
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
-    acts : what was done, by the name of what it left on the paper
+    acts : the acts of drawing, by the name of what each left on the paper
 
     >>> import graphcam as gc
     >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]

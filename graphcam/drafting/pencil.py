@@ -109,7 +109,7 @@ class Pencil:
     def stream(self, construction: str) -> Stream:
         """The random numbers of one construction.
 
-        They depend on the seed and the construction's name only, so that drawing one construction more or less never
+        They depend on the seed and the construction's name only, so that adding or omitting a construction never
         changes another.
         """
         return np.random.default_rng([self.seed, *construction.encode()])

@@ -63,8 +63,8 @@ class ArmLoad:
     inertia : J of the arm and all that swings with it, about the pivot [kg mm^2]
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2]
     stiffness : c, of a torsion spring [N mm/rad], of a spring at a point [N/mm]
-    preload : F0 at the lowest place, of a torsion spring [N mm], of a spring at a point [N]
-    load : P, what presses on the arm's end along its path [N], positive towards the cam: a number, or a
+    preload : F0 in the lowest position, of a torsion spring [N mm], of a spring at a point [N]
+    load : P, the force on the arm's end along its path [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn
     at : where a spring at a point acts; None for a torsion spring about the pivot
 
@@ -134,7 +134,7 @@ class PlacedArmLoad:
 
     @property
     def preload(self) -> float:
-        """Of the spring at the lowest place [N mm, or N of a spring at a point]."""
+        """Of the spring in the lowest position [N mm, or N of a spring at a point]."""
         return self.given.preload
 
     @property

@@ -60,7 +60,7 @@ class MeasuredMotion(Motion):
     ----------
     zero : the cam angle [rad] of the table where this motion's begins: 0, unless the follower moves there
     phi, measured : (n,) the table: its cam angles [rad], and displacements [mm] above the motion's lowest
-    tolerance : how far the motion may pass a row [mm]
+    tolerance : how far the motion may be from a row [mm]
     """
 
     zero: float
@@ -117,7 +117,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     ----------
     phi : (n,) cam angles [rad], growing, over one turn; the last row may repeat the first one a turn later
     s : (n,) displacements [mm; an arm's: rad]
-    tolerance : how far the motion may pass a row, in the unit of s
+    tolerance : how far the motion may be from a row, in the unit of s
 
     Raises
     ------
@@ -156,9 +156,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
 def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> IntegratedMotion:
     """The motion whose accelerations were measured [mm/rad^2 at cam angles in rad]: integrated twice, then fitted.
 
-    Between rows the acceleration is assumed to be linear.  For the follower to come back to where it was, the mean of
-    the acceleration is taken from every row, and the velocity begins so that its own mean is zero; what was taken is
-    ``closing``.  The tolerance holds for the displacements.
+    Between rows the acceleration is assumed to be linear.  So that the follower returns to its initial place, the mean
+    acceleration is subtracted from every row, and the initial velocity makes its own mean zero; ``closing`` is what was
+    subtracted.  The tolerance holds for the displacements.
 
     Raises
     ------

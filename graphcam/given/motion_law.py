@@ -56,7 +56,7 @@ class Law:
         is that of the law seen from its end.  None has the place found
     fourths : for each formula a function that returns f'''' at an array, and a bound on |f'''''| over the piece; with
         them it is proved where a quantity is largest.  Left out, f'''' is estimated, and nothing is proved
-    trusted : it is known to be a law, so it is not checked, which takes some milliseconds
+    trusted : it is known to be a law, so the check is omitted, which takes some milliseconds
     seams : those edges at which no derivative jumps: the formulas of either side only look from different ends
 
     Raises
@@ -131,7 +131,7 @@ class Law:
         return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
 
     def at(self, u: float, side: Side = "right") -> list[float]:
-        """f, f', f'' and the third derivative at one place in [0, 1], sooner than from an array of one.
+        """f, f', f'' and the third derivative at one place in [0, 1], faster than from an array of one.
 
         >>> import graphcam as gc
         >>> gc.law("3-4-5").at(0.5)

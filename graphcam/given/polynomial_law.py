@@ -150,11 +150,11 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     Parameters
     ----------
     start, end : fractions of the phase that the first and the last blend take, together less than 1
-    smooth : the derivative of the lift that is the highest continuous one: 1 velocity, 2 acceleration, 3 jerk
+    smooth : the order of the highest continuous derivative of the lift: 1 velocity, 2 acceleration, 3 jerk
 
     Raises
     ------
-    DesignError : a blend is too short, they leave no way between them, or there are no such blends
+    DesignError : a blend is too short, they leave nothing between them, or there are no such blends
 
     >>> import graphcam as gc
     >>> gc.constant_velocity_law(0.25, 0.25).at(0.5)

@@ -48,7 +48,7 @@ def hertz_line_contact(
 
     Raises
     ------
-    DesignError : a value cannot be, or a hollow is no wider than what lies in it: they touch in no single line
+    DesignError : a value is impossible, or a hollow is no wider than what lies in it: they touch in no single line
 
     >>> import graphcam as gc
     >>> pressure, half_width = gc.hertz_line_contact(1000, 20, 30, 15)

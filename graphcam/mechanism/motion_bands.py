@@ -137,7 +137,7 @@ class MotionBands(Shown):
         """(3, n) of the bands to the first order: that of a normal distribution, but never beyond the worst case.
 
         A sum of several errors is nearly normal.  A single wave of random phase is not: it never lies beyond its
-        amplitude, and where it dominates this is too wide, by up to two fifths.  :attr:`sample` has no such doubt.
+        amplitude, and where it dominates this is too wide, by up to two fifths.  :attr:`sample` is free of this.
         """
         return half_widths(self.effects, self.errors, self.coverage)
 
@@ -188,7 +188,7 @@ class MotionBands(Shown):
 
     @cached_property
     def sample(self) -> MotionSample:
-        """What a sample of mechanisms does, each of which is solved: nothing in it is of the first order.
+        """The motions of a sample of mechanisms, each of which is solved, not taken to the first order.
 
         Raises
         ------

@@ -209,7 +209,7 @@ def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0
 
     Raises
     ------
-    DesignError : there is no such law; n or the damping cannot be; the motion has no dwell before a rise
+    DesignError : there is no such law; n or the damping is impossible; the motion has no dwell before a rise
 
     >>> import graphcam as gc
     >>> response = gc.follower_response("cycloidal", n=2.5)
@@ -290,7 +290,7 @@ def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, dampi
 
     Raises
     ------
-    DesignError : there is no such law; n or the damping cannot be; the motion has no dwell before a rise
+    DesignError : there is no such law; n or the damping is impossible; the motion has no dwell before a rise
 
     >>> import graphcam as gc
     >>> spectrum = gc.shock_spectrum("rectangular", n=[1, 2, 3])

@@ -36,8 +36,8 @@ BINDS = 1e-7
 class Sensitivities:
     """The derivatives of a cam's quantities by its sizes, per mm; by the lift per mm, or of an arm per rad.
 
-    Every method takes cam angles phi [rad] and gives arrays shaped like them by the names of the sizes.  By the lift is
-    meant that the whole motion is stretched.
+    Every method takes cam angles phi [rad] and gives arrays shaped like them by the names of the sizes.  A change of
+    the lift stretches the whole motion.
 
     >>> import graphcam as gc
     >>> from math import degrees, pi

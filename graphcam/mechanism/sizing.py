@@ -43,10 +43,10 @@ class SizedCam:
     face_width : of its face [mm];  least_width : the minimum that the stress permits, whatever its range [mm]
     max_pressure_angle : on the rises and, if it is limited, on the returns, in magnitude [rad]
     min_convex_radius : of the pitch curve [mm];  stress : maximum peak pressure with this face width [MPa]
-    binding : what keeps the radius, or with the objective "stress" the stress, from being less: limits that no wider
-        face would leave room in, and ends of ranges
-    active : limits that just keep with this face width, and ends of ranges
-    problem : what was asked
+    binding : what keeps the radius, or with the objective "stress" the stress, from being smaller: ends of ranges, and
+        limits that a wider face would not relax
+    active : limits that are just satisfied with this face width, and ends of ranges
+    problem : the sizing problem
     """
 
     cam: Cam
@@ -104,8 +104,8 @@ def size_cam(
 
     Raises
     ------
-    DesignError : the load does not keep contact, a range is none, or no cam in the ranges keeps the limits; then it
-        says which of them, and how near the nearest cam comes
+    DesignError : the load does not keep contact, a range is empty, or no cam in the ranges satisfies the limits; the
+        message then says which of them, and how close the nearest cam comes
 
     >>> from math import radians
     >>> import graphcam as gc

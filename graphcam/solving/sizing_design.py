@@ -35,7 +35,7 @@ TRIED = 50
 
 @dataclass(frozen=True, eq=False)
 class Sizing:
-    """The best cam of a task, by exact arithmetic, and a cam of round sizes that keeps the limits too.
+    """The best cam of a task, by exact arithmetic, and a cam of round sizes that also satisfies the limits.
 
     task : with its ranges;  objective : "size" or "stress"
     best : the best cam, unrounded;  adopted : that of round sizes
@@ -103,7 +103,7 @@ class Sizing:
     ) -> dict[str, str]:
         """Write the chart, the front, the results and the sized task into a folder: all of them, or none.
 
-        language : of the chart, by default the task's;  progress : hears what is being done
+        language : of the chart, by default the task's;  progress : called with what is being done
         returns : the files' names in the folder by kind
 
         Raises
@@ -121,7 +121,7 @@ def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizi
 
     Raises
     ------
-    DesignError : the task has no such table, or no cam in its ranges keeps its limits
+    DesignError : the task has no such table, or no cam in its ranges satisfies its limits
 
     >>> import graphcam as gc
     >>> gc.size_task(gc.builtin_task("sizing"))

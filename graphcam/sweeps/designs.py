@@ -28,7 +28,7 @@ OWN = {kind: tuple(size.name for size in fields(follower)) for kind, follower in
 class Designs:
     """Cams with a rise, a high dwell, a return, and a low dwell for the rest of the turn.
 
-    Every field but the follower is one value for all cams or an array of n; what differs in length does not fit.
+    Every field but the follower is one value for all cams or an array of n; arrays of different lengths do not fit.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Designs:
     Raises
     ------
     DesignError : the lengths differ, a law, rotation or follower is unknown, a size is given that the follower does not
-        have, or arm or distance is left out.  A number that no cam can have is no error here: that cam's extremes are
+        have, or arm or distance is left out.  A number that no cam can have is not an error: that cam's extremes are
         NaN
 
     >>> import graphcam as gc
@@ -134,7 +134,7 @@ class Designs:
 
         Raises
         ------
-        DesignError : there can be no such cam
+        DesignError : there is no such cam
         """
         sizes = {name: float(self.column(name)[k]) for name in NUMBERS}
         rise_law, return_law, rotation = (self.column(name).item(k) for name in ("rise_law", "return_law", "rotation"))

@@ -83,7 +83,7 @@ class ArcsTask:
 
     Raises
     ------
-    DesignError : a value that cannot be, alone or together with another
+    DesignError : an impossible value, alone or together with another
 
     >>> import graphcam as gc
     >>> gc.ArcsTask(ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))).arcs().design_case

@@ -250,7 +250,7 @@ class Task:
 
     Raises
     ------
-    DesignError : a value that cannot be, alone or together with another
+    DesignError : an impossible value, alone or together with another
 
     >>> import graphcam as gc
     >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable
