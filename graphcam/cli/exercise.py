@@ -30,6 +30,7 @@ from graphcam.cli.voice import tell, voice
 from graphcam.errors import install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
+from graphcam.language import languages
 from graphcam.words import Caption, plain, say, say_many
 
 if TYPE_CHECKING:
@@ -158,7 +159,7 @@ def make(
             help="An earlier course's secret; if left out, a new one is made.",
         ),
     ] = None,
-    language: Annotated[str, Option(metavar="en|ru", help="Of the handouts and of the feedback.")] = "en",
+    language: Annotated[str, Option(metavar="|".join(languages()), help="Of the handouts and of the feedback.")] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
@@ -292,7 +293,7 @@ def export(
         Path | None,
         Option(parser=named, metavar="F", help="An earlier course's secret; if left out, a new one is made."),
     ] = None,
-    language: Annotated[str, Option(metavar="en|ru", help="Of all that students read.")] = "en",
+    language: Annotated[str, Option(metavar="|".join(languages()), help="Of all that students read.")] = "en",
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
     / "export",
     hand: Hand = "",
