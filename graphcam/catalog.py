@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 _LINE = re.compile(r'(?:(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(.*)"\s*')
 _PLURAL = re.compile(r"^Plural-Forms:.*plural\s*=\s*([^;\n]+)", re.MULTILINE)
+_UNREAD = re.compile(r"^X-Read-By-Native-Speaker: *no *$", re.MULTILINE)
 _ESCAPED = re.compile(r"\\(.)")
 _MEANING = {"n": "\n", "t": "\t", "r": "\r"}
 Entry = dict[str, str]
@@ -26,10 +27,12 @@ class Catalog:
 
     told : by context (empty where there is none) and text, its translations: one, or one for each plural form
     plural : the number of the form that a count takes
+    unread : whether its header says ``X-Read-By-Native-Speaker: no``
     """
 
     told: Mapping[tuple[str, str], tuple[str, ...]] = field(default_factory=dict[tuple[str, str], tuple[str, ...]])
     plural: Callable[[int], int] = one_or_many
+    unread: bool = False
 
     def say(self, text: str, context: str = "") -> str:
         """A text in the language; one that is not translated stays as it is."""
@@ -49,14 +52,14 @@ def read_catalog(text: str) -> Catalog:
     ('Anstieg', 'rise')
     """
     told: dict[tuple[str, str], tuple[str, ...]] = {}
-    rule = None
+    rule, unread = None, False
     for entry in _entries(text):
         forms = tuple(entry[key] for key in sorted(entry) if key.startswith("msgstr"))
         if entry["msgid"] and all(forms):
             told[entry.get("msgctxt", ""), entry["msgid"]] = forms
         elif not entry["msgid"]:  # the header
-            rule = _PLURAL.search(forms[0])
-    return Catalog(told, gettext.c2py(rule[1]) if rule else one_or_many)
+            rule, unread = _PLURAL.search(forms[0]), _UNREAD.search(forms[0]) is not None
+    return Catalog(told, gettext.c2py(rule[1]) if rule else one_or_many, unread)
 
 
 def _entries(text: str) -> Iterator[Entry]:

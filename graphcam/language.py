@@ -14,12 +14,13 @@ from typing import Any
 
 from graphcam.catalog import Catalog, read_catalog
 from graphcam.errors import DesignError
-from graphcam.words import Caption, Words, say_in
+from graphcam.words import Caption, Words, say, say_in
 
 MINUS = "−"
 """As wide as a plus; a hyphen is what a program reads."""
 DECIMAL_SIGN = say_in("decimal sign", ".")
 """What stands before the decimals, which a catalog tells as it does every text."""
+UNREAD = say("This translation has not yet been read by a native speaker.")
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,11 @@ class Language:
     def decimal(self) -> str:
         """What stands before the decimals."""
         return self._template(DECIMAL_SIGN)
+
+    @property
+    def remark(self) -> str:
+        """What whoever reads the language should know of the translation; empty where a native speaker has read it."""
+        return self.text(UNREAD) if self.catalog.unread else ""
 
     def text(self, words: Words) -> str:
         """What somebody who speaks the language writes."""

@@ -14,5 +14,5 @@ KNOWN = {
 def english_words(text: str, names: Iterable[str] = ()) -> set[str]:
     """Latin words of three letters or more, but for TeX's, HTML's and names, which are the same in every language."""
     for name in names:
-        text = re.sub(rf"\b{re.escape(name)}\b", " ", text)
+        text = re.sub(rf"(?<![A-Za-z]){re.escape(name)}(?![A-Za-z])", " ", text)
     return set(re.findall("[A-Za-z]{3,}", re.sub(r"\\[A-Za-z]+|</?sub>", "", text))) - KNOWN

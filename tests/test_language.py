@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tomllib
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -22,9 +23,11 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import DesignError
 from graphcam.language import ENGLISH, language, languages
-from graphcam.report.documents import note_of, sheet_of
+from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
+from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Text
+from graphcam.studio.page import page
 from graphcam.studio.tours import texts_of, tours
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_file import BUILT_IN
@@ -32,6 +35,20 @@ from graphcam.words import say, say_in, say_many, sequence
 
 PACKAGE = Path(gc.__file__).parent
 CATALOGS = [name for name in languages() if name != ENGLISH.name]
+MESSAGES = {"ru"}
+"""In which languages the messages and the help of the command line are told, too."""
+UNREAD = ("vi", "zh")
+"""Which languages no native speaker has read yet."""
+SIGNS = {
+    "ru": ("φ_у", "φ_д.с", "φ_в", "φ_б.с"),
+    "vi": ("φ_đ", "φ_x", "φ_v", "φ_g"),
+    "zh": ("Φ", "Φₛ", "Φ′", "Φₛ′"),
+}
+"""What the angles of rise, upper dwell, return and lower dwell are called in the textbooks of a language."""
+SHARED = "cos", "sin", "arctan", "rad", "min"
+"""Functions and units, which are the same in every language."""
+KEYS = "Page", "Down", "Shift", "JavaScript"
+"""What stands on keyboards, and a name."""
 KEYWORDS = {"say": (1,), "say_in": ((1, "c"), 2), "say_many": (1, 2)}
 """What the functions of graphcam.words take, as ``pybabel extract`` wants to know it."""
 
@@ -69,7 +86,11 @@ def has_words(template: str) -> bool:
 @pytest.mark.parametrize("name", CATALOGS)
 def test_no_text_of_the_code_is_untranslated(name):
     there = catalog(name)
-    needed = [m for m in texts_of_the_code() if m.id and (m.context or has_words(singular(m.id)))]
+    needed = [
+        m
+        for m in texts_of_the_code()
+        if m.id and (m.context or has_words(singular(m.id))) and (m.context != "message" or name in MESSAGES)
+    ]
     missing = [(m.id, m.locations) for m in needed if not (old := there.get(m.id, m.context)) or not old.string]
     assert missing == []
     assert all(all(there.get(m.id, m.context).string) for m in needed if isinstance(m.id, tuple))
@@ -166,45 +187,80 @@ TASKS["spring"] = replace(gc.builtin_task(), speed_rpm=300.0, spring=SpringTable
 HANDS = {"perfect": gc.Pencil(), "hand": gc.Pencil(line=0.2, dividers=0.2, protractor=0.005, division=0.5)}
 
 
-def in_russian(name: str, hand: str):
+def in_language(spoken: str, name: str, hand: str = "perfect"):
     task = TASKS[name]
-    named = replace(task.title, name="Кулачок")  # the name is the user's
-    return gc.solve(replace(task, title=named, drawing=replace(task.drawing, language="ru")), HANDS[hand])
+    named = replace(task.title, name="№ 1")  # the name is the user's
+    return gc.solve(replace(task, title=named, drawing=replace(task.drawing, language=spoken)), HANDS[hand])
+
+
+@cache
+def own_words(spoken: str) -> frozenset[str]:
+    """What a language that is written in Latin letters has of words without an accent."""
+    if spoken != "vi":
+        return frozenset()
+    return frozenset(word for m in catalog(spoken) if m.id for word in re.findall("[A-Za-z]{3,}", singular(m.string)))
+
+
+def letters_on(solution) -> list[str]:
+    pages = sheet_of(solution).pages
+    return [e.text for page in pages for group in page.groups for e in group.entities if isinstance(e, Text)]
 
 
 @pytest.mark.parametrize("hand", HANDS)
 @pytest.mark.parametrize("name", TASKS)
-def test_a_russian_note_has_no_english_word_and_no_decimal_point(name, hand):
-    solution = in_russian(name, hand)
-    # A step's number has a point in every language; cos and sin are as in TeX.
+@pytest.mark.parametrize("spoken", CATALOGS)
+def test_a_note_has_no_english_word_and_no_foreign_decimal_sign(spoken, name, hand):
+    solution = in_language(spoken, name, hand)
+    # A step's number has a point in every language.
     note = re.sub(r"^- \*\d+\.\d+ ", "", note_of(solution), flags=re.MULTILINE)
     for text in (note, comparison_file(solution), *solution.warnings):
-        assert english_words(text, ("measured", "cos", "sin")) == set()
-        assert re.findall(r"\d\.\d", text) == []
+        assert english_words(text, ("measured", *SHARED)) - own_words(spoken) == set()
+        assert re.findall(r"\d,\d" if language(spoken).decimal == "." else r"\d\.\d", text) == []
 
 
-def test_russian_takes_no_more_paper():
-    """Its words are longer; what a spring adds to the coursework takes a second sheet, as in English."""
-    assert [len(sheet_of(in_russian(name, "perfect")).pages) for name in ("coursework", "spring")] == [1, 2]
+@pytest.mark.parametrize("spoken", CATALOGS)
+def test_no_language_takes_more_paper(spoken):
+    """Its words may be longer; what a spring adds to the coursework takes a second sheet, as in English."""
+    assert [len(sheet_of(in_language(spoken, name)).pages) for name in ("coursework", "spring")] == [1, 2]
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_russian_sheet_has_no_english_word_and_no_decimal_point(name):
-    pages = sheet_of(in_russian(name, "perfect")).pages
-    texts = [e.text for page in pages for group in page.groups for e in group.entities if isinstance(e, Text)]
-    assert {word for text in texts for word in english_words(text)} <= {"measured"}  # the name of a file
-    assert [text for text in texts if re.search(r"\d\.\d", text)] == []
+@pytest.mark.parametrize("spoken", CATALOGS)
+def test_a_sheet_has_no_english_word_and_no_foreign_decimal_sign(spoken, name):
+    texts = letters_on(in_language(spoken, name))
+    # The name of a file.
+    assert {word for text in texts for word in english_words(text, SHARED)} - own_words(spoken) <= {"measured"}
+    foreign = r"\d,\d" if language(spoken).decimal == "." else r"\d\.\d"
+    assert [text for text in texts if re.search(foreign, text)] == []
 
 
-def test_russian_names_the_phases_by_their_kind():
-    texts = [
-        e.text
-        for page in sheet_of(in_russian("coursework", "perfect")).pages
-        for group in page.groups
-        for e in group.entities
-        if isinstance(e, Text)
-    ]
-    assert {"φ_у = 80°", "φ_д.с = 45°", "φ_в = 60°", "φ_б.с = 175°"} <= set(texts)
+@pytest.mark.parametrize("spoken", CATALOGS)
+def test_a_player_has_no_english_word(spoken):
+    solution = in_language(spoken, "coursework")
+    contents = contents_of(solution)
+    page = player_of(contents, drawing_of(contents))
+    shown = re.sub(r"(?s)<(script|style).*?</\1>|<svg.*?</svg>|<[^>]*>|&\w+;", " ", page)
+    assert english_words(shown, (*SHARED, *KEYS)) - own_words(spoken) == set()
+
+
+@pytest.mark.parametrize("spoken", languages())
+def test_a_translation_that_no_native_speaker_has_read_says_so_where_it_is_shown(spoken):
+    solution = in_language(spoken, "flat")
+    contents = contents_of(solution)
+    remark, lettered = language(spoken).remark, letters_on(solution)
+    assert bool(remark) == (spoken in UNREAD)
+    shown = [note_of(solution), player_of(contents, drawing_of(contents)), page({"language": spoken, "builtin": {}})]
+    if remark:
+        assert lettered.count(remark) == len(sheet_of(solution).pages)
+        assert all(remark in text for text in shown)
+    else:
+        assert not [text for text in (*lettered, *shown) for each in UNREAD if language(each).remark in text]
+
+
+@pytest.mark.parametrize("spoken", SIGNS)
+def test_each_language_names_the_phases_by_their_kind(spoken):
+    told = [f"{sign} = {angle}°" for sign, angle in zip(SIGNS[spoken], (80, 45, 60, 175), strict=True)]
+    assert set(told) <= set(letters_on(in_language(spoken, "coursework")))
 
 
 def test_speaking_needs_no_library():

@@ -30,6 +30,7 @@ from graphcam.cli.voice import tell, voice
 from graphcam.errors import install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
+from graphcam.language import languages
 from graphcam.words import Caption, plain, say, say_many
 
 if TYPE_CHECKING:
@@ -161,7 +162,9 @@ def make(
             help="An earlier course's secret; by default a new one is made.",
         ),
     ] = None,
-    language: Annotated[str, Option(metavar="en|ru", help="Language of the handouts and of the feedback.")] = "en",
+    language: Annotated[
+        str, Option(metavar="|".join(languages()), help="Language of the handouts and of the feedback.")
+    ] = "en",
     workers: Annotated[int, Option(min=1, metavar="N", help="Number of processes.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
@@ -310,7 +313,9 @@ def export(
         Path | None,
         Option(parser=named, metavar="F", help="An earlier course's secret; by default a new one is made."),
     ] = None,
-    language: Annotated[str, Option(metavar="en|ru", help="Language of everything that students read.")] = "en",
+    language: Annotated[
+        str, Option(metavar="|".join(languages()), help="Language of everything that students read.")
+    ] = "en",
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
     / "export",
     hand: Hand = "",

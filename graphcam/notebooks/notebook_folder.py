@@ -76,7 +76,7 @@ def markdown_page(source: str) -> str:
 def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     """An executed notebook as a page.
 
-    language : of the page, "en" or "ru"
+    language : of the page, such as "en"
 
     Raises
     ------

@@ -49,7 +49,7 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
     of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
     results = comparison(of_arcs, OF_ARCS), comparison(of_motion, OF_MOTION)
-    title = title_block(solution.task.title, solution.tell)
+    title = title_block(solution.task.title, solution.tell, solution.task.drawing.remark)
     return Contents(solution, title, solution.drawn, scaled_steps(solution.drawn), (_data(solution),), results)
 
 
@@ -109,7 +109,7 @@ def arcs_note(solution: ArcsSolution) -> str:
         told=CASES[case],
     )
     data, pencil = markdown_table(_data(solution), tell), drawn_how(solution.chain.pencil)
-    head = blocks(heading(solution.task.title, tell), designed, data, pencil, tell=tell)
+    head = blocks(heading(solution.task.title, solution.task.drawing), designed, data, pencil, tell=tell)
     jumps = told_jumps(solution.motion.jumps, "a", "mm/rad²", tell)
     chapters = [
         *constructions(solution),

@@ -28,7 +28,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.stress_design import STRESS_MEANING
 from graphcam.solving.tolerance_design import TOLERANCE_MEANING
-from graphcam.tasks.sheet_tables import TitleTable
+from graphcam.tasks.sheet_tables import SheetTable, TitleTable
 from graphcam.words import Caption, Tell, joined, say, sequence
 
 
@@ -54,7 +54,9 @@ def note(solution: Solution) -> str:
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),
     ]
-    head = blocks(heading(solution.task.title, solution.tell), drawn_how(solution.chain.pencil), tell=solution.tell)
+    head = blocks(
+        heading(solution.task.title, solution.task.drawing), drawn_how(solution.chain.pencil), tell=solution.tell
+    )
     return whole_note(head, chapters, solution)
 
 
@@ -94,13 +96,14 @@ def _told(drawn: Construction, solution: AnySolution) -> str:
     return blocks(meaning.why, calculated, tell=solution.tell)
 
 
-def heading(title: TitleTable, tell: Tell) -> str:
-    """The note's title, and who wrote it."""
+def heading(title: TitleTable, drawing: SheetTable) -> str:
+    """The note's title, who wrote it, and what is to be said of its language."""
+    tell = drawing.tell
     lines = [title.organisation, title.document, title.group, title.author, title.checked]
     names = (say("Organisation"), say("Document"), say("Group"), say("Author"), say("Checked by"))
     signed = [f"{tell(name)}: {text(line)}" for name, line in zip(names, lines, strict=True) if line]
     head = tell(say("{name}: calculation note", name=text(title.told_name(tell))))
-    return blocks(f"# {head}", "  \n".join(signed))
+    return blocks(f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed))
 
 
 MOVED = {

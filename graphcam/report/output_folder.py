@@ -16,7 +16,7 @@ from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
-from graphcam.sheets.model import Drawing, Text
+from graphcam.sheets.model import Drawing
 from graphcam.sheets.typefaces import unknown
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
@@ -31,6 +31,8 @@ DXF = "plain", "cad"
 """Kinds of DXF."""
 REMEDY = "fonts-noto-cjk"
 """A package of fonts with more letters than any other."""
+MOST_NAMED = 12
+"""Characters that no font has; of a sheet in Chinese there are hundreds."""
 SHEETS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
 SOLUTION = "solution.json"
@@ -178,11 +180,11 @@ def written_files(folder: Path | str) -> list[str]:
 
 def _warn_of_boxes(drawing: Drawing) -> None:
     """Say which characters of a drawing are shown as boxes, because nothing on the machine has them."""
-    entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)
-    if missing := unknown(entity.text for entity in entities if isinstance(entity, Text)):
-        said = (
-            f"no font on this machine has {' '.join(missing)}, shown as boxes; install one that has, such as {REMEDY}"
+    if missing := unknown(text.text for text in drawing.texts):
+        named = " ".join(missing[:MOST_NAMED]) + (
+            f" and {more} more" if (more := len(missing) - MOST_NAMED) > 0 else ""
         )
+        said = f"no font on this machine has {named}, shown as boxes; install one that has, such as {REMEDY}"
         warnings.warn(said, LetteringWarning, stacklevel=3)
 
 

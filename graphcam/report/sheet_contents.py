@@ -144,7 +144,7 @@ def motion_contents(solution: Solution) -> Contents:
         results.append(solution.stress.table())
     if solution.tolerances:
         results.append(solution.tolerances.table())
-    title = title_block(solution.task.title, solution.tell)
+    title = title_block(solution.task.title, solution.tell, solution.task.drawing.remark)
     given = data(solution), phases_at_speed(solution), *on_sheet(solution)
     return Contents(solution, title, drawn, scaled_steps(drawn), given, tuple(results))
 
@@ -159,8 +159,8 @@ def _check_drawable(cam: Cam) -> None:
         raise DesignError("prime radius", Unquoted(f"{cam.prime_radius:g} mm"), limit, "check the units of both")
 
 
-def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:
-    """What the title block says: the task's table."""
+def title_block(title: TitleTable, tell: Tell = str, remark: str = "") -> TitleBlock:
+    """What the title block says: the task's table; and a remark below it."""
     return TitleBlock(
         name=title.told_name(tell),
         number=title.document,
@@ -170,6 +170,7 @@ def title_block(title: TitleTable, tell: Tell = str) -> TitleBlock:
         checked=title.checked,
         mass=title.mass,
         scale=title.scale,
+        remark=remark,
     )
 
 

@@ -55,7 +55,8 @@ def chart(sizing: Sizing, language: str | None = None) -> Drawing:
     """
     paper = sizing.task.drawing
     language = paper.language if language is None else language
-    block = title_block(sizing.task.title, language_of(language).text)
+    spoken = language_of(language)
+    block = title_block(sizing.task.title, spoken.text, spoken.remark)
     return sizing_sheet(
         sizing.best,
         paper.format,

@@ -65,7 +65,8 @@ def sizing_sheet(
 ) -> Drawing:
     """A sheet with the permitted region and the values of the cam, for the writers of :mod:`graphcam.sheets`.
 
-    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"; language : "en" or "ru"
+    paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
+    language : such as "en"
     front : cams of :func:`~graphcam.mechanism.sizing.pareto_front`, drawn in a chart of their own
     adopted : the cam of round sizes, shown beside the best;  title : of the table;  block : the title block
 

@@ -38,11 +38,14 @@ from graphcam.sheets.model import (
 )
 from graphcam.sheets.smooth import clamped_spline
 from graphcam.sheets.styles import ACCENT, CENTER, CYAN_TINT, DASHED, GREY, GREY_TINT, STYLES
+from graphcam.sheets.typefaces import is_chinese
 
 BETWEEN_PAGES = 40.0
 """Several pages stand side by side, so far apart, mm."""
 LETTERS = "lc_opengost-br"
 """LibreCAD takes the name of the text style for its font; this one of its fonts has Cyrillic, Greek and primes."""
+CHINESE = "unicode"
+"""The same of LibreCAD's font with Chinese; programs that know typefaces are told of FangSong, as GB/T 14691 has it."""
 LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
     CENTER: ("CENTER", "Center ____ _ ____ _"),
     DASHED: ("DASHED", "Dashed __ __ __"),
@@ -149,6 +152,8 @@ def sheet_document(drawing: Drawing) -> Document:
         signed = [mm if k % 2 == 0 else -mm for k, mm in enumerate(pattern)]
         document.linetypes.add(name, [sum(pattern), *signed], description=description)
     document.styles.add(LETTERS, font="osifont.ttf")
+    if any(is_chinese(letter) for text in drawing.texts for letter in text.text):
+        document.styles.add(CHINESE, font="simfang.ttf")
     document.set_modelspace_vport(height=first.height, center=(total / 2, first.height / 2))
     return document
 
@@ -228,6 +233,8 @@ def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
         letters, *ends = piece.ink
         made = space.add_text(letters)
         _set_style(made, layer, piece.height, text.angle)
+        if is_chinese(letters[0]):
+            made.dxf.style = CHINESE
         start, end = (text.at + (begin + end) * turn + left for end in ends)
         if len(letters) > 1:
             made.set_placement(xy(start), xy(end), align=TextEntityAlignment.FIT)

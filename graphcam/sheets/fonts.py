@@ -13,12 +13,14 @@ from pathlib import Path
 
 from graphcam.indices import parts
 from graphcam.sheets.model import Text
-from graphcam.sheets.typefaces import BOX, capital, face_of, glyph, lettering_file
+from graphcam.sheets.typefaces import BOX, capital, face_of, glyph, is_chinese, lettering_file
 
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0)
 """Of capital letters by ISO 3098 and GOST 2.304, mm."""
 ROUNDING = 1e-6
 """Two widths that differ by less may be the same [mm]."""
+OPENING, CLOSING = "（《“‘「『【〔", "，。、；：？！）》”’」』】〕％"
+"""Signs of Chinese that stand at no end of a line, and at no start."""
 DROP = 0.5
 """An index stands so much lower than its letter, in heights of the index."""
 
@@ -132,25 +134,53 @@ def start_of(text: Text) -> float:
 
 
 def wrap(text: str, height: float, room: float) -> list[str]:
-    """The text in lines no wider than ``room`` mm, where its words allow it.
+    """The text in lines no wider than ``room`` mm, where its words allow it, or its Chinese characters.
 
     >>> wrap("one two three", 3.5, 25.0)
     ['one two', 'three']
+    >>> wrap("凸轮，机构", 3.5, width("凸轮", 3.5))
+    ['凸', '轮，', '机构']
     """
     lines: list[str] = []
     reached, space = 0.0, width(" ", height)
-    for word in text.split():
+    for gap, word in words_of(text):
         wide = width(word, height)
-        together = reached + space + wide
+        together = reached + (space if gap else 0.0) + wide
         # A line is as wide as its words and spaces; it is measured itself only where rounding may decide.
         close = abs(together - room) < ROUNDING
-        if lines and (width(f"{lines[-1]} {word}", height) if close else together) <= room:
-            lines[-1] += f" {word}"
+        if lines and (width(f"{lines[-1]}{gap}{word}", height) if close else together) <= room:
+            lines[-1] += gap + word
             reached = together
         else:
             lines.append(word)
             reached = wide
     return lines
+
+
+def words_of(text: str) -> Iterator[tuple[str, str]]:
+    """What a text may be broken between: its words, each behind a space, and Chinese characters with their signs.
+
+    >>> list(words_of("to scale"))
+    [(' ', 'to'), (' ', 'scale')]
+    >>> "|".join(word for _, word in words_of("以（O）为圆心，r₀ = 3 mm。"))
+    '以|（O）|为|圆|心，|r₀|=|3|mm。'
+    """
+    for word in text.split():
+        gap = " "
+        for part in _characters_of(word):
+            yield gap, part
+            gap = ""
+
+
+def _characters_of(word: str) -> Iterator[str]:
+    """A word between whose Chinese characters a line may end; a sign stays with what it closes or opens."""
+    start = 0
+    for k in range(1, len(word)):
+        before, after = word[k - 1], word[k]
+        if (is_chinese(before) or is_chinese(after)) and before not in OPENING and after not in CLOSING:
+            yield word[start:k]
+            start = k
+    yield word[start:]
 
 
 def broken(text: str, height: float, room: float) -> list[str]:
@@ -160,8 +190,8 @@ def broken(text: str, height: float, room: float) -> list[str]:
     ['a counter-', 'balanced', 'cam']
     """
     lines: list[str] = []
-    for word in text.split():
-        begun = f"{lines.pop()} " if lines else ""
+    for gap, word in words_of(text):
+        begun = f"{lines.pop()}{gap}" if lines else ""
         if width(begun + word, height) <= room:
             lines.append(begun + word)
         elif width(word, height) <= room:

@@ -50,6 +50,11 @@ def _gauge_at(paper: Format) -> complex:
     return at if gauge_box(at).right < block.left else complex(at.real, block.top + 5)
 
 
+def _remark_at(paper: Format) -> complex:
+    """Where a remark begins: in the margin below the frame, and below the fields of ISO 5457."""
+    return paper.content.corner - (3.75j if paper.frame == "gost" else 8.75j)
+
+
 def taken(paper: Format, border: float) -> list[Box]:
     """The boxes inside the frame that the sheet itself needs, with a border around them."""
     boxes = [title_box(paper).grown(border), gauge_box(_gauge_at(paper)).grown(border)]
@@ -64,6 +69,7 @@ def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell 
     entities += _binding_column(paper, title, tell) if paper.frame == "gost" else _references(paper)
     entities += title_block(paper.frame, title_box(paper).corner, title, sheet, sheets, tell)
     entities += gauge(_gauge_at(paper), tell)
+    entities += [Text(_remark_at(paper), title.remark, 2.5)] if title.remark else []
     return Group("frame", tuple(entities))
 
 

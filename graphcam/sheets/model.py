@@ -206,6 +206,12 @@ class Drawing:
     title: str
     pages: tuple[Page, ...]
 
+    @property
+    def texts(self) -> list[Text]:
+        """All its texts."""
+        entities = (entity for page in self.pages for group in page.groups for entity in group.entities)
+        return [entity for entity in entities if isinstance(entity, Text)]
+
 
 def moved(entity: Entity, by: complex) -> Entity:
     """The entity moved ``by`` x + iy."""

@@ -77,7 +77,7 @@ class Panel:
     @cached_property
     def heading(self) -> list[Text]:
         """The title about the lower left corner of its box: its first words large, what follows a comma as a note."""
-        name, _, note = str(self.view.title).partition(", ")
+        name, _, note = str(self.view.title).replace("，", ", ").partition(", ")
         large, small = self.letters.title, self.letters.label
         room = max(self.content.width, 17.0 * self.letters.title)
         lines = wrap(name, large, room)

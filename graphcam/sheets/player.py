@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.written_acts import WrittenActs
 from graphcam.indices import in_html
+from graphcam.language import language as language_of
 from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.model import (
     Drawing,
@@ -213,12 +214,13 @@ def player(
 
     steps, views = _places(drawing, slides)
     data = {"steps": steps, "views": views, "acts": acts.record.rows, "mechanism": mechanism, "words": dict(words)}
-    entities = (entity for page in drawing.pages for group in page.groups for entity in group.entities)
-    lettering = (entity.text for entity in entities if isinstance(entity, Text))
-    said = [drawing.title, *words.values(), *(text for slide in slides for text in _texts(slide))]
+    lettering = (text.text for text in drawing.texts)
+    remark = language_of(language).remark
+    said = [drawing.title, remark, *words.values(), *(text for slide in slides for text in _texts(slide))]
     return _template().render(
         title=drawing.title,
         language=language,
+        remark=remark,
         words=words,
         pages=[_page(page, acts) for page in drawing.pages],
         slides=slides,

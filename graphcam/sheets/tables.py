@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from graphcam.sheets.box import Box
-from graphcam.sheets.fonts import broken, width, wrap
+from graphcam.sheets.fonts import broken, width, words_of, wrap
 from graphcam.sheets.model import Entity, Text, moved
 from graphcam.sheets.title_block import Ruling, outline, rules, stacked
 from graphcam.words import Tell, Words
@@ -121,7 +121,7 @@ def _columns(table: Table, height: float) -> list[_Column]:
         # A header is as wide as what stands below it, but in no more than two or three lines.
         lines = wrap(cells[0], height, max(below, 0.6 * width(cells[0], height)))
         wanted = max(below, _widest(lines, height))
-        least = max((width(word, height) for cell in cells for word in cell.split()), default=0.0)
+        least = max((width(word, height) for cell in cells for _, word in words_of(cell)), default=0.0)
         found.append(_Column(cells, max(wanted, least) + MARGIN * height, least + MARGIN * height))
     return found
 

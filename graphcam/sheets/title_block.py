@@ -24,6 +24,7 @@ class TitleBlock:
     """What is written into the title block; what is empty stays empty.
 
     scale : None is the scale of what is drawn on the sheet
+    remark : stands below the frame
     """
 
     name: str = ""
@@ -36,6 +37,7 @@ class TitleBlock:
     material: str = ""
     mass: str = ""
     scale: str | None = ""
+    remark: str = ""
 
 
 Ruling = tuple[float, float, float, float]

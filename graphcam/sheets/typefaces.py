@@ -68,7 +68,19 @@ def face_of(character: str) -> Path | None:
     ('osifont.ttf', 'DejaVuSans.ttf', None)
     """
     face = glyph_table().face(character)
-    return _found(character) if face is None else shipped()[face]
+    if face is None:
+        return _found(character)
+    # osifont has a few Chinese characters, thinner than those of the face that has the rest.
+    return (_found(character) if is_chinese(character) else None) or shipped()[face]
+
+
+def is_chinese(character: str) -> bool:
+    """Whether it is an ideograph of Chinese or Japanese, or a sign as wide as one.
+
+    >>> [is_chinese(character) for character in "凸（φ"]
+    [True, True, False]
+    """
+    return "\u3000" <= character <= "\u9fff" or "\uff00" <= character <= "\uff60"
 
 
 def _found(character: str) -> Path | None:
@@ -122,10 +134,16 @@ def cubic(face: Path) -> bool:
 def glyph(character: str) -> Glyph:
     """The measures of a character in its face; a box stands for one that has none."""
     table = glyph_table()
-    if (number := table.face(character)) is not None:
+    number, face = table.face(character), None
+    if number is None or is_chinese(character):
+        face = face_of(character)
+    if number is not None and face in (None, *shipped()):
         return table.faces[number][character].glyph(table.capital)
-    if (face := face_of(character)) is None:
-        return glyph(BOX)
+    return glyph(BOX) if face is None else _opened(face, character)
+
+
+def _opened(face: Path, character: str) -> Glyph:
+    """The measures of a character in a face of the machine."""
     return design(face, character).glyph(font(face).units_per_EM * capital())
 
 

@@ -164,13 +164,14 @@ def page(config: Mapping[str, Any], policy: str = POLICY, scripts: tuple[str, ..
     builtin: Mapping[str, Any] = data["builtin"]
     return _template().render(
         language=spoken.name,
+        remark=spoken.remark,
         words=words,
         builtin={name: task.get("title", {}).get("name", name) for name, task in builtin.items()},
         writes=data["writes"],
         policy=policy,
         style=_shared("player.css") + Markup(roles_css()) + _own("studio.css") + _own("modes.css"),
         scripts=[*map(Markup, scripts), *_scripts()],
-        fonts=Markup(font_faces([LETTERS, *words.values()])),
+        fonts=Markup(font_faces([LETTERS, spoken.remark, *words.values()])),
         # No text of a task may end the script that holds it.
         config=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
     )

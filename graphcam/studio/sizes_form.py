@@ -40,7 +40,7 @@ LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, 
 JERK = {False: say("not drawn"), True: say("drawn by differentiation")}
 """Whether the diagram of the jerk is drawn."""
 AT_REST = {True: say("within the limit"), False: say("not limited")}
-LANGUAGES = {"en": "English", "ru": "русский"}
+LANGUAGES = {"en": "English", "ru": "русский", "vi": "tiếng Việt", "zh": "简体中文"}
 """Each in itself; another one by its sign."""
 FRAMES = {"gost": say("frame by GOST"), "iso": say("frame by ISO")}
 

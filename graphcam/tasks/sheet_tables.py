@@ -90,6 +90,11 @@ class SheetTable:
         """Says texts in the language of the sheet."""
         return language(self.language).text
 
+    @property
+    def remark(self) -> str:
+        """What stands on the sheet about its language; mostly nothing."""
+        return language(self.language).remark
+
 
 def plain(value: Any) -> Any:
     """A table and all in it as dictionaries, lists, numbers and text; what is None is left out, a law is its name."""

@@ -102,4 +102,5 @@ class PartContents:
             material=tell(self.part.material),
             mass=tell(told.where(mass=mass, decimals=decimals)),
             scale=tell(ratio_text(1 / scale)),
+            remark=self.solution.task.drawing.remark,
         )

@@ -14,7 +14,10 @@ from graphcam.language import languages
 from graphcam.tasks.task_file import builtin_text
 
 KNOWN = ", ".join(languages())
-TITLE = 'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"'
+TITLE = (
+    'title.en = "Graphical integration"\ntitle.ru = "Графическое интегрирование"\n'
+    'title.vi = "Tích phân đồ thị"\ntitle.zh = "图解积分"'
+)
 TOPICS = {
     "acceleration-and-scales", "integration", "differentiation", "pressure-angle", "least-radius",
     "least-radius-offset", "inversion-translating", "inversion-arm", "curvature-and-roller", "whole-cam",

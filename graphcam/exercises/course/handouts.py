@@ -132,7 +132,7 @@ def _composed(
     # The scale of the profile is that of the sheet, though the titles of views tell none: some are to be found.
     profile = {PROFILE.name: mu_l}
     steps = [(name, replace(step, view=replace(step.view, mu_l=profile.get(step.view.name)))) for name, step in steps]
-    block = title_block(title, tell)
+    block = title_block(title, tell, variant.exercise.remark)
     # A worksheet that is photographed has a larger profile than a finished sheet of its format.
     paper = "A1" if variant.exercise.paper else task.drawing.format
     return compose(steps, tables, block, paper, task.drawing.frame, notes, tell=tell)

@@ -218,6 +218,11 @@ class Exercise:
         return language(self.language).text
 
     @property
+    def remark(self) -> str:
+        """What its readers should know of its language; mostly nothing."""
+        return language(self.language).remark
+
+    @property
     def marks(self) -> float:
         """Of all answers together."""
         return sum(asked.marks for asked in self.answers)
