@@ -9,6 +9,7 @@ from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_mo
 from .given.boundary_parts import PolynomialPart as PolynomialPart, SplinePart as SplinePart
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
 from .given.laws import LAWS as LAWS, law as law
+from .given.limits import Limits as Limits
 from .given.load_curve import LoadCurve as LoadCurve
 from .given.making_errors import Deviations as Deviations, MakingErrors as MakingErrors
 from .given.measured import (

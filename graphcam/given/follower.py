@@ -78,6 +78,18 @@ class FlatFaced:
     roller_radius = 0.0
 
 
+def swing_remedy(lift: float, otherwise: str) -> str:
+    """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
+
+    >>> swing_remedy(15, "swing the arm less")
+    "in Python an arm's lift is an angle in radians: math.radians(15)"
+    """
+    if lift > 2 * math.pi:
+        return f"in Python an arm's lift is an angle in radians: math.radians({lift:g})"
+    return otherwise
+
+
 Follower = Translating | Oscillating | FlatFaced
-FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in (Translating, Oscillating, FlatFaced)}
+KINDS = Translating, Oscillating, FlatFaced
+FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in KINDS}
 """The followers by their kind."""

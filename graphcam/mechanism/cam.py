@@ -14,8 +14,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import Follower, Rotation, sense
+from graphcam.errors import DesignError, check_kind
+from graphcam.given.follower import KINDS, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
 from graphcam.given.pieces import chunks, sine_cosine
@@ -113,6 +113,8 @@ class Cam(Shown):
     """+1 for a counter-clockwise cam, -1 for a clockwise one"""
 
     def __post_init__(self) -> None:
+        check_kind("motion", self.motion, Motion)
+        check_kind("follower", self.follower, KINDS)
         if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
             raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
         if not self.roller_radius < self.prime_radius:

@@ -41,7 +41,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -146,6 +146,8 @@ class CamForces:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
+        check_kind("cam", self.cam, Cam)
+        check_kind("guide", self.guide, Guide, remedy="friction between cam and follower is friction=...")
         check_friction(self.friction)
         _ = self.pressing  # says at once what does not fit
         if not self.guide.friction:

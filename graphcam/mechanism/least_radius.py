@@ -7,8 +7,8 @@ Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_rad
 import math
 from typing import overload
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.errors import DesignError, check_kind
+from graphcam.given.follower import KINDS, FlatFaced, Follower, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
@@ -93,6 +93,8 @@ def minimum_radius(
     >>> round(gc.minimum_radius(motion, gc.FlatFaced(), curvature=8.0).prime_radius, 9)
     38.0
     """
+    check_kind("motion", motion, Motion)
+    check_kind("follower", follower, KINDS)
     sigma, exact = sense(rotation), EXACT[type(follower)]
     if curvature is not None and exact.condition != "curvature":
         raise DesignError("curvature", curvature, "left out", "only a flat face limits the radius by the curvature")

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.follower import Rotation
 from graphcam.given.motion import Motion
+from graphcam.given.ranges import NUMBER
 from graphcam.given.roller_contact import RollerContact
 from graphcam.given.roller_rule import roller_rule as terms_of
 from graphcam.given.spring_load import SpringLoad
@@ -75,11 +76,11 @@ def size_cam(
     motion: Motion,
     load: SpringLoad,
     *,
-    prime_radius: Range | None = None,
-    base_radius: Range | None = None,
-    offset: Range,
-    roller_radius: Range,
-    face_width: Range,
+    prime_radius: Range | float | None = None,
+    base_radius: Range | float | None = None,
+    offset: Range | float,
+    roller_radius: Range | float,
+    face_width: Range | float,
     permitted_stress: float,
     objective: Objective = "size",
     rise: float = math.radians(25),
@@ -92,7 +93,7 @@ def size_cam(
     """The best cam for a translating roller follower: the smallest, or that of the least stress.
 
     load : that presses the follower on the cam over the whole turn; SpringLoad(0, 0, 0, preload=F) is a constant force
-    prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; two equal ends fix a size.
+    prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; one number fixes a size.
         Of the first two one is given, and made as small as possible; the base radius is the least one of the profile,
         less than the prime radius by the roller
     permitted_stress : peak pressure of the line contact [MPa]
@@ -111,7 +112,7 @@ def size_cam(
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)),
     ...     gc.Dwell(radians(180))])
-    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=(0, 0),
+    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=0,
     ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
     >>> sized.cam.prime_radius, round(sized.cam.roller_radius, 6), round(sized.face_width, 3)
     (60.0, 15.0, 10.694)
@@ -125,9 +126,22 @@ def size_cam(
     limits = SizingLimits(
         permitted_stress, rise, return_, terms_of(roller_rule), contact or RollerContact(1.0), friction
     )
-    radius = prime_radius or base_radius or (0.0, 0.0)
-    problem = SizingProblem(motion, load, limits, radius, offset, roller_radius, face_width, rotation, measure)
+    check_kind("motion", motion, Motion)
+    check_kind("load", load, SpringLoad)
+    radius = base_radius if prime_radius is None else prime_radius
+    assert radius is not None
+    given = (measure, radius), ("offset", offset), ("roller radius", roller_radius), ("face width", face_width)
+    ranges = [_range(name, size) for name, size in given]
+    problem = SizingProblem(motion, load, limits, *ranges, rotation, measure)
     return best_cam(problem, objective)
+
+
+def _range(name: str, size: Range | float) -> Range:
+    """A range as it is given; of a number the one that holds nothing else."""
+    if isinstance(size, tuple | list | np.ndarray) and len(size) == 2:
+        return float(size[0]), float(size[1])
+    check_kind(f"range of the {name}", size, NUMBER, "two lengths in mm, or one that is fixed")
+    return float(cast(float, size)), float(cast(float, size))
 
 
 def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
