@@ -195,6 +195,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
     "did you mean 'roller_radius'?"
     """
     known = list(known)
+    alike = [each for each in known if each.lower() == word.lower()]
     begun = [each for each in known if each.startswith(f"{word}_")]
-    close = begun or difflib.get_close_matches(word, known, n=1)
+    close = alike or begun or difflib.get_close_matches(word, known, n=1)
     return f"did you mean '{close[0]}'?" if close else "known are " + ", ".join(known)

@@ -67,7 +67,8 @@ def minimum_radius(
     motion, follower, rotation : as for a :class:`~graphcam.mechanism.cam.Cam`; a translating follower's own offset is
         not used, an arm's distance is kept if it is given
     rise, return_ : permitted |alpha| [rad] on rises and on returns; rise = None is the usual limit, 30 degrees for a
-        translating follower and 45 for an arm, return_ = None is force closure, no limit there
+        translating follower and 45 for an arm, as in a sweep and a task file; return_ = None is force closure, no limit
+        there.  :func:`graphcam.size_cam` takes 25 degrees if nothing is said, the limit of the problem it comes from
     offset : e [mm] of a translating follower if it is given; None leaves it free
     rest : whether the angle at the low rest must keep the rise's limit too; for an arm, whether the angle at both rests
         must keep the limits of the phases that end there, so that |alpha| keeps them all the way

@@ -28,6 +28,7 @@ from graphcam.mechanism.sizing_limits import Sizes, SizingLimits
 from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProblem
 from graphcam.mechanism.sizing_refusal import refuse
 from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
+from graphcam.showing import in_lines
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -36,7 +37,7 @@ DOMINATED = 1e-6
 """A cam of the front whose stress is less by no more than this part is no gain."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SizedCam:
     """The best cam.
 
@@ -60,6 +61,18 @@ class SizedCam:
     binding: tuple[str, ...]
     active: tuple[str, ...]
     problem: SizingProblem = field(repr=False)
+
+    def __repr__(self) -> str:
+        sizes = self.sizes
+        widths = f"roller radius {sizes.roller:.6g} mm, face width {self.face_width:.6g} mm"
+        angle, stress = math.degrees(self.max_pressure_angle), f"contact stress up to {self.stress:.4g} MPa"
+        said = [
+            f"prime radius {sizes.radius:.6g} mm, offset {self.offset:.6g} mm, {widths}",
+            f"pressure angle up to {angle:.4g}°, radius of curvature from {self.min_convex_radius:.4g} mm, {stress}",
+            f"bound by: {', '.join(self.binding) or 'nothing'}",
+        ]
+        last = ".cam, .radius, .stress, .least_width, .binding, .active"
+        return in_lines("SizedCam", said, last)
 
     @property
     def radius(self) -> float:
@@ -98,8 +111,14 @@ def size_cam(
         less than the prime radius by the roller
     permitted_stress : peak pressure of the line contact [MPa]
     objective : "size", the least radius and then the narrowest face, or "stress", with the widest face
-    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; None is force closure
+    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; return_ = None is force closure
     roller_rule : the largest roller that is permitted, by the least convex radius of curvature or the prime radius
+
+        If nothing is said rise is 25 degrees and the rule "0.8 rho", as in the publication from which the problem comes
+        (see the module).  That is another choice than 30 degrees and "min(0.7 rho, 0.4 r0)", which
+        :func:`graphcam.minimum_radius`, sweeps and task files, with :func:`graphcam.size_task`, take: give both
+        arguments to compare the results
+
     contact : moduli and Poisson's ratios of cam and roller; its width does not matter.  None is steel on steel
     friction : mu, between cam and follower
 
@@ -116,6 +135,12 @@ def size_cam(
     ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
     >>> sized.cam.prime_radius, round(sized.cam.roller_radius, 6), round(sized.face_width, 3)
     (60.0, 15.0, 10.694)
+    >>> sized
+    SizedCam
+      prime radius 60 mm, offset 0 mm, roller radius 15 mm, face width 10.6935 mm
+      pressure angle up to 18.09°, radius of curvature from 38.01 mm, contact stress up to 1500 MPa
+      bound by: minimum prime radius, maximum roller radius
+    .cam, .radius, .stress, .least_width, .binding, .active
     >>> sized.binding
     ('minimum prime radius', 'maximum roller radius')
     """

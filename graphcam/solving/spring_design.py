@@ -123,7 +123,10 @@ class SpringDesign:
         lost, (_, preload, _) = self.contact.lost(), self.units
         if not lost:
             return
-        where = [say("from {start} to {end}", start=_tenths(start), end=_tenths(end)) for start, end in lost]
+        where = [
+            say("from {start:.1f}° to {end:.1f}°", start=math.degrees(start), end=math.degrees(end))
+            for start, end in lost
+        ]
         said = say(
             "Contact is lost {where}: a preload of {needed} keeps it, {given} are given.",
             where=joined(where),
@@ -388,11 +391,6 @@ def _rounded_up(force: float) -> float:
     """To four digits, and no less: with less preload contact is lost."""
     unit_of_last = 10.0 ** (math.floor(math.log10(force)) - 3) if force > 0 else 1.0
     return math.ceil(force / unit_of_last) * unit_of_last
-
-
-def _tenths(phi: float) -> Caption:
-    """A cam angle as a warning tells it."""
-    return say("{phi:.1f}°", phi=math.degrees(phi))
 
 
 def _clean(force: float) -> float:

@@ -147,7 +147,7 @@ class Designs:
                 remedy = f"write math.radians({angle:.6g}) if it is in degrees"
                 raise DesignError(name, Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
         lift = float(np.min(self.lift, initial=np.inf))
-        if self.follower == "oscillating" and FULL_TURN < lift < np.inf:
+        if "arm" in OWN[self.follower] and FULL_TURN < lift < np.inf:
             remedy = swing_remedy(lift, "swing the arm less")
             raise DesignError("lift", Unquoted(f"{lift:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
 
