@@ -86,5 +86,6 @@ from .tasks.task_file import (
     builtin_task as builtin_task,
     load_task as load_task,
 )
+from .workshop.written_profile import write_profile as write_profile
 
 __version__: str

@@ -33,7 +33,8 @@ def _of_cam(solution: Solution) -> list[Caption]:
     said = [_size(say("prime radius"), chain.prime_radius, say("mm"), FOUND if board.prime_radius is None else GIVEN)]
     for size in board.follower.sizes(chain.place, solution.cam.roller_radius):
         if size.value is not None:
-            said.append(_size(size.title, size.value, say("mm"), FOUND if given[size.name] is None else GIVEN))
+            where = FOUND if given[size.name] is None else GIVEN
+            said += [_size(size.title, size.value, say("mm"), where)]
     return said
 
 

@@ -72,8 +72,8 @@ class Dwell:
     """A phase of rest over ``angle`` radians of the cam.
 
     >>> import graphcam as gc
-    >>> round(gc.Dwell(angle=math.radians(60)).angle, 6)
-    1.047198
+    >>> gc.Dwell(angle=math.pi)
+    Dwell(angle=3.141592653589793)
     """
 
     angle: float
@@ -141,8 +141,6 @@ class Return(Moving):
     ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.  By the name of a law without a
     dwell, "double-harmonic" or "eighth-degree", it mirrors the rise.
 
-    lift : mm; of an arm rad;  angle : rad;  law : as of a :class:`graphcam.Rise`
-
     >>> import graphcam as gc
     >>> gc.Return(lift=30, angle=math.radians(90), law="rectangular", ratio=2.0).normalised.name
     'rectangular'
@@ -184,11 +182,9 @@ class Motion(Shown):
       dwell over 90°
       return by 30 over 180°, cosine
     motion(phi) gives s, v, a and j at phi in rad; .plot() draws them
-    >>> s, v, a, j = motion([pi / 4, pi])
+    >>> s, v, a, j = motion(gc.cam_angle([45, 180]))
     >>> s.tolist()
     [15.0, 30.0]
-    >>> motion(gc.cam_angle(45))[0].item()  # 45 degrees; motion(45) would be 45 rad
-    15.0
     """
 
     _drawn_in = "motion_curves"

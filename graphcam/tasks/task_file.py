@@ -103,7 +103,8 @@ def load_task(path: str | Path) -> Task | ArcsTask:
     >>> text = '''
     ... rotation = "ccw"
     ... [motion]
-    ... phases = [{ kind = "rise", angle = 120, lift = 30 }, { kind = "return", angle = 240, lift = 30 }]
+    ... phases = [{ kind = "rise", angle = 120, lift = 30, law = "2-3" },
+    ...   { kind = "return", angle = 240, lift = 30, law = "2-3" }]
     ... [follower]
     ... kind = "flat-faced"
     ... '''
