@@ -194,7 +194,7 @@ def test_no_class_bears_the_name_of_another():
     assert [name for name, count in counts.items() if count > 1] == []
 
 
-@pytest.mark.parametrize("wrong, right", [("Translatng", "Translating"), ("cam", "Cam"), ("sweeep", "sweep")])
+@pytest.mark.parametrize(("wrong", "right"), [("Translatng", "Translating"), ("cam", "Cam"), ("sweeep", "sweep")])
 def test_a_misspelt_public_name_is_told_the_nearest(wrong, right):
     with pytest.raises(AttributeError, match=f"graphcam has no name '{wrong}'; did you mean '{right}'"):
         getattr(graphcam, wrong)

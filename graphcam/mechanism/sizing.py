@@ -155,9 +155,17 @@ def size_cam(
     check_kind("load", load, SpringLoad)
     radius = base_radius if prime_radius is None else prime_radius
     assert radius is not None
-    given = (measure, radius), ("offset", offset), ("roller radius", roller_radius), ("face width", face_width)
-    ranges = [_range(name, size) for name, size in given]
-    problem = SizingProblem(motion, load, limits, *ranges, rotation, measure)
+    problem = SizingProblem(
+        motion,
+        load,
+        limits,
+        _range(measure, radius),
+        _range("offset", offset),
+        _range("roller radius", roller_radius),
+        _range("face width", face_width),
+        rotation,
+        measure,
+    )
     return best_cam(problem, objective)
 
 

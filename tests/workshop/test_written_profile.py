@@ -47,7 +47,7 @@ def test_own_laws_and_measured_motions_are_written(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "kinds, part, said",
+    ("kinds", "part", "said"),
     [
         ("stp", {}, "kinds is 'stp', but must be of csv, dxf, xyz, step, gcode; did you mean 'step'"),
         ("step", {"bor": 20}, "part is given bor, but must be .*; did you mean 'bore'"),
