@@ -323,11 +323,11 @@ def test_a_place_without_a_name_is_refused(run, tmp_path, words):
 
 def test_solve_ends_with_what_was_adopted_and_where_it_comes_from(run, tmp_path):
     """What the task gives, what was found, and a preload left open, which is the minimum; a worksheet tells nothing."""
-    spring = "\n[spring]\nmass = 0.2\nstiffness = 3\n"
+    spring = "\n[spring]\nmass = 5\nstiffness = 3\n"
     Path("cam.toml").write_text(builtin_text("coursework") + spring, encoding="utf-8")
     *_, last = run("solve", "cam.toml", "--out", "out").stdout.splitlines()
     assert re.fullmatch(
-        r"adopted: prime radius 44 mm \(found\), offset -10 mm \(given\), roller radius 17 mm \(found\), "
+        r"adopted: prime radius 44 mm \(found\), offset −10 mm \(given\), roller radius 17 mm \(found\), "
         r"preload \d[\d.]* N \(minimum\)",
         last,
     )
