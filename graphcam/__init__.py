@@ -29,4 +29,18 @@ import lazy_loader
 __version__ = "0.1.0"
 
 # The public names and where they stand are listed once, in __init__.pyi: a module loads when its name is first used.
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_found, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> object:
+    """A public name, loaded when it is first used; of a misspelt one the nearest is told."""
+    try:
+        return _found(name)
+    except AttributeError as error:
+        if name.startswith("_") or name in __all__:
+            raise
+        from graphcam.errors import nearest
+
+        near = nearest(name, __all__)
+        told = f"; {near}" if near.endswith("?") else ""
+        raise AttributeError(f"graphcam has no name {name!r}{told}", name=name) from error

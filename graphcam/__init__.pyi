@@ -9,6 +9,7 @@ from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_mo
 from .given.boundary_parts import PolynomialPart as PolynomialPart, SplinePart as SplinePart
 from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
 from .given.laws import LAWS as LAWS, law as law
+from .given.limits import Limits as Limits
 from .given.load_curve import LoadCurve as LoadCurve
 from .given.making_errors import Deviations as Deviations, MakingErrors as MakingErrors
 from .given.measured import (
@@ -85,5 +86,6 @@ from .tasks.task_file import (
     builtin_task as builtin_task,
     load_task as load_task,
 )
+from .workshop.written_profile import write_profile as write_profile
 
 __version__: str

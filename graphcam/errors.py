@@ -162,14 +162,40 @@ def unreadable(path: str | Path, what: str, expected: str, error: OSError | Valu
     return TaskError(str(path), what, Unquoted(f"not readable ({why})"), expected, advice)
 
 
+def check_kind(quantity: str, value: object, kinds: type | tuple[type, ...], limit: str = "", remedy: str = "") -> None:
+    """That an argument is of a kind that a function can use.
+
+    limit : what is allowed, in place of the names of the kinds
+
+    Raises
+    ------
+    DesignError : it is another thing
+
+    >>> check_kind("follower", 40, (str, list, dict))
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: follower is of the kind int, but must be a str, list or dict
+    """
+    if isinstance(value, kinds):
+        return
+    *first, last = [kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,))]
+    names = f"{', '.join(first)} or {last}" if first else last
+    article = "an" if names[0] in "AEIO" else "a"
+    found = f"of the kind {type(value).__name__}"
+    raise DesignError(quantity, Unquoted(found), limit or f"{article} {names}", remedy)
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
-    """A remedy for a mistyped word: the known word that is nearest to it, or all of them.
+    """A remedy for a mistyped word: the known word that it begins or that is nearest to it, or all of them.
 
     >>> nearest("cicloidal", ["cosine", "cycloidal"])
     "did you mean 'cycloidal'?"
     >>> nearest("xyz", ["cosine", "cycloidal"])
     'known are cosine, cycloidal'
+    >>> nearest("roller", ["offset", "roller_radius", "roller_rule"])
+    "did you mean 'roller_radius'?"
     """
     known = list(known)
-    close = difflib.get_close_matches(word, known, n=1)
+    alike = [each for each in known if each.lower() == word.lower()]
+    begun = [each for each in known if each.startswith(f"{word}_")]
+    close = alike or begun or difflib.get_close_matches(word, known, n=1)
     return f"did you mean '{close[0]}'?" if close else "known are " + ", ".join(known)

@@ -39,6 +39,7 @@ TEXTS = {
     "other_file": (0, 1),
     "WrongType": (1,),
     "positive": (2,),
+    "check_kind": (3, 4),
     "progress": (0,),
     "report": (0,),
     "plain": (0,),
@@ -55,8 +56,8 @@ NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1, "_
 HELPED = {"Option", "Argument", "Typer"}
 """Calls of typer with a help."""
 RETURN = {
-    *("nearest", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "_told"),
-    *("_typography", "_comma", "_value"),
+    *("nearest", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "swing_remedy"),
+    *("_told", "_typography", "_comma", "_value"),
 }
 """Functions that return texts; errors that say themselves do so too, and have texts as defaults."""
 

@@ -24,6 +24,7 @@ from graphcam.errors import DesignError
 from graphcam.files import whole_folder
 from graphcam.report.output_folder import written_files
 from graphcam.sweeps.space import load_space
+from graphcam.tasks.task_file import builtin_text
 
 QUANTITIES = {
     "max_v": {"drawn": 42.9, "exact": 42.97183463481174, "unit": "mm/rad", "error": -0.0718, "error_paper": -0.1,
@@ -318,3 +319,16 @@ def test_a_place_without_a_name_is_refused(run, tmp_path, words):
     assert result.exit_code == WRONG_INPUT
     assert "names no place" in " ".join(result.stderr.replace("│", " ").split())
     assert files(tmp_path) == []
+
+
+def test_solve_ends_with_what_was_adopted_and_where_it_comes_from(run, tmp_path):
+    """What the task gives, what was found, and a preload left open, which is the minimum; a worksheet tells nothing."""
+    spring = "\n[spring]\nmass = 5\nstiffness = 3\n"
+    Path("cam.toml").write_text(builtin_text("coursework") + spring, encoding="utf-8")
+    *_, last = run("solve", "cam.toml", "--out", "out").stdout.splitlines()
+    assert re.fullmatch(
+        r"adopted: prime radius 44 mm \(found\), offset −10 mm \(given\), roller radius 17 mm \(found\), "
+        r"preload \d[\d.]* N \(minimum\)",
+        last,
+    )
+    assert "adopted" not in run("solve", "cam.toml", "--out", "out", "--worksheet").stdout

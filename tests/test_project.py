@@ -192,3 +192,10 @@ def test_no_class_bears_the_name_of_another():
     trees = [ast.parse(path.read_text(encoding="utf-8")) for path in PACKAGE.rglob("*.py")]
     counts = Counter(node.name for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
     assert [name for name, count in counts.items() if count > 1] == []
+
+
+@pytest.mark.parametrize(("wrong", "right"), [("Translatng", "Translating"), ("cam", "Cam"), ("sweeep", "sweep")])
+def test_a_misspelt_public_name_is_told_the_nearest(wrong, right):
+    with pytest.raises(AttributeError, match=f"graphcam has no name '{wrong}'; did you mean '{right}'"):
+        getattr(graphcam, wrong)
+    assert not hasattr(graphcam, "nothing_of_the_kind")

@@ -14,6 +14,7 @@ import typer
 from typer import Option
 
 import graphcam
+from graphcam.cli.adopted_sizes import adopted_sizes
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
@@ -109,8 +110,10 @@ def solve(
             document["files"] = solution.write(
                 folder, upto=last, per_construction=per_construction, dxf=dxf, working_drawing=part, progress=progress
             )
-    # A warning tells what somebody with an unfinished sheet is to find.
+    # Warnings and sizes tell what somebody with an unfinished sheet is to find.
     _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
+    if last is None and not as_json and (sizes := adopted_sizes(solution)):
+        echo(sizes)
 
 
 @contextmanager

@@ -17,12 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
-from graphcam.given.ranges import bounded
+from graphcam.given.ranges import NUMBER, bounded
 
 DEAD = 1e-9
 """A spring that is so near to its dead point [rad] turns nothing."""
@@ -93,7 +93,9 @@ class ArmLoad:
                 raise DesignError(quantity, value, f"a finite number of 0 {unit} or more")
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
-            if not math.isfinite(value := getattr(self, quantity)):
+            value = getattr(self, quantity)
+            check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
+            if not math.isfinite(value):
                 raise DesignError(quantity, value, f"a finite number of {unit}")
         check_load(self.load)
 

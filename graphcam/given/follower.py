@@ -31,6 +31,10 @@ class Translating:
     """A follower that slides along the line x = offset, with a roller or (roller_radius = 0) a knife edge.
 
     offset, roller_radius : mm; offset > 0 to the right of the cam centre
+
+    >>> import graphcam as gc
+    >>> gc.Translating(offset=10, roller_radius=12)
+    Translating(offset=10, roller_radius=12)
     """
 
     offset: float = 0.0
@@ -52,6 +56,15 @@ class Oscillating:
 
     arm, roller_radius : mm
     distance : centre distance [mm]; if None, it is found with the minimum radius; a cam needs it
+
+    The lift of its motion is an angle in radians.
+
+    >>> import graphcam as gc
+    >>> swing, turn = math.radians(15), math.radians(90)
+    >>> motion = gc.Motion([gc.Rise(swing, turn), gc.Dwell(turn), gc.Return(swing, turn), gc.Dwell(turn)])
+    >>> cam = gc.Cam(motion, gc.Oscillating(arm=120, distance=130, roller_radius=12), prime_radius=50)
+    >>> cam.motion.lift == swing
+    True
     """
 
     arm: float
@@ -70,7 +83,13 @@ class Oscillating:
 
 @dataclass(frozen=True)
 class FlatFaced:
-    """A follower with a flat face perpendicular to its motion."""
+    """A follower with a flat face perpendicular to its motion.
+
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(10, math.pi), gc.Return(10, math.pi)])
+    >>> gc.Cam(motion, gc.FlatFaced(), prime_radius=40).pressure_angle(1.0).item()
+    0.0
+    """
 
     kind = "flat-faced"
     lift_unit = "mm"
@@ -78,6 +97,18 @@ class FlatFaced:
     roller_radius = 0.0
 
 
+def swing_remedy(lift: float, otherwise: str) -> str:
+    """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
+
+    >>> swing_remedy(15, "swing the arm less")
+    "in Python an arm's lift is an angle in radians: math.radians(15)"
+    """
+    if lift > 2 * math.pi:
+        return f"in Python an arm's lift is an angle in radians: math.radians({lift:g})"
+    return otherwise
+
+
 Follower = Translating | Oscillating | FlatFaced
-FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in (Translating, Oscillating, FlatFaced)}
+KINDS = Translating, Oscillating, FlatFaced
+FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in KINDS}
 """The followers by their kind."""

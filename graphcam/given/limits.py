@@ -22,8 +22,16 @@ class Limits:
     return_ : on every return; None for force closure, where a spring drives the return
     rest : whether the angle at the low rest must keep the rise's limit too
 
-    >>> Limits(rise=0.5).return_ is None
+    Raises
+    ------
+    DesignError : an angle is not between 0 and 90 degrees
+
+    >>> import graphcam as gc
+    >>> gc.Limits(rise=math.radians(30), return_=math.radians(45)).rest
     True
+    >>> gc.Limits(rise=30)
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: permitted pressure angle on the rise is 1718.87 degrees, but must be between 0 and ...
     """
 
     rise: float = math.radians(Translating.usual_limit_deg)

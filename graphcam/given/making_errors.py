@@ -15,6 +15,8 @@ from graphcam.given.laws import Floats
 Distribution = Literal["normal", "uniform"]
 SIZES = "roller_diameter", "offset", "distance", "arm"
 """The sizes that may have a tolerance; each follower has some of them."""
+MADE = "roller_radius", *SIZES[1:]
+"""The sizes of which a cam and its follower may be off: of a roller it is the radius that counts."""
 PARTS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3)}
 """The standard deviation of a size as a part of half its tolerance zone: an end is three of them, or the last value."""
 OF_A_WAVE = 1 / math.sqrt(2)
@@ -29,7 +31,12 @@ class Deviations:
 
     harmonics : (k,) of the waves;  waves : (k, ...) complex [mm]: the profile lies the real part of the sum of
         waves * exp(i harmonics theta) too far out, along its normal at the place that is touched at the cam angle theta
-    sizes : by how much the roller's radius, the offset, the centre distance and the arm are too large [mm]
+    sizes : by how much a size is too large [mm], by its name: "roller_radius", "offset", "distance" (between the
+        centres), "arm"
+
+    Raises
+    ------
+    DesignError : a size has another name
 
     >>> import graphcam as gc
     >>> gc.Deviations((12,), np.array([0.01]), {"offset": 0.05}).waviness(0.0)[0].tolist()
@@ -39,6 +46,11 @@ class Deviations:
     harmonics: Sequence[int]
     waves: NDArray[np.number]
     sizes: dict[str, Floats | float]
+
+    def __post_init__(self) -> None:
+        for name in self.sizes:
+            if name not in MADE:
+                raise DesignError("sizes", name, f"one of {', '.join(MADE)}", nearest(name, MADE))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -69,7 +69,12 @@ def _check_side(side: str) -> None:
 
 @dataclass(frozen=True)
 class Dwell:
-    """A dwell over ``angle`` radians of the cam."""
+    """A dwell over ``angle`` radians of the cam.
+
+    >>> import graphcam as gc
+    >>> gc.Dwell(angle=math.pi)
+    Dwell(angle=3.141592653589793)
+    """
 
     angle: float
     kind: ClassVar[str] = "dwell"
@@ -112,7 +117,18 @@ class Moving:
 
 @dataclass(frozen=True)
 class Rise(Moving):
-    """A phase that lifts the follower by ``lift`` over ``angle`` radians: s = lift f(u)."""
+    """A phase that lifts the follower by ``lift`` over ``angle`` radians: s = lift f(u).
+
+    lift : mm; of an arm rad;  angle : rad;  law : one of :data:`graphcam.LAWS`, or a :class:`graphcam.Law` of one's own
+    ratio : |first part's acceleration| / |second part's|, of the law "rectangular"
+
+    >>> import graphcam as gc
+    >>> gc.Rise(30, math.radians(120), "cycloidal")
+    Rise(lift=30, angle=2.0943951023931953, law='cycloidal', ratio=1.0)
+    >>> gc.Rise(30, 120)
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: angle is 120 rad, but must be at most a full turn, 2 pi rad; write ...
+    """
 
     kind: ClassVar[str] = "rise"
     direction: ClassVar[int] = 1
@@ -124,6 +140,10 @@ class Return(Moving):
 
     ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.  By the name of a law without a
     dwell, "double-harmonic" or "eighth-degree", it mirrors the rise.
+
+    >>> import graphcam as gc
+    >>> gc.Return(lift=30, angle=math.radians(90), law="rectangular", ratio=2.0).normalised.name
+    'rectangular'
     """
 
     kind: ClassVar[str] = "return"
@@ -142,7 +162,8 @@ Phase = Rise | Dwell | Return
 class Motion(Shown):
     """The motion s(phi) of a follower over one revolution of the cam.
 
-    Call it with cam angles in radians for (s, v, a, j), the displacement and its derivatives by phi.
+    Call it with cam angles in radians for (s, v, a, j), the displacement and its derivatives by phi; for degrees write
+    ``motion(gc.cam_angle(60))``.
 
     Parameters
     ----------
@@ -161,7 +182,7 @@ class Motion(Shown):
       dwell over 90°
       return by 30 over 180°, cosine
     motion(phi) gives s, v, a and j at phi in rad; .plot() draws them
-    >>> s, v, a, j = motion([pi / 4, pi])
+    >>> s, v, a, j = motion(gc.cam_angle([45, 180]))
     >>> s.tolist()
     [15.0, 30.0]
     """
@@ -237,7 +258,7 @@ class Motion(Shown):
 
     @property
     def breaks(self) -> Floats:
-        """The cam angles where a derivative may jump: starts of phases (0 among them) and the laws' inner breaks."""
+        """The cam angles [rad] where a derivative may jump: starts of phases (0 among them), the laws' inner breaks."""
         inner = [
             start + phase.angle * b
             for start, phase in zip(self.starts, self.phases, strict=True)

@@ -8,9 +8,9 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.boundary_joints import check_joint, greatest_lift
-from graphcam.given.boundary_parts import Part, PolynomialPart
+from graphcam.given.boundary_parts import Part, PolynomialPart, SplinePart
 from graphcam.given.exact_pieces import ExactPiece, between
 from graphcam.given.exact_polynomials import derivative, rounded, shortest
 from graphcam.given.local_polynomials import LocalPolynomials, cells
@@ -119,6 +119,9 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
     2.1875
     """
     given = tuple(parts)
+    for k, part in enumerate(given):
+        remedy = "the points come first, the name behind them"
+        check_kind(f"parts[{k}]", part, (MotionPoint, PolynomialPart, SplinePart), remedy=remedy)
     points = [part for part in given if isinstance(part, MotionPoint)]
     if points:
         if len(points) < len(given):

@@ -4,9 +4,14 @@ The exact side knows no such bounds.  Files do, so that whatever they let pass c
 """
 
 import math
+from numbers import Real
+
+import numpy as np
 
 from graphcam.errors import DesignError
 
+NUMBER = Real, np.ndarray
+"""What a number may be, one in an array of no axes too."""
 SENSIBLE = {
     "mm": (1e-9, 1e9),
     "(mm; degrees for an arm)": (1e-9, 1e9),

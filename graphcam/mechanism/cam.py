@@ -14,8 +14,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import Follower, Rotation, sense
+from graphcam.errors import DesignError, check_kind
+from graphcam.given.follower import KINDS, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
 from graphcam.given.pieces import chunks, sine_cosine
@@ -77,6 +77,8 @@ class Cam(Shown):
     DesignError : a length is not positive, the offset, the arm or the roller does not fit the prime radius, an arm's
         centre distance is left open, or the rotation is unknown
 
+    Cam angles are in radians; for degrees write ``cam.profile(gc.cam_angle(60))``.
+
     A roller larger than the minimum radius of curvature is no error here: the profile is then the whole envelope, with
     its loops; :meth:`undercuts` finds them.  The same holds for a flat face on too small a cam.
 
@@ -94,6 +96,8 @@ class Cam(Shown):
     [10.0, 48.9898]
     >>> cam.profile(0).round(4).tolist()
     [7.6, 37.2322]
+    >>> cam.profile(gc.cam_angle(60)).round(4).tolist()  # at 60 degrees
+    [51.8958, 14.8852]
     >>> round(degrees(cam.pressure_angle(radians(60))), 4), cam.pitch_curvature(radians(150)).round(6).tolist()
     (14.7586, 0.01256)
     >>> cam.at(phase=2, u=[0.0, 1.0]).pitch.round(4).tolist()
@@ -113,6 +117,8 @@ class Cam(Shown):
     """+1 for a counter-clockwise cam, -1 for a clockwise one"""
 
     def __post_init__(self) -> None:
+        check_kind("motion", self.motion, Motion)
+        check_kind("follower", self.follower, KINDS)
         if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
             raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
         if not self.roller_radius < self.prime_radius:
@@ -185,6 +191,9 @@ class Cam(Shown):
 
     def extremes(self) -> Extremes:
         """Maximum pressure angles and minimum convex radii of curvature, each proved to be exceeded nowhere.
+
+        The fields of what it returns: pressure_angle_rise and pressure_angle_return [rad], min_convex_radius and
+        min_convex_radius_moving [mm]; each is a pair (value, phi) with the cam angle [rad] of the place.
 
         With the laws of graphcam, measured and sampled ones included, no extreme can hide beside another, because their
         fourth derivatives bound them between two points (see :mod:`graphcam.mechanism.highest`).  The same holds for a

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from graphcam.errors import check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -74,6 +75,7 @@ def spring_preload(
     >>> round(preload, 4), degrees(phi)
     (69.2296, 45.0)
     """
+    check_kind("motion", motion, Motion, remedy="of a cam take cam.motion")
     return _least_preload(motion, SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration))
 
 
@@ -99,6 +101,7 @@ def least_preload(cam: Cam, load: SpringLoad | ArmLoad) -> SpringPreload:
     >>> round(preload, 3), round(degrees(phi), 2)
     (165.395, 59.04)
     """
+    check_kind("cam", cam, Cam)
     return _least_preload(cam.motion, cam.kinematics.pressed_by(load))
 
 

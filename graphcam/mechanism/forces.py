@@ -41,7 +41,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -115,6 +115,8 @@ class Forces:
 class CamForces:
     """The forces between a cam and its follower under a load, with friction between them, and of a stem in a guide.
 
+    Cam angles are in radians; for degrees write ``forces.at(gc.cam_angle(60))``.
+
     load : a :class:`~graphcam.SpringLoad`, or of an arm an :class:`~graphcam.ArmLoad`
     guide : of a follower that slides;  friction : mu, between cam and follower
 
@@ -132,7 +134,7 @@ class CamForces:
     >>> at = forces.at(phase=0, u=0.5)
     >>> float(at.load.round(3)), float(at.normal.round(3)), float(at.side.round(3))
     (160.0, 165.459, 42.15)
-    >>> forces.at(radians(60)).normal.round(3).item()
+    >>> forces.at(gc.cam_angle(60)).normal.round(3).item()  # at 60 degrees
     165.459
     >>> most = forces.greatest_normal()
     >>> round(most.value, 3), round(degrees(most.phi), 3)
@@ -146,6 +148,8 @@ class CamForces:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
+        check_kind("cam", self.cam, Cam)
+        check_kind("guide", self.guide, Guide, remedy="friction between cam and follower is friction=...")
         check_friction(self.friction)
         _ = self.pressing  # says at once what does not fit
         if not self.guide.friction:
@@ -172,6 +176,10 @@ class CamForces:
 
         ``at(phi)``: any real numbers; at a break the value of the named side.
         ``at(phase, u)``: the index of the phase, one or as many as there are fractions u.
+
+        The fields of what it returns, each an array of that shape: phi [rad]; load, along the motion [N; of an arm
+        N mm]; normal, along, side, contact_friction [N]; near, far and friction, of the bearings of a guide [N];
+        torque, on the cam [N mm]; efficiency, of the guide; transmission.
         """
         return self.of(places_told(self.cam.motion, phase, u, side))
 

@@ -13,7 +13,7 @@ from typing import NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
@@ -125,6 +125,8 @@ class ContactStress:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
+        check_kind("forces", self.forces, CamForces, remedy="CamForces(cam, load) has them")
+        check_kind("contact", self.contact, RollerContact, remedy="RollerContact(width=...) gives the width in mm")
         if self._kinematics.takes_roller and not self._roller > 0:
             reason = "a knife edge has no line contact: the pressure on it is infinite"
             raise DesignError("roller radius", self._roller, "greater than 0 mm", reason)

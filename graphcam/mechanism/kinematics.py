@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import check_kind
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -134,11 +134,7 @@ class Kinematics(ABC):
         ------
         DesignError : it is a load on another kind of follower, or does not fit
         """
-        if not isinstance(load, SpringLoad):
-            found = f"of the kind {type(load).__name__}"
-            raise DesignError(
-                "load", Unquoted(found), "a SpringLoad, for the follower slides", "an ArmLoad turns an arm"
-            )
+        check_kind("load", load, SpringLoad, "a SpringLoad, for the follower slides", "an ArmLoad turns an arm")
         return load
 
     @property

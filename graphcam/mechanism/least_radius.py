@@ -7,8 +7,8 @@ Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_rad
 import math
 from typing import overload
 
-from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.errors import DesignError, check_kind
+from graphcam.given.follower import KINDS, FlatFaced, Follower, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
@@ -67,7 +67,8 @@ def minimum_radius(
     motion, follower, rotation : as for a :class:`~graphcam.mechanism.cam.Cam`; a translating follower's own offset is
         not used, an arm's distance is kept if it is given
     rise, return_ : permitted |alpha| [rad] on rises and on returns; rise = None is the usual limit, 30 degrees for a
-        translating follower and 45 for an arm, return_ = None is force closure, no limit there
+        translating follower and 45 for an arm, as in a sweep and a task file; return_ = None is force closure, no limit
+        there.  :func:`graphcam.size_cam` takes 25 degrees if nothing is said, the limit of the problem it comes from
     offset : e [mm] of a translating follower if it is given; None leaves it free
     rest : whether the angle in the lower dwell must also satisfy the rise's limit; for an arm, whether the angle in
         both dwells must satisfy the limits of the phases that end there, so that |alpha| satisfies them all the way
@@ -93,6 +94,8 @@ def minimum_radius(
     >>> round(gc.minimum_radius(motion, gc.FlatFaced(), curvature=8.0).prime_radius, 9)
     38.0
     """
+    check_kind("motion", motion, Motion)
+    check_kind("follower", follower, KINDS)
     sigma, exact = sense(rotation), EXACT[type(follower)]
     if curvature is not None and exact.condition != "curvature":
         raise DesignError("curvature", curvature, "left out", "only a flat face limits the radius by the curvature")

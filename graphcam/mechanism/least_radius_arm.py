@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from graphcam.errors import DesignError, Unquoted
-from graphcam.given.follower import Oscillating
+from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.arm_lines import SAME_PLACE, Side, higher
@@ -98,6 +98,7 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     if motion.lift >= room:
         lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
         remedy = "permit larger pressure angles or swing the arm less"
+        remedy = swing_remedy(motion.lift, remedy)
         raise DesignError("lift", Unquoted(lift), f"less than {limit} for these limits", remedy)
 
 

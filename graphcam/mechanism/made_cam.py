@@ -14,12 +14,13 @@ is neglected, and no derivative is a difference.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from graphcam.errors import DesignError, check_kind, nearest
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
@@ -40,6 +41,10 @@ class MadeCam:
 
     cam : as it was designed;  deviations : what is off, of one cam or of many
 
+    Raises
+    ------
+    DesignError : the follower has no such size as one of the deviations
+
     >>> import graphcam as gc
     >>> from math import pi
     >>> motion = gc.Motion([gc.Rise(10, pi), gc.Return(10, pi)])
@@ -52,6 +57,15 @@ class MadeCam:
 
     cam: Cam
     deviations: Deviations
+
+    def __post_init__(self) -> None:
+        check_kind("cam", self.cam, Cam)
+        check_kind("deviations", self.deviations, Deviations, remedy="MakingErrors.sample(...) draws them")
+        own = [size.name for size in fields(self.cam.follower)]
+        for name in self.deviations.sizes:
+            if name not in own:
+                limit = f"a size of the {self.cam.follower.kind} follower"
+                raise DesignError("sizes", name, limit, nearest(name, own) if own else "leave it out")
 
     def __call__(self, phi: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(s, v, a) at cam angles phi [rad], counted from the nominal lowest place; shaped like phi and the deviations.

@@ -13,9 +13,9 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.arm_load import ArmLoad
-from graphcam.given.follower import Oscillating
+from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -59,7 +59,8 @@ class OscillatingKinematics(RollerKinematics):
             left = math.degrees(math.pi - angle_between(distance, arm, r0))
             limit = f"less than the {left:g} degrees from the lower dwell to the stretched arm"
             remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
-            raise DesignError("lift", Unquoted(f"{math.degrees(self.swing):g} degrees"), limit, remedy)
+            lift = Unquoted(f"{math.degrees(self.swing):g} degrees")
+            raise DesignError("lift", lift, limit, swing_remedy(self.swing, remedy))
 
     @cached_property
     def psi0(self) -> Any:
@@ -114,11 +115,7 @@ class OscillatingKinematics(RollerKinematics):
 
     def pressed_by(self, load: Any) -> FollowerLoad:
         """A torque about the pivot."""
-        if not isinstance(load, ArmLoad):
-            found = f"of the kind {type(load).__name__}"
-            raise DesignError(
-                "load", Unquoted(found), "an ArmLoad, for the follower swings", "give its inertia about the pivot"
-            )
+        check_kind("load", load, ArmLoad, "an ArmLoad, for the follower swings", "give its inertia about the pivot")
         return load.placed(self.arm, self.distance, self.psi0, self.swing)
 
     @property

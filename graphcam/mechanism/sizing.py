@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.follower import Rotation
 from graphcam.given.motion import Motion
+from graphcam.given.ranges import NUMBER
 from graphcam.given.roller_contact import RollerContact
 from graphcam.given.roller_rule import roller_rule as terms_of
 from graphcam.given.spring_load import SpringLoad
@@ -27,6 +28,7 @@ from graphcam.mechanism.sizing_limits import Sizes, SizingLimits
 from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProblem
 from graphcam.mechanism.sizing_refusal import refuse
 from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
+from graphcam.showing import in_lines
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -35,7 +37,7 @@ DOMINATED = 1e-6
 """A cam of the front whose stress is less by no more than this part is no gain."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SizedCam:
     """The best cam.
 
@@ -60,6 +62,18 @@ class SizedCam:
     active: tuple[str, ...]
     problem: SizingProblem = field(repr=False)
 
+    def __repr__(self) -> str:
+        sizes = self.sizes
+        widths = f"roller radius {sizes.roller:.6g} mm, face width {self.face_width:.6g} mm"
+        angle, stress = math.degrees(self.max_pressure_angle), f"contact stress up to {self.stress:.4g} MPa"
+        said = [
+            f"prime radius {sizes.radius:.6g} mm, offset {self.offset:.6g} mm, {widths}",
+            f"pressure angle up to {angle:.4g}°, radius of curvature from {self.min_convex_radius:.4g} mm, {stress}",
+            f"bound by: {', '.join(self.binding) or 'nothing'}",
+        ]
+        last = ".cam, .radius, .stress, .least_width, .binding, .active"
+        return in_lines("SizedCam", said, last)
+
     @property
     def radius(self) -> float:
         """The prime or the base radius [mm], whichever was given a range."""
@@ -75,11 +89,11 @@ def size_cam(
     motion: Motion,
     load: SpringLoad,
     *,
-    prime_radius: Range | None = None,
-    base_radius: Range | None = None,
-    offset: Range,
-    roller_radius: Range,
-    face_width: Range,
+    prime_radius: Range | float | None = None,
+    base_radius: Range | float | None = None,
+    offset: Range | float,
+    roller_radius: Range | float,
+    face_width: Range | float,
     permitted_stress: float,
     objective: Objective = "size",
     rise: float = math.radians(25),
@@ -92,13 +106,18 @@ def size_cam(
     """The best cam for a translating roller follower: the smallest, or that of the minimum stress.
 
     load : that presses the follower on the cam over the whole turn; SpringLoad(0, 0, 0, preload=F) is a constant force
-    prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; two equal ends fix a size.
+    prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; one number fixes a size.
         Of the first two one is given, and made as small as possible; the base radius is the minimum one of the profile,
         less than the prime radius by the roller
     permitted_stress : peak pressure of the line contact [MPa]
     objective : "size", the minimum radius and then the narrowest face, or "stress", with the widest face
-    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; None is force closure
+    rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; return_ = None is force closure
     roller_rule : the largest roller that is permitted, by the minimum convex radius of curvature or the prime radius
+
+        The defaults, rise 25 degrees and the rule "0.8 rho", are those of the publication from which the problem comes
+        (see the module).  :func:`graphcam.minimum_radius`, sweeps and task files, with :func:`graphcam.size_task`, take
+        30 degrees and "min(0.7 rho, 0.4 r0)": give both arguments to compare the results
+
     contact : moduli and Poisson's ratios of cam and roller; its width does not matter.  None is steel on steel
     friction : mu, between cam and follower
 
@@ -111,10 +130,16 @@ def size_cam(
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)),
     ...     gc.Dwell(radians(180))])
-    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=(0, 0),
+    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=0,
     ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
     >>> sized.cam.prime_radius, round(sized.cam.roller_radius, 6), round(sized.face_width, 3)
     (60.0, 15.0, 10.694)
+    >>> sized
+    SizedCam
+      prime radius 60 mm, offset 0 mm, roller radius 15 mm, face width 10.6935 mm
+      pressure angle up to 18.09°, radius of curvature from 38.01 mm, contact stress up to 1500 MPa
+      bound by: minimum prime radius, maximum roller radius
+    .cam, .radius, .stress, .least_width, .binding, .active
     >>> sized.binding
     ('minimum prime radius', 'maximum roller radius')
     """
@@ -125,9 +150,30 @@ def size_cam(
     limits = SizingLimits(
         permitted_stress, rise, return_, terms_of(roller_rule), contact or RollerContact(1.0), friction
     )
-    radius = prime_radius or base_radius or (0.0, 0.0)
-    problem = SizingProblem(motion, load, limits, radius, offset, roller_radius, face_width, rotation, measure)
+    check_kind("motion", motion, Motion)
+    check_kind("load", load, SpringLoad)
+    radius = base_radius if prime_radius is None else prime_radius
+    assert radius is not None
+    problem = SizingProblem(
+        motion,
+        load,
+        limits,
+        _range(measure, radius),
+        _range("offset", offset),
+        _range("roller radius", roller_radius),
+        _range("face width", face_width),
+        rotation,
+        measure,
+    )
     return best_cam(problem, objective)
+
+
+def _range(name: str, size: Range | float) -> Range:
+    """A range as it is given; of a number the one that holds nothing else."""
+    if isinstance(size, tuple | list | np.ndarray) and len(size) == 2:
+        return float(size[0]), float(size[1])
+    check_kind(f"range of the {name}", size, NUMBER, "two lengths in mm, or one that is fixed")
+    return float(cast(float, size)), float(cast(float, size))
 
 
 def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:

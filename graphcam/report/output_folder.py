@@ -22,7 +22,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
-from graphcam.workshop.profile_files import NAMES, write_profile
+from graphcam.workshop.profile_files import NAMES, write_curves
 
 if TYPE_CHECKING:
     from graphcam.workshop.part_contents import PartContents
@@ -200,7 +200,7 @@ def _write_profiles(
         return {}, {}
     try:
         spline = solution.profile_spline if "profile_dxf" in wanted else None
-        names = write_profile(solution.cam, spline, folder, wanted)
+        names = write_curves(solution.cam, spline, folder, wanted)
     except DesignError as error:
         # Where nothing can be cut the solution warns of it; what was asked for is refused.
         if error.quantity.startswith("part."):

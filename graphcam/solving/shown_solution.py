@@ -41,8 +41,11 @@ class ShownSolution(Shown):
         The folder is the run's: what the run before wrote into it and this one does not goes, unless somebody has
         changed it since.  Other files stay as they are.
 
-        files : kinds among :data:`FILES`, by default :data:`USUAL`; ``solution.json``, which names the others, always
-            comes along
+        files : a list of kinds; ``solution.json``, which names the others, always comes along.  The sheet is "pdf",
+            "svg", "png" and "dxf"; the table of drawn against exact values "csv" and "md"; the note "note"; the step
+            player "player"; the exact profile "profile_dxf" (one spline), "profile_csv" and "profile_xyz" (points),
+            "profile_step" (a solid) and "profile_gcode" (a program for a machine).  By default all but the last two,
+            and with a working drawing these too
         upto, per_construction : which sheets, as for :func:`~graphcam.report.documents.sheet_of`; an unfinished sheet
             is called "worksheet", and stands alone: what holds answers is not written, nor do they stand in
             ``solution.json``

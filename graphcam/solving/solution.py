@@ -69,8 +69,9 @@ class Solution(ShownSolution):
     def cautions(self) -> list[Caution]:
         """The same with the places where it is seen."""
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
+        spring = self.spring.cautions if self.spring else ()
         stress = self.stress.cautions if self.stress else ()
-        return [*found, *stress, *unit_slips(self.task), *less_round(self.chain)]
+        return [*found, *spring, *stress, *unit_slips(self.task), *less_round(self.chain)]
 
     @property
     def tell(self) -> Tell:

@@ -1,7 +1,7 @@
 """What a solution says of a spring: contact over the turn, forces, the force plan, a view and a table of the sheet."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import product
@@ -28,7 +28,8 @@ from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
-from graphcam.words import Words, sequence
+from graphcam.solving.warnings import Caution
+from graphcam.words import Words, joined, sequence
 
 CONTACT_MEANING = Meaning(
     "contact",
@@ -115,6 +116,24 @@ class SpringDesign:
     def lost(self) -> list[Caption]:
         """Between which cam angles contact is lost."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
+
+    @property
+    def cautions(self) -> Iterator[Caution]:
+        """What is to be warned of: a given preload with which contact is lost."""
+        lost, (_, preload, _) = self.contact.lost(), self.units
+        if not lost:
+            return
+        where = [
+            say("from {start:.1f}° to {end:.1f}°", start=math.degrees(start), end=math.degrees(end))
+            for start, end in lost
+        ]
+        said = say(
+            "Contact is lost {where}: a preload of {needed} keeps it, {given} are given.",
+            where=joined(where),
+            needed=with_unit(_rounded_up(self.needed), preload),
+            given=say("{value:.12g} {unit}", value=self.load.preload, unit=unit(preload)),
+        )
+        yield Caution(said, "contact", tuple(start for start, _ in lost))
 
     @property
     def units(self) -> tuple[str, str, str]:
@@ -366,6 +385,12 @@ def with_unit(value: float, of: str) -> Caption:
     """A force or a torque with its unit."""
     # No powers of ten: four digits, and zeros.
     return say("{value:.12g} {unit}", value=float(f"{value:.4g}"), unit=unit(of))
+
+
+def _rounded_up(force: float) -> float:
+    """To four digits, and no less: with less preload contact is lost."""
+    unit_of_last = 10.0 ** (math.floor(math.log10(force)) - 3) if force > 0 else 1.0
+    return math.ceil(force / unit_of_last) * unit_of_last
 
 
 def _clean(force: float) -> float:

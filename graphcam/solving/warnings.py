@@ -32,7 +32,7 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "contact stress", "rounding", "unit"]
+    of: Literal["profile", "pressure angle", "prime radius", "contact", "contact stress", "rounding", "unit"]
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 

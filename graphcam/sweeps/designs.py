@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, Unquoted, nearest
-from graphcam.given.follower import FOLLOWERS, Follower
+from graphcam.given.follower import FOLLOWERS, Follower, swing_remedy
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -128,6 +128,28 @@ class Designs:
         """(n,) where lift and angles make a motion: all finite, of the right sign, and within a turn."""
         lift, rise, back, dwell = map(self.column, ("lift", "rise_angle", "return_angle", "dwell_angle"))
         return (lift > 0) & (lift < np.inf) & (rise > 0) & (back > 0) & (dwell >= 0) & (self.low_dwell >= 0)
+
+    def check_units(self) -> None:
+        """That angles are no degrees: beyond a turn, in every design, they were meant to be.
+
+        Raises
+        ------
+        DesignError : no angle of one kind is within a turn, or no lift of the arms is
+
+        >>> import graphcam as gc
+        >>> gc.Designs(lift=30, rise_angle=120, return_angle=90, prime_radius=[40, 50]).check_units()
+        Traceback (most recent call last):
+        graphcam.errors.DesignError: rise_angle is 120 rad, but must be at most a full turn, 2 pi rad; write ...
+        """
+        for name in ("rise_angle", "dwell_angle", "return_angle"):
+            angle = float(np.min(getattr(self, name), initial=np.inf))
+            if FULL_TURN + CLOSURE < angle < np.inf:
+                remedy = f"write math.radians({angle:.6g}) if it is in degrees"
+                raise DesignError(name, Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
+        lift = float(np.min(self.lift, initial=np.inf))
+        if "arm" in OWN[self.follower] and FULL_TURN < lift < np.inf:
+            remedy = swing_remedy(lift, "swing the arm less")
+            raise DesignError("lift", Unquoted(f"{lift:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
 
     def cam(self, k: int) -> Cam:
         """One of the cams.

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, nearest
+from graphcam.errors import DesignError, Unquoted, check_kind, nearest
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
@@ -38,7 +38,7 @@ Columns = dict[str, NDArray[Any]]
 
 def sweep(
     designs: Designs,
-    quantities: Sequence[str] = QUANTITIES,
+    quantities: str | Sequence[str] = QUANTITIES,
     executor: Executor | None = None,
     *,
     limits: Limits | None = None,
@@ -53,7 +53,7 @@ def sweep(
     Parameters
     ----------
     designs : n cams
-    quantities : the quantities to compute, from this list
+    quantities : the quantities to compute, from this list, or one of them
 
         - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of maximum magnitude
         - min_pitch_curvature_radius [mm], the minimum of the convex parts, inf without any; of a flat face minimum rho
@@ -64,9 +64,9 @@ def sweep(
         - with manufacturing errors, and not by default: position_band [mm; of an arm rad], the maximum half-width of
           the band of s to the first order, see :class:`graphcam.MotionBands`
 
-    executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None is this process
-    limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
-        and force closure
+    executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
+    limits : permitted pressure angles, as ``gc.Limits(rise=math.radians(30), return_=math.radians(45))``; the rest
+        belongs to the rise.  None is the usual one, 30 degrees or an arm's 45, and force closure
     load : what presses every follower, a number of N with it but no table; needed for forces
     friction : mu between cam and follower
     errors : the tolerances to which all cams are made; needed for bands
@@ -81,8 +81,9 @@ def sweep(
 
     Raises
     ------
-    DesignError : an unknown quantity, forces without a load or with one of another follower, bands without errors or
-        with errors of sizes that the followers do not have, or an empty chunk
+    DesignError : angles or lifts of arms beyond a turn in every design, as degrees are, an unknown quantity, forces
+        without a load or with one of another follower, bands without errors or with errors of sizes that the followers
+        do not have, or an empty chunk
 
     >>> import numpy as np
     >>> import graphcam as gc
@@ -98,7 +99,13 @@ def sweep(
     >>> (1e3 * gc.sweep(designs, ["position_band"], errors=errors)["position_band"]).round(3).tolist()  # micrometres
     [nan, 12.736, 11.029]
     """
-    wanted = tuple(quantities)
+    check_kind("designs", designs, Designs)
+    if limits is not None:
+        check_kind("limits", limits, Limits, remedy="write limits=graphcam.Limits(rise=..., return_=...), in radians")
+    if errors is not None:
+        check_kind("errors", errors, MakingErrors)
+    designs.check_units()
+    wanted = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     for name in wanted:
         if name not in (known := (*QUANTITIES, *FORCES, *BANDS)):
             raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))

@@ -5,7 +5,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
@@ -30,6 +30,7 @@ class SweptLoad:
 
     def __post_init__(self) -> None:
         check_friction(self.friction)
+        check_kind("load", self.load, (SpringLoad, ArmLoad))
         if isinstance(self.load.load, LoadCurve):
             raise DesignError(
                 "load", Unquoted("a table over the turn"), "a number in a sweep", "the cams have other phases"
@@ -37,10 +38,10 @@ class SweptLoad:
 
     def check(self, follower: str) -> None:
         """That the load fits a kind of follower."""
-        arm = follower == "oscillating"
-        if arm != isinstance(self.load, ArmLoad):
-            fitting = "an ArmLoad, for the followers swing" if arm else "a SpringLoad, for the followers slide"
-            raise DesignError("load", Unquoted(f"of the kind {type(self.load).__name__}"), fitting)
+        if follower == "oscillating":
+            check_kind("load", self.load, ArmLoad, "an ArmLoad, for the followers swing")
+        else:
+            check_kind("load", self.load, SpringLoad, "a SpringLoad, for the followers slide")
 
     def beside(self, kin: Kinematics) -> FollowerLoad:
         """The load beside each of many cams."""

@@ -97,6 +97,22 @@ def load_task(path: str | Path) -> Task | ArcsTask:
     ------
     TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong; of several faults the
         first is named, unknown keys before all others
+
+    >>> import graphcam as gc
+    >>> from tempfile import TemporaryDirectory
+    >>> text = '''
+    ... rotation = "ccw"
+    ... [motion]
+    ... phases = [{ kind = "rise", angle = 120, lift = 30, law = "2-3" },
+    ...   { kind = "return", angle = 240, lift = 30, law = "2-3" }]
+    ... [follower]
+    ... kind = "flat-faced"
+    ... '''
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "cam.toml").write_text(text, encoding="utf-8")
+    ...     task = gc.load_task(Path(folder, "cam.toml"))
+    >>> task.motion().lift, task.rotation
+    (30.0, 'ccw')
     """
     return _parse(str(path), read_content(path), Path(path).parent)
 

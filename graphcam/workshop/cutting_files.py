@@ -8,9 +8,11 @@ from pathlib import Path
 
 from graphcam import __version__
 from graphcam.solving.arcs_solution import ArcsSolution
-from graphcam.workshop.cam_part import profile_tolerance
+from graphcam.tasks.part_table import PartTable
+from graphcam.workshop.cam_part import CamPart, profile_tolerance
 from graphcam.workshop.cutter_path import cutter_path
 from graphcam.workshop.gcode import LEAST_TOLERANCE, cutting_program
+from graphcam.workshop.outline import Outline
 from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.plane_loops import Loop, spline_loop
 from graphcam.workshop.solid import solid_file
@@ -45,9 +47,13 @@ def solid_text(contents: PartContents) -> str:
     12
     """
     around, near = _around(contents)
+    return solid_around(around, near, contents.part, contents.outline.zero, contents.solution.task.title.name)
+
+
+def solid_around(around: Loop, near: float, part: CamPart, zero: float, name: str) -> str:
+    """The STEP file of a part whose outline is given as edges, and how near they are to the exact profile [mm]."""
     said = f"cam, in mm; greatest distance from the exact profile {near:.2g} mm"
-    name = contents.solution.task.title.name
-    return solid_file(around, contents.part, contents.outline.zero, name, said, f"graphcam {__version__}")
+    return solid_file(around, part, zero, name, said, f"graphcam {__version__}")
 
 
 def _around(contents: PartContents) -> tuple[Loop, float]:
@@ -66,12 +72,16 @@ def program_text(contents: PartContents) -> str:
     >>> program_text(PartContents(gc.solve(gc.builtin_task()))).splitlines()[3]
     '(TOLERANCE 0.005 MM, GREATEST DISTANCE FROM THE EXACT WAY 0.0050 MM)'
     """
-    table, outline = contents.given, contents.outline
+    return program_around(contents.outline, contents.given, contents.solution.task.title.name)
+
+
+def program_around(outline: Outline, table: PartTable, name: str) -> str:
+    """The program of G-code around an outline, with the cutter and the feed of a table ``[part]``."""
     allowed = SHARE_OF_CUTTING * profile_tolerance(table, outline.greatest_radius)
     return cutting_program(
         outline,
         cutter_radius=table.cutter_radius or 0.0,
         tolerance=max(allowed, LEAST_TOLERANCE),
         feed=table.feed,
-        name=contents.solution.task.title.name,
+        name=name,
     )

@@ -20,7 +20,7 @@ POINTS = 720
 NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 
 
-def write_profile(
+def write_curves(
     cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(NAMES)
 ) -> dict[str, str]:
     """Write those of the three files into a folder that are wanted; returns their names by kind.

@@ -49,7 +49,7 @@ GROUPS = {
     "motion": ("Motions, followers, loads", ("given",)),
     "exact": ("Exact values", ("mechanism", "comparison")),
     "drawn": ("The drawing board", ("drafting", "constructions")),
-    "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "sweeps", "studio")),
+    "tasks": ("Tasks and solutions", ("tasks", "solving", "report", "workshop", "sweeps", "studio")),
     "errors": ("Errors", ("errors",)),
 }
 """The pages of the reference: title, and the rooms whose public names stand there."""

@@ -35,6 +35,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "check-my-drawing",
         "make-the-cam",
         "sweep-many-cams",
+        "design-in-python",
         "add-a-law",
         "add-a-language",
         "add-a-construction",
@@ -380,6 +381,18 @@ def test_the_sized_cam_of_the_page_is_held_back_by_both_limits_and_its_message_i
     with pytest.raises(gc.DesignError) as error:
         gc.size_task(gc.load_task(tmp_path / "narrow.toml"))
     assert " ".join(f"graphcam: {error.value}".split()) in " ".join(text_of(page).split())
+
+
+def test_the_cam_of_the_page_is_designed_in_python_as_it_says(tmp_path):
+    """The printed lines are those of the page, and the table and the profile are those of the cam."""
+    page = "how-to/design-in-python.md"
+    assert len(files(page)["design.py"].splitlines()) <= 25
+    assert followed(page, tmp_path).replace(os.sep, "/") == blocks(page, "text")[0]
+    table = np.genfromtxt(tmp_path / "motion.csv", delimiter=",", names=True)
+    assert (table["s"].max(), table["phi_deg"].size) == (20, 180)
+    profile = np.genfromtxt(tmp_path / "profile" / "profile.csv", delimiter=",", names=True)
+    assert profile["radius"].min() == pytest.approx(30, abs=1e-6)
+    assert profile["radius"].max() == pytest.approx(50, abs=1e-6)
 
 
 def test_the_stress_of_the_page_is_permitted_and_the_elements_agree(tmp_path):

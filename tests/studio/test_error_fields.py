@@ -18,7 +18,7 @@ from graphcam.tasks.material_table import MaterialTable
 PACKAGE = Path(gc.__file__).parent
 ROOMS = "comparison", "constructions", "drafting", "given", "mechanism", "solving", "tasks"
 """What a task that is drawn and computed goes through."""
-CHECKS = "DesignError", "RowError", "positive", "bounded", "one_of", "_check_length", "_check_positive"
+CHECKS = "DesignError", "RowError", "positive", "bounded", "one_of", "_check_length", "_check_positive", "check_kind"
 """What raises, and which argument names the quantity."""
 NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",
@@ -43,6 +43,11 @@ NOT_REACHED = {
     ),
     "minimum contact force": "sizing stands in Python and in exercises only",
     "range of the *": "sizing stands in Python and in exercises only",
+    "sizes": "deviations stand in Python only",
+    **dict.fromkeys(
+        ("motion", "follower", "cam", "guide", "forces", "contact", "deviations", "task", "parts[*]"),
+        "kinds of arguments are checked in Python only",
+    ),
     "damping": "elastic followers stand in Python only",
     "n": "elastic followers stand in Python only",
     "spring": "elastic followers stand in Python only",

@@ -374,3 +374,26 @@ def test_designs_that_do_not_fit_say_why(change, message):
 def test_unknown_quantities_say_what_is_known():
     with pytest.raises(DesignError, match="did you mean 'max_v'"):
         gc.sweep(some_designs(2), ["max_w"])
+
+
+def test_angles_in_degrees_are_refused_where_no_design_is_within_a_turn():
+    """One design within a turn is enough to show that the unit is right: the others are NaN then, as before."""
+    sizes = {"lift": 30, "return_angle": 1.6, "prime_radius": 50}
+    degrees = gc.Designs(rise_angle=[100, 120], **sizes)
+    with pytest.raises(gc.DesignError, match=r"^rise_angle is 100 rad, .* write math.radians\(100\) if it is in deg"):
+        gc.sweep(degrees)
+    found = gc.sweep(gc.Designs(rise_angle=[2.0, 120], **sizes), "feasible")
+    assert found["feasible"].tolist() == [True, False]
+
+
+def test_lifts_of_arms_in_another_unit_are_refused():
+    arms = {"rise_angle": 2.0, "return_angle": 1.6, "prime_radius": 50, "arm": 120, "distance": 130}
+    with pytest.raises(gc.DesignError, match=r"^lift is 15 rad, .* an arm's lift is an angle in radians"):
+        gc.sweep(gc.Designs(lift=[15, 20], follower="oscillating", **arms))
+
+
+def test_one_quantity_may_be_named_alone():
+    designs = gc.Designs(lift=30, rise_angle=2.0, return_angle=1.6, prime_radius=[50, 60])
+    alone, listed = gc.sweep(designs, "max_v"), gc.sweep(designs, ["max_v"])
+    assert list(alone) == ["max_v"]
+    assert np.array_equal(alone["max_v"], listed["max_v"])

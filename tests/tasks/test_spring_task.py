@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -83,6 +84,44 @@ def test_a_preload_that_is_too_small_loses_contact_and_the_sheet_says_where(tmp_
     ]
     assert any("lost, " in text for text in texts)
     assert any("Contact force" in text for text in texts)
+
+
+LOST = "Contact is lost from 39.2° to 45.0° and from 90.0° to 95.8°: a preload of 69.23 N keeps it, 60 N are given."
+
+
+def test_lost_contact_is_warned_of_with_the_preload_that_keeps_it(tmp_path):
+    """On the sheet and in the solution; with that preload nothing is left to warn of."""
+    solution = solved(tmp_path, VOLODER + "preload = 60\n")
+    assert LOST in solution.warnings
+    texts = [
+        e.text for page in sheet_of(solution).pages for g in page.groups for e in g.entities if isinstance(e, Text)
+    ]
+    assert LOST in " ".join(texts)
+    for kept in ("", "preload = 69.23\n"):
+        assert not [each for each in solved(tmp_path, VOLODER + kept).warnings if "Contact" in each]
+
+
+def test_lost_contact_is_warned_of_for_an_arm_and_under_a_flat_face(tmp_path):
+    """The preload that is told is the least of four digits: of one unit less in the last digit contact is lost."""
+    torsion, at_point = (
+        ARM + "preload = 100\n",
+        ARM.replace("4000", "4") + "preload = 1\nat = {arm = 60, anchor = [120, -60]}\n",
+    )
+    face = VOLODER.replace('kind = "translating"\noffset = 0', 'kind = "flat-faced"') + "preload = 60\n"
+    for text, unit in ((torsion, "N·mm"), (at_point, "N"), (face, "N")):
+        (said,) = (each for each in solved(tmp_path, text).warnings if each.startswith("Contact is lost from "))
+        needed = float(re.search(rf"a preload of ([\d.]+) {unit} keeps it", said)[1])
+        enough = re.sub(r"preload = \d+", f"preload = {needed:.12g}", text)
+        assert not [each for each in solved(tmp_path, enough).warnings if "Contact" in each]
+        less = re.sub(r"preload = \d+", f"preload = {needed * (1 - 1.1e-3):.12g}", text)
+        assert [each for each in solved(tmp_path, less).warnings if "Contact" in each]
+
+
+@pytest.mark.parametrize("language", ["ru", "vi", "zh"])
+def test_lost_contact_is_warned_of_in_every_language(tmp_path, language):
+    drawing = f'[drawing]\nlanguage = "{language}"\n'
+    (said,) = (s for s in solved(tmp_path, VOLODER + "preload = 60\n" + drawing).warnings if re.search(r"69[.,]23", s))
+    assert not re.search("[a-z]{4}", said)
 
 
 def test_the_sheet_shows_the_contact_function_and_the_force_plan(tmp_path):

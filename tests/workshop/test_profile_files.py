@@ -14,7 +14,7 @@ from graphcam.given.follower import Translating
 from graphcam.given.motion import Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import profile_spline
-from graphcam.workshop.profile_files import POINTS, write_profile
+from graphcam.workshop.profile_files import POINTS, write_curves
 
 DEG = math.pi / 180
 MOTION = Motion([Rise(30, 60 * DEG), Dwell(30 * DEG), Return(30, 60 * DEG), Dwell(210 * DEG)])
@@ -28,7 +28,7 @@ def cam(request):
 
 
 def test_the_table_holds_the_profile_and_its_polar_coordinates(cam, tmp_path):
-    write_profile(cam, profile_spline(cam, trimmed=True), tmp_path)
+    write_curves(cam, profile_spline(cam, trimmed=True), tmp_path)
     with (tmp_path / "profile.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == POINTS
@@ -41,7 +41,7 @@ def test_the_table_holds_the_profile_and_its_polar_coordinates(cam, tmp_path):
 
 
 def test_the_curve_file_is_closed_and_flat(cam, tmp_path):
-    write_profile(cam, profile_spline(cam, trimmed=True), tmp_path)
+    write_curves(cam, profile_spline(cam, trimmed=True), tmp_path)
     lines = (tmp_path / "profile.xyz").read_text(encoding="ascii").splitlines()
     points = np.array([[float(number) for number in line.split("\t")] for line in lines])
     assert points.shape == (POINTS + 1, 3)
@@ -51,7 +51,7 @@ def test_the_curve_file_is_closed_and_flat(cam, tmp_path):
 
 
 def test_the_dxf_holds_one_clamped_spline_in_mm(cam, tmp_path):
-    write_profile(cam, profile_spline(cam, trimmed=True), tmp_path)
+    write_curves(cam, profile_spline(cam, trimmed=True), tmp_path)
     document = ezdxf.readfile(tmp_path / "profile.dxf")
     assert document.units == ezdxf.units.MM
     assert not document.audit().errors
@@ -71,6 +71,6 @@ def test_the_dxf_holds_one_clamped_spline_in_mm(cam, tmp_path):
 def test_the_same_cam_makes_the_same_files(cam, tmp_path):
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
-        names = write_profile(cam, profile_spline(cam, trimmed=True), tmp_path / folder)
+        names = write_curves(cam, profile_spline(cam, trimmed=True), tmp_path / folder)
     for name in names.values():
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()

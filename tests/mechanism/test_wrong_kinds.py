@@ -1,0 +1,73 @@
+"""What is given in place of something else is told by name, with what it must be: no error of Python's own."""
+
+from __future__ import annotations
+
+from math import radians
+
+import numpy as np
+import pytest
+
+import graphcam as gc
+
+MOTION = gc.Motion(
+    [gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)), gc.Dwell(radians(180))]
+)
+CAM = gc.Cam(MOTION, gc.Translating(0, 10), 60)
+LOAD = gc.SpringLoad(0, 0, 0, preload=6000)
+FORCES = gc.CamForces(CAM, LOAD)
+CONTACT = gc.RollerContact(width=10)
+DESIGNS = gc.Designs(lift=12, rise_angle=1.0, return_angle=1.0, prime_radius=[50, 60])
+POINTS = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)]
+NONE = np.zeros(0)
+WRONG = {
+    "follower is of the kind int, but must be a Translating, Oscillating or FlatFaced": lambda: gc.Cam(MOTION, 40, 10),
+    "motion is of the kind Cam, but must be a Motion": lambda: gc.Cam(CAM, gc.Translating(), 40),
+    "cam is of the kind Motion, but must be a Cam": lambda: gc.CamForces(MOTION, LOAD),
+    "guide is of the kind float, but must be a Guide; friction": lambda: gc.CamForces(CAM, LOAD, 0.1),
+    "load is of the kind int, but must be a SpringLoad, for": lambda: gc.CamForces(CAM, 5),
+    "forces is of the kind Cam, but must be a CamForces": lambda: gc.ContactStress(CAM, CONTACT),
+    "contact is of the kind int, but must be a RollerContact": lambda: gc.ContactStress(FORCES, 10),
+    "task is of the kind Cam, but must be a Task or ArcsTask": lambda: gc.solve(CAM),
+    "motion is of the kind Cam, but must be a Motion; of a cam": lambda: gc.spring_preload(CAM, 0.8, 600, 5),
+    "cam is of the kind Motion, but must be a Cam$": lambda: gc.least_preload(MOTION, LOAD),
+    "deviations is of the kind MakingErrors": lambda: gc.MadeCam(CAM, gc.MakingErrors(offset=0.1)),
+    "limits is of the kind tuple, but must be a Limits": lambda: gc.sweep(DESIGNS, limits=(0.5, 0.5)),
+    "load is of the kind int, but must be a SpringLoad or ArmLoad": lambda: gc.sweep(DESIGNS, "max_torque", load=5),
+    r"parts\[0\] is of the kind str, but must be a MotionPoint": lambda: gc.boundary_law("mine", POINTS),
+    "preload is of the kind SpringPreload, but must be a number of N; write spring_preload": lambda: gc.SpringLoad(
+        0.8, 600, 5, gc.spring_preload(MOTION, 0.8, 600, 5)
+    ),
+    "follower is of the kind str, but must be a Translating": lambda: gc.minimum_radius(MOTION, "flat-faced"),
+    "sizes is 'ofset', but must be one of roller_radius, offset, distance, arm; did you mean 'offset'": lambda: (
+        gc.Deviations((), NONE, {"ofset": 0.05})
+    ),
+    "sizes is 'arm', but must be a size of the translating follower; known are offset, roller_radius": lambda: (
+        gc.MadeCam(CAM, gc.Deviations((), NONE, {"arm": 0.05}))
+    ),
+}
+
+
+@pytest.mark.parametrize("said", WRONG)
+def test_a_wrong_kind_is_told_by_name(said):
+    with pytest.raises(gc.DesignError, match=said):
+        WRONG[said]()
+
+
+def test_a_number_in_place_of_a_range_fixes_a_size():
+    """As two equal ends do."""
+    sizes = {"roller_radius": (10, 15), "face_width": (10, 20), "permitted_stress": 1500}
+    fixed, range_ = (gc.size_cam(MOTION, LOAD, prime_radius=(60, 120), offset=e, **sizes) for e in (0, (0, 0)))
+    assert fixed.sizes == range_.sizes
+    assert gc.size_cam(MOTION, LOAD, prime_radius=np.float64(70), offset=0, **sizes).radius == 70
+    with pytest.raises(gc.DesignError, match="range of the offset is of the kind str"):
+        gc.size_cam(MOTION, LOAD, prime_radius=(60, 120), offset="0", **sizes)
+
+
+def test_an_arm_with_a_lift_in_another_unit_is_told_the_unit():
+    dwell = gc.Dwell(radians(90))
+    motion = gc.Motion([gc.Rise(15, radians(90)), dwell, gc.Return(15, radians(90)), dwell])
+    said = r"an arm's lift is an angle in radians: math.radians\(15\)"
+    with pytest.raises(gc.DesignError, match=said):
+        gc.Cam(motion, gc.Oscillating(120, 130, 12), 50)
+    with pytest.raises(gc.DesignError, match=said):
+        gc.minimum_radius(motion, gc.Oscillating(120))
