@@ -14,15 +14,20 @@ from functools import cache
 
 from graphcam.language import ENGLISH, Language, language
 from graphcam.message_texts import CONTEXT, is_text
+from graphcam.words import say_in
 
 DEEPEST = 6
 """Messages within messages."""
 SUBJECT = "what"
 """The place in :mod:`graphcam.errors` of what is wrong."""
-OPEN = {"allowed", "message", "sentence", "remedy", "why", "error"}
-"""The places in which a message with its remedy may stand."""
+OPEN = {"allowed", "message", "sentence", "remedy", "why", "error", "shown"}
+"""The places in which a message with its remedy, or a semicolon of somebody's own, may stand."""
 REMEDY = "; "
 """What stands before a remedy."""
+OR = say_in(CONTEXT, "or")
+"""What stands between two texts of which one is wanted."""
+QUOTED = re.compile("'[^']*'(, '[^']*')*")
+"""Words of a file."""
 BETWEEN = (REMEDY, ": ")
 """What stands between what is wrong and what to do, and behind the place where it is."""
 
@@ -85,18 +90,31 @@ def _texts(name: str) -> _Texts:
     for (context, text), (translation, *_) in language(name).catalog.told.items():
         if context not in (CONTEXT, ""):
             continue
-        pieces = [(literal, place) for literal, place, *_ in string.Formatter().parse(text)]
-        names = tuple(place for _, place in pieces if place is not None)
+        literals, names = _pieces(text)
         if not names:
             # What a message says in its own context counts before what a caption says; and a caption of one word may be
             # the name of a field as well.
             if context or (text not in plain and " " in text):
-                plain["".join(literal for literal, _ in pieces)] = translation.replace("{{", "{").replace("}}", "}")
+                plain[literals[0]] = translation.replace("{{", "{").replace("}}", "}")
             continue
-        parts = [literal for literal, _ in pieces] + ([""] if pieces[-1][1] is not None else [])
         if is_text(text) and len({*names}) == len(names):
-            templates.append(_Template(tuple(parts), names, translation))
+            templates.append(_Template(literals, names, translation))
     return _Texts(plain, sorted(templates, key=lambda one: -sum(map(len, one.parts))))
+
+
+def _pieces(template: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The literal parts of a template, and the names of the places between them.
+
+    >>> _pieces("add {{ angle = {off} }}, {or_less}")
+    (('add { angle = ', ' }, ', ''), ('off', 'or_less'))
+    """
+    literals, names = [""], list[str]()
+    for literal, place, *_ in string.Formatter().parse(template):
+        literals[-1] += literal
+        if place is not None:
+            names.append(place)
+            literals.append("")
+    return tuple(literals), tuple(names)
 
 
 def _told(text: str, texts: _Texts, deeper: int) -> str:
@@ -112,6 +130,9 @@ def _told(text: str, texts: _Texts, deeper: int) -> str:
         if between in text:
             first, second = _parted(text, between, texts)
             return _told(first, texts, deeper) + between + _told(second, texts, deeper)
+    either = text.split(f" {OR} ")
+    if either[1:] and all(texts.know(piece) or QUOTED.fullmatch(piece) for piece in either):
+        return f" {texts.plain.get(str(OR), OR)} ".join(_told(piece, texts, deeper) for piece in either)
     return text
 
 

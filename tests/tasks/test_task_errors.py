@@ -94,7 +94,7 @@ FAULTS = {
     ),
     "a bad roller rule": (("0.7 rho", "0.7 roh"), "follower.roller_rule", "'K rho' term '0.7 roh'"),
     "an unknown rotation": (('"cw"', '"clockwise"'), "rotation", "'clockwise' 'ccw' 'cw'"),
-    "no rotation": (('rotation = "cw"', ""), "rotation", "missing graphcam init"),
+    "no rotation": (('rotation = "cw"', ""), "rotation", "missing write ccw offset greater than 0 smaller"),
     "a speed of zero": (("speed_rpm = 120", "speed_rpm = 0"), "speed_rpm", "0 greater than 0 rpm"),
     "a mistyped key of the file": (("speed_rpm", "speed_prm"), "speed_prm", "unknown did you mean 'speed_rpm'"),
     "a mistyped table": (("[limits]", "[limit]"), "limit", "unknown did you mean 'limits'"),
