@@ -24,10 +24,12 @@ OPEN = {"allowed", "message", "sentence", "remedy", "why", "error", "shown"}
 """The places in which a message with its remedy, or a semicolon of somebody's own, may stand."""
 REMEDY = "; "
 """What stands before a remedy."""
-OR = say_in(CONTEXT, "or")
+OR = say_in("message", "or")
 """What stands between two texts of which one is wanted."""
 QUOTED = re.compile("'[^']*'(, '[^']*')*")
 """Words of a file."""
+AMOUNT = re.compile(r"([-+.\de]+) (\S.*)")
+"""A number and its unit."""
 BETWEEN = (REMEDY, ": ")
 """What stands between what is wrong and what to do, and behind the place where it is."""
 
@@ -130,6 +132,8 @@ def _told(text: str, texts: _Texts, deeper: int) -> str:
         if between in text:
             first, second = _parted(text, between, texts)
             return _told(first, texts, deeper) + between + _told(second, texts, deeper)
+    if (amount := AMOUNT.fullmatch(text)) and amount[2] in texts.plain:
+        return f"{amount[1]} {texts.plain[amount[2]]}"
     either = text.split(f" {OR} ")
     if either[1:] and all(texts.know(piece) or QUOTED.fullmatch(piece) for piece in either):
         return f" {texts.plain.get(str(OR), OR)} ".join(_told(piece, texts, deeper) for piece in either)

@@ -9,7 +9,7 @@ from graphcam.errors import DesignError
 
 SENSIBLE = {
     "mm": (1e-9, 1e9),
-    "(mm; degrees for an arm)": (1e-9, 1e9),
+    "mm (degrees for an arm)": (1e-9, 1e9),
     "mm on paper": (1e-2, 1e4),
     "mm/rad^2": (0.0, 1e9),
     "degrees": (1e-6, 360.0),

@@ -46,7 +46,7 @@ class _MovingTable:
 
     def __post_init__(self) -> None:
         positive("angle", self.angle, "degrees")
-        positive("lift", self.lift, "(mm; degrees for an arm)")
+        positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = f"left out for the law '{getattr(self.law, 'name', self.law)}'"
             raise DesignError("blends", list(self.blends), left_out, f"they are those of '{CONSTANT_VELOCITY}'")
@@ -110,7 +110,7 @@ class MotionTable:
         if self.tolerance is not None and self.table is None:
             left_out = "left out where there is no table"
             raise DesignError("tolerance", self.tolerance, left_out, f"{given[0]} are kept exactly")
-        bounded("tolerance", self.tolerance, "(mm; degrees for an arm)")
+        bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ANGLE_CLOSURE:

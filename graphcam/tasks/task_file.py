@@ -74,8 +74,8 @@ _CLASSES_OF_ARCS: Classes = {
 }
 """The same for a cam of three circular arcs."""
 _KEYS = {
-    "sum of the phase angles": "phases (sum of the angles)",
-    "sum of rises less returns": "phases (sum of rises less returns)",
+    "sum of the phase angles": "phases",
+    "sum of rises less returns": "phases",
     "motion": "phases",
     "roller radius": "roller_radius",
     "roller rule": "roller_rule",
@@ -84,7 +84,7 @@ _KEYS = {
     "permitted pressure angle on the rise": "pressure_angle_rise",
     "permitted pressure angle on the return": "pressure_angle_return",
     "minimum radius of curvature": "min_curvature_radius",
-    "the table's lift": "table (lift)",
+    "the table's lift": "table",
 }
 """What a quantity of a design error is called in the file, where that differs."""
 _LONGEST = 60
@@ -322,6 +322,12 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     if not isinstance(value, int | float | str):
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
+    if error.quantity == "sum of the phase angles":
+        field = f"{field} (sum of the angles)"
+    elif error.quantity == "sum of rises less returns":
+        field = f"{field} (sum of rises less returns)"
+    elif error.quantity == "the table's lift":
+        field = f"{field} (lift)"
     return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
 
 
