@@ -75,9 +75,10 @@ def test_limit_and_remedy_do_not_list_the_same_words():
     found = {path.name: doubled(path.read_text(encoding="utf-8")) for path in FILES}
     assert {name: lines for name, lines in found.items() if lines} == {}
     assert doubled('DesignError("kind", kind, "one of " + ", ".join(KINDS), nearest(kind, KINDS))') == [1]
-    files = str(pytest.raises(DesignError, graphcam.solve(graphcam.builtin_task()).write, "out", files=["html"]).value)
-    assert files.startswith("files is 'html', but must be a list of kinds among pdf, ")
-    assert files.count("pdf") == 1
+    with pytest.raises(DesignError) as caught:
+        graphcam.solve(graphcam.builtin_task()).write("out", files=["html"])
+    assert str(caught.value).startswith("files is 'html', but must be a list of kinds among pdf, ")
+    assert str(caught.value).count("pdf") == 1
 
 
 def test_what_somebody_wrote_stands_in_quotes_and_what_is_told_of_it_does_not():

@@ -154,7 +154,7 @@ def test_what_is_said_of_the_offset_and_the_rotation_is_true():
 
     def greatest(rotation: str, offset: float) -> float:
         cam = gc.Cam(motion, gc.Translating(offset=offset), prime_radius=50, rotation=rotation)
-        return cam.extremes().pressure_angle_rise.value
+        return cam.extremes().pressure_angle_rise[0]
 
     assert greatest("ccw", 10) < greatest("ccw", -10)
     assert greatest("cw", -10) < greatest("cw", 10)
