@@ -149,8 +149,12 @@ def _parted(text: str, between: str, texts: _Texts) -> tuple[str, str]:
 
 def _inner(place: str, text: str, texts: _Texts, deeper: int) -> str:
     """What stands in a place of a message; one word for what is wrong is the name of a field, and stays."""
-    field = place == SUBJECT and " " not in text.rpartition(": ")[2]
-    return text if field else _told(text, texts, deeper)
+    path, between, what = text.rpartition(": ")
+    if place == SUBJECT and " " not in what:
+        return text
+    if place == SUBJECT and between and what in texts.plain:
+        return _told(path, texts, deeper) + between + texts.plain[what]
+    return _told(text, texts, deeper)
 
 
 def _filled(template: str, values: dict[str, str]) -> str:

@@ -166,6 +166,11 @@ def test_a_semicolon_that_somebody_wrote_is_none_before_a_remedy():
     assert said == "law: 'a; b', а должно быть: число; проверьте имя"
 
 
+def test_the_kind_of_a_file_is_told_after_its_name():
+    error = TaskError("cam.toml", "the task file", Unquoted("empty"), "a TOML file")
+    assert told(error, RUSSIAN) == "cam.toml: файл задания: пусто, а должно быть: файл TOML"
+
+
 def test_braces_in_a_message_stay():
     remedy = '5 deg are missing: add { kind = "dwell", angle = 5 } at the end, or lengthen a dwell'
     said = 'не хватает 5°: добавьте в конце { kind = "dwell", angle = 5 } или удлините выстой'

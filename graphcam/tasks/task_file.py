@@ -320,7 +320,8 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     """A value that fits its type but no design, named and shown as it stands in the file where it does."""
     key = _KEYS.get(error.quantity, error.quantity)
     field, value = _look_up(data, (*place, *key.split(".")))
-    if not isinstance(value, int | float | str):
+    # What follows from a table is no value that its key has.
+    if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
     if error.quantity == "sum of the phase angles":
         field = f"{field} (sum of the angles)"
